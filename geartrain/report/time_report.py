@@ -124,8 +124,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
     run = found.run
     if found.separation is not None:
         section = separation_section(found.separation)
-        evenly = "These rates are of an input that turns evenly; this one need not."
-        yield section if run.driven == "rate" else replace(section, paragraphs=(*section.paragraphs, evenly))
+        yield replace(section, paragraphs=(*section.paragraphs, *_unlike(run)))
     if found.stepped is not None:
         yield Section("The same by stepping", (_stepped(found.stepped),))
     if run.contacts:
@@ -151,6 +150,16 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         yield _inertia(found.inertias)
 
 
+def _unlike(run: TimeRun) -> Iterator[str]:
+    """Why teeth of this run may part at lesser rates than those at which they first part."""
+    if run.driven != "rate":
+        yield "These rates are of an input that turns evenly; this one need not."
+    if run.model == "compliant":
+        yield "These rates are of rigid teeth: such as yield swing where their speed ratio jumps, and may part before."
+    elif run.restitution:
+        yield "These rates are without restitution: with one, teeth bounce wherever their speed ratio jumps."
+
+
 def _lead(run: TimeRun) -> Iterator[str]:
     ways = {
         "rate": f"the speed of '{run.link}' is kept",
@@ -165,6 +174,7 @@ def _lead(run: TimeRun) -> Iterator[str]:
     yield (
         f"While '{run.lead}' makes {turns_text(turns)} at {figure(abs(run.rate) / tau, 6)} turn/s{state}, after "
         f"{figure(run.skip, 4)} s that are not counted; {ways[run.driven]}. Steps of {figure(run.step, 4)} s."
+        + (f" Restitution {figure(run.restitution, 4)}." if run.restitution else "")
     )
     if not run.complete:
         yield "PARTIAL: stopped; the figures are of what was done, and were not compared with those of shorter steps."
@@ -253,7 +263,7 @@ def _energy(run: TimeRun) -> Section:
     whole = sum(max(each, 0.0) for each in (energy.drive, energy.loads, energy.springs))
     amounts = {
         "put in by the drive": energy.drive,
-        "put in by loads and weights": energy.loads,
+        "put in by loads and steady drives": energy.loads,
         "put in by springs": energy.springs,
         "lost in bearings": energy.bearings,
         "lost to viscous drag": energy.drag,

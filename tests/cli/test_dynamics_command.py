@@ -79,6 +79,16 @@ loads: {a: -10 N mm}
     assert "as where friction locks the train" in done.output
 
 
+def test_where_teeth_bounce_or_yield_the_rate_at_which_rigid_ones_part_is_told_as_such(pin: Path) -> None:
+    bouncing = call("dynamics", pin, *TURN, "--restitution", "0.3").output
+    assert "Restitution 0.3." in bouncing
+    assert "These rates are without restitution" in bouncing
+    assert answer(pin, *TURN, "--restitution", "0.3")["restitution"] == 0.3
+    pin.write_text(HEAVY + "stiffness: 20 N m/rad\n", encoding="utf-8")
+    assert "These rates are of rigid teeth" in call("dynamics", pin, *TURN, "--model", "compliant").output
+    assert "These rates" not in call("dynamics", pin, *TURN).output
+
+
 def test_a_load_that_drives_gives_power_back_at_what_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "driven.yaml"
     path.write_text("extends: worm\nname: driven\nloads: {wheel: -1 N m}\n", encoding="utf-8")

@@ -271,6 +271,7 @@ class RunFigures:
             coarse is not None,
             "rigid" if self.of.yields is None else "compliant",
             self.of.assumed,
+            max((self.of.case.restitution.get(name, 0.0) for name in self.names), default=0.0),
         )
 
     def _impacts(self) -> ImpactList:

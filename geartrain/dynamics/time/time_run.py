@@ -82,6 +82,8 @@ class TimeRun(Result):
         Whether teeth yield.
     assumed : tuple of str
         What nothing declares and was estimated.
+    restitution : float
+        The greatest of those of the contacts.
 
     See Also
     --------
@@ -106,6 +108,7 @@ class TimeRun(Result):
         "rate",
         "link",
         "driven",
+        "restitution",
         "step",
         "skip",
         "duration",
@@ -153,6 +156,7 @@ class TimeRun(Result):
     complete: bool = True
     model: Literal["rigid", "compliant"] = "rigid"
     assumed: tuple[str, ...] = ()
+    restitution: float = 0.0
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """The angles of a link [rad], or the course of a pair."""

@@ -6,11 +6,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Length, Quantity
+from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -56,8 +57,20 @@ class ToothForm(BaseModel, ABC):
     conjugate: ClassVar[bool] = False
     """True for teeth designed by a path of contact: for rings and cones too, their roots left to who cuts them."""
 
+    in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
+    """Fields that say nothing of a shape: how teeth of this form yield in trains that move in time."""
+
     if TYPE_CHECKING:
         form: str
+
+    stiffness: PairStiffness | None = Field(
+        None,
+        description="Of teeth in mesh, where their pair has none of its own: torque on the driven wheel for each "
+        "radian that it yields, or force along the line of action for each length",
+    )
+    damping: PairDamping | None = Field(
+        None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length"
+    )
 
     @classmethod
     def declared(cls, parameters: Mapping[str, object]) -> Self:

@@ -11,6 +11,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import Quantity, Speed, Torque, in_unit
+from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
 from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.teeth.restitution import DeclaredRestitution
@@ -23,8 +24,6 @@ from geartrain.train.mechanism import (
     GearPair,
     Link,
     MaterialDensity,
-    PairDamping,
-    PairStiffness,
     Revolute,
     Source,
     Thickness,
@@ -153,6 +152,28 @@ class Train(Declared):
             Of this train.
         """
         return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
+
+    def stiffness_of(self, gear: GearPair) -> Quantity | None:
+        """Stiffness of a pair's teeth: its own, else that of the form in force there, else the train's.
+
+        Parameters
+        ----------
+        gear : GearPair
+            Of this train.
+        """
+        form = self.form_of(gear)
+        return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
+
+    def damping_of(self, gear: GearPair) -> Quantity | None:
+        """Damping of a pair's teeth: its own, else that of the form in force there, else the train's.
+
+        Parameters
+        ----------
+        gear : GearPair
+            Of this train.
+        """
+        form = self.form_of(gear)
+        return gear.damping or (form.damping if form is not None else None) or self.damping
 
     def restitution_of(self, part: GearPair | Coupling) -> float | None:
         """Restitution of a gear pair or coupling: its own, else the train's; None where none is declared.

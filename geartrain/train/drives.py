@@ -20,7 +20,8 @@ from geartrain.numerics.quantity import (
     Torque,
     TorsionalStiffness,
 )
-from geartrain.train.fields import Count, Declared, Id, above_zero, not_below_zero
+from geartrain.numerics.quantity_bounds import above_zero, not_below_zero
+from geartrain.train.fields import Count, Declared, Id
 
 GRAVITY = 9.80665
 """Standard gravity, m/s^2."""

@@ -19,7 +19,6 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.errors import nearest_names
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.teeth.coulomb_friction import CoulombFriction, DeclaredCoulombFriction
 
 MOST_TEETH = 10**12
@@ -99,28 +98,6 @@ def _empty_for_nothing(raw: object) -> object:
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
     """A JSON schema that accepts a short form too."""
     return {"anyOf": [kind, schema]}
-
-
-def above_zero(fix: str) -> AfterValidator:
-    """A number or quantity is above 0."""
-
-    def check(given: Figure | Quantity) -> Figure | Quantity:
-        if given.value <= 0:
-            raise PydanticCustomError("bound", "{text} is not above 0", {"text": given.text, "fix": fix})
-        return given
-
-    return AfterValidator(check)
-
-
-def not_below_zero(fix: str) -> AfterValidator:
-    """A number or quantity is 0 or more."""
-
-    def check(given: Figure | Quantity) -> Figure | Quantity:
-        if given.value < 0:
-            raise PydanticCustomError("bound", "{text} is below 0", {"text": given.text, "fix": fix})
-        return given
-
-    return AfterValidator(check)
 
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]

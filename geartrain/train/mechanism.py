@@ -23,10 +23,9 @@ from geartrain.numerics.quantity import (
     Length,
     Mass,
     MeasuredLength,
-    MeshDamping,
-    MeshStiffness,
     TorsionalDamping,
 )
+from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness, above_zero, not_below_zero
 from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.bearing_friction import DeclaredBearing
 from geartrain.train.efficiencies import DeclaredEfficiency
@@ -39,9 +38,7 @@ from geartrain.train.fields import (
     DeclaredToothForm,
     Id,
     Status,
-    above_zero,
     also,
-    not_below_zero,
     short_for,
     side,
 )
@@ -251,10 +248,6 @@ def _positive(figure: Figure) -> Figure:
             {"text": figure.text, "fix": "a share is above 0; leave it out where it is not known"},
         )
     return figure
-
-
-PairStiffness = Annotated[MeshStiffness, above_zero("teeth yield: give for example 20 N/um")]
-PairDamping = Annotated[MeshDamping, not_below_zero("it takes energy: give 0 or more")]
 
 
 class GearPair(Declared):

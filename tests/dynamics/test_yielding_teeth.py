@@ -227,6 +227,20 @@ def test_a_chain_of_discs_swings_at_the_frequencies_of_its_closed_form() -> None
         assert shape == pytest.approx(sines / sines.max(), abs=1e-10)
 
 
+def test_teeth_of_a_form_swing_as_stiffly_as_it_says_and_their_pairs_own_stand_before_it() -> None:
+    form = {"form": "ideal", "stiffness": "45 N m/rad", "damping": "1e-4 N m s/rad"}
+    chain = disc_chain(2, tooth_form=form)
+    k, J = 45.0, 1e-6
+    closed = [2 * sqrt(k / J) * sin((2 * m - 1) * pi / 10) for m in (1, 2)]
+    found = chain.vibration_modes()
+    assert found.frequencies == pytest.approx(np.array(closed) / tau, rel=1e-10)
+    # C = (c/k) K: the damping of a mode is c w/(2 k)
+    assert found.damping == pytest.approx(1e-4 * np.array(closed) / 2 / k, rel=1e-9)
+    pairs = [{"pair": ["wd0", "wd1"], "stiffness": "20 N m/rad"}]
+    one = disc_chain(1, tooth_form=form, gears=pairs).vibration_modes()
+    assert one.frequencies == pytest.approx([sqrt(20 / J) / tau], rel=1e-10)
+
+
 def test_two_discs_on_teeth_turn_together_and_swing_against_each_other() -> None:
     wheels = {
         "links": {

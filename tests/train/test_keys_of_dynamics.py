@@ -10,6 +10,7 @@ from models import PAIR, refusal
 
 from geartrain import load
 from geartrain.dynamics.torques.power_flow import watts_per_unit
+from geartrain.errors import GearTrainError
 from geartrain.report.declaration_reference import schema
 from geartrain.train import Train
 
@@ -207,3 +208,26 @@ def test_editors_are_told_of_every_key() -> None:
     assert {"drag", "inertia", "mass", "bearing"} <= set(parts["Link"]["anyOf"][1]["properties"])
     assert {"sliding", "static", "deviation"} == set(parts["CoulombFriction"]["anyOf"][1]["properties"])
     assert {"rate", "torque", "weight", "drum", "spring", "hand"} == set(parts["Drive"]["properties"])
+
+
+def test_teeth_yield_as_their_form_says_where_their_pair_does_not() -> None:
+    form = "tooth_form: {form: involute, stiffness: 7 N m/rad, damping: 0.3 N m s/rad}"
+    train = declared(f"stiffness: 20 N/um\ndamping: 5 N s/m\n{form}")
+    stiffness, damping = train.stiffness_of(train.gears[0]), train.damping_of(train.gears[0])
+    assert (str(stiffness), str(damping)) == ("7 N m/rad", "0.3 N m s/rad")
+    # the pair's own form has nothing of the train's
+    other = declared(f"stiffness: 20 N/um\n{form}", pair=", tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}")
+    assert str(other.stiffness_of(other.gears[0])) == "20 N/um"
+    assert other.damping_of(other.gears[0]) is None
+    own = declared(form, pair=", stiffness: 9 N m/rad")
+    assert str(own.stiffness_of(own.gears[0])) == "9 N m/rad"
+    assert str(own.damping_of(own.gears[0])) == "0.3 N m s/rad"
+    assert declared().stiffness_of(own.gears[0]) is not None
+
+
+@pytest.mark.parametrize(
+    ("keys", "fix"), [("stiffness: 0 N m/rad", "give for example"), ("damping: -1 N m s/rad", "give 0 or more")]
+)
+def test_a_form_that_does_not_yield_is_refused_as_a_pair_is(keys: str, fix: str) -> None:
+    with pytest.raises(GearTrainError, match=fix):
+        declared(f"tooth_form: {{form: involute, {keys}}}")

@@ -34,9 +34,9 @@ def option_name(field: str) -> str:
 def own_options(model: type[ToothForm]) -> dict[str, tuple[type, str]]:
     """The options of a form by the names of its fields: of which type, and what the field says of itself.
 
-    Of forms that keep their design at any distance there is none for the distance.
+    Of forms that keep their design at any distance there is none for the distance; none for how teeth yield in time.
     """
-    hidden = {"form"} if model.any_distance else {"form", "centre_distance"}
+    hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: _option(field) for name, field in model.model_fields.items() if name not in hidden}
 
 

@@ -52,7 +52,12 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-VARIED = (*(name for name in Triangular.model_fields if name != "form"), "friction", "z1", "z2")
+VARIED = (
+    *(name for name in Triangular.model_fields if name not in ("form", *Triangular.in_time)),
+    "friction",
+    "z1",
+    "z2",
+)
 """What can be varied: what the form declares by one number, and what a pair has besides."""
 _KEPT = ("half_angle", "radii")
 """Of the form, what stays as it is where a clearance is varied."""

@@ -103,7 +103,7 @@ class ToothYieldTable:
         found = {}
         for gear in self.train.gears:
             ratio = self._ratio(gear)
-            stiffness, damping = gear.stiffness or self.train.stiffness, gear.damping or self.train.damping
+            stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
             if stiffness is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
                 value = self._about_driven(gear, stiffness, "stiffness")

@@ -183,8 +183,10 @@ class StepSearch:
         self.dropped = np.maximum(self.dropped, given.above.max(axis=2, initial=-np.inf))
 
     def _count(self, passage: ErrorSamples) -> None:
-        values = signed(passage.error, passage.rate)
-        self.values = np.fmax(self.values, np.where(np.isnan(values), -np.inf, values).max(axis=2))
+        for first, values in ((0, passage.error), (2, passage.rate)):
+            # NaN where no teeth touch
+            extremes = np.fmax.reduce(values, axis=1), -np.fmin.reduce(values, axis=1)
+            self.values[:, first : first + 2] = np.fmax(self.values[:, first : first + 2], np.stack(extremes, axis=1))
         self.turned_back |= passage.turned_back
 
     # --------------------------------------------------------------------------------------------------- smooth pieces

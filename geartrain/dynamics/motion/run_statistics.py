@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
-from geartrain.dynamics.motion.extreme_search import signed
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import as_float, log10
 from geartrain.numerics.plain_data import Key, Result, group
@@ -177,14 +176,22 @@ class SampledPeaks:
 
     def add(self, passage: ErrorSamples) -> None:
         """Keep the best of some more positions."""
-        sought = signed(passage.error, passage.rate)
-        starts = range(0, sought.shape[2], _BIN)
-        at = np.stack([start + np.argmax(sought[:, :, start : start + _BIN], axis=2) for start in starts], axis=2)
-        values = np.concatenate([self.values, np.take_along_axis(sought, at, axis=2)], axis=2)
-        turns = np.concatenate([self.turns, passage.turns[at]], axis=2)
+        bins = [_peaks(passage, slice(start, start + _BIN)) for start in range(0, len(passage.turns), _BIN)]
+        values = np.concatenate([self.values, np.stack([value for value, _ in bins], axis=2)], axis=2)
+        turns = np.concatenate([self.turns, np.stack([turns for _, turns in bins], axis=2)], axis=2)
         best = np.argsort(-values, axis=2)[:, :, :_KEPT]
         self.values = np.take_along_axis(values, best, axis=2)
         self.turns = np.take_along_axis(turns, best, axis=2)
+
+
+def _peaks(passage: ErrorSamples, part: slice) -> tuple[Floats, Floats]:
+    """The greatest of `signed` errors and rates in a part of a stretch, and the turns there, (outputs, 4)."""
+    found, turns = [], []
+    for each in (passage.error[:, part], passage.rate[:, part]):
+        for sign, at in ((1, np.argmax(each, axis=1)), (-1, np.argmin(each, axis=1))):
+            found.append(sign * each[np.arange(len(each)), at])
+            turns.append(passage.turns[part][at])
+    return np.stack(found, axis=1), np.stack(turns, axis=1)
 
 
 def count_extremes(

@@ -319,6 +319,19 @@ crank: a
     assert run.torque == pytest.approx(train.torques(turns=1).mean, rel=1e-6)
 
 
+def test_a_crank_behind_one_of_two_inputs_leaves_both_their_speeds() -> None:
+    train = load("""
+links: {frame: {}, a: {}, c: {wheels: {r: 30}}, d: {wheels: {s: 40}, bearing: 1 N mm, inertia: 10 kg mm2}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, c], axis: C}, {pair: [frame, d], axis: D}]
+gears: [{pair: [r, s], efficiency: 0.9}]
+inputs: {a: 1, c: 2}
+crank: d
+""")
+    run = train.dynamics(rate="1 turn/s", turns=1, skip=0)
+    turned = {link: float(np.ptp(run.angles[link])) / float(np.ptp(run.time)) for link in "acd"}
+    assert turned == pytest.approx({"a": tau, "c": 2 * tau, "d": 1.5 * tau}, rel=1e-6)
+
+
 def test_a_kept_rate_that_an_escapement_does_not_let_pass_is_refused() -> None:
     train = GearTrain.declare({**CLOCK, "drive": {"rate": "1 turn/s"}})
     with pytest.raises(QuestionError, match="'barrel' is kept at 1 turn/s, which its escapement does not let pass"):

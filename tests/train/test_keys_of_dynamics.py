@@ -216,7 +216,9 @@ def test_teeth_yield_as_their_form_says_where_their_pair_does_not() -> None:
     stiffness, damping = train.stiffness_of(train.gears[0]), train.damping_of(train.gears[0])
     assert (str(stiffness), str(damping)) == ("7 N m/rad", "0.3 N m s/rad")
     # the pair's own form has nothing of the train's
-    other = declared(f"stiffness: 20 N/um\n{form}", pair=", tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}")
+    other = declared(
+        f"stiffness: 20 N/um\n{form}", pair=", tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}"
+    )
     assert str(other.stiffness_of(other.gears[0])) == "20 N/um"
     assert other.damping_of(other.gears[0]) is None
     own = declared(form, pair=", stiffness: 9 N m/rad")

@@ -85,7 +85,7 @@ def find_time_case(
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
-    drive = _power_input(train, None if rate is not None else case.drive, problem, turning)
+    drive = _power_input(train, case, None if rate is not None else case.drive, problem, turning)
     if drive.kind == "rate":
         _refuse_rate_beyond_beats(train, problem, drive)
     return TimeCase(
@@ -139,12 +139,14 @@ def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> flo
     )
 
 
-def _power_input(train: Train, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
+def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
     """What drives where power enters, the way its link turns."""
-    link = train.crank or problem.lead
+    lead = problem.lead
+    link = train.crank or lead
     speed = rate * float(problem.ratio(link))
     if drive is None or drive.rate is not None:
-        return PowerInput(link, "rate", rate=speed)
+        # beside other inputs, which keep their speeds as well, a crank that is none of them would be one too many
+        return PowerInput(link, "rate", rate=speed) if len(case.inputs) == 1 else PowerInput(lead, "rate", rate=rate)
     way = -1.0 if speed < 0 else 1.0
     hand = drive.hand
     inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si

@@ -77,7 +77,7 @@ def loads_with_drive(
 def _is_cranked(train: Train, case: StateCase) -> bool:
     """True if a link that is no input keeps the input turning: one that drives with a torque of its own does not."""
     steady = case.drive is not None and case.drive.steady_torque is not None
-    return train.crank is not None and train.crank not in case.inputs and not steady
+    return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
 
 def torques_have_units(train: Train, case: StateCase) -> bool:

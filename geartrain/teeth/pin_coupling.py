@@ -142,6 +142,16 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "fix": f"write kind: {other}, or correct the dimensions",
             },
         )
+    slack = coupling.clearance
+    if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
+        raise PydanticCustomError(
+            "pin",
+            "with a clearance of {clearance} the pin passes beside the slot's axis without touching the slot",
+            {
+                "clearance": slack.text,
+                "fix": "give less than twice the difference of pin_radius and offset",
+            },
+        )
 
 
 def pin_transmission(

@@ -77,7 +77,7 @@ class TrainModel:
         """What is left out."""
         found = []
         if not self.contacts:
-            found.append("no pair has real teeth, a pin or a loss: all links turn as one")
+            found.append("play and impacts: no pair has real teeth, a pin or a loss, so that all links turn as one")
         left = [mesh.name for mesh in self.problem.teeth if mesh.rubs and not mesh.tells_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a speed that is not known")

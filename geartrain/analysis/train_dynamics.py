@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from geartrain.dynamics import DrivenWay, LinkInertia, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
     from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.turn.friction_study import FrictionStudy
 
 
 class TrainDynamics(TrainMotion):
@@ -100,6 +101,28 @@ class TrainDynamics(TrainMotion):
         if setting is None:
             return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
         return find_torque_cycle(setting, self._moving(self._case(state), ()), turns, samples, of, on_done, fast)
+
+    def friction_study(
+        self, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
+    ) -> FrictionStudy | None:
+        """A run that can be told with other coefficients of friction, in a part of the time of a new train.
+
+        Parameters
+        ----------
+        turns, samples, state, of
+            As of `torques`.
+
+        Returns
+        -------
+        FrictionStudy or None
+            None where friction is counted by its mean, or goes by a law of speed: then each needs a train of its own.
+        """
+        from geartrain.dynamics.turn.friction_study import find_friction_study
+
+        setting = self._setting(state)
+        if setting is None:
+            return None
+        return find_friction_study(setting, self._moving(self._case(state), ()), turns, samples, of)
 
     def torque_period(self, state: str | None = None, of: str | None = None) -> Fraction | None:
         """Turns of the input after which the torque over a turn repeats, exactly.

@@ -9,7 +9,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import PLAIN
 from geartrain.dynamics.turn.position_torques import PositionTorques
-from geartrain.dynamics.turn.turn_arrays import PIN, make_turn_arrays
+from geartrain.dynamics.turn.turn_arrays import PIN, contact_losses, make_turn_arrays
 from geartrain.dynamics.turn.turn_kernel import TurnAnswers, balance_positions
 from geartrain.numerics.error_free import split
 
@@ -36,6 +36,13 @@ class CompiledTurn:
         kernel = balance_positions.chosen(self.fast)
         kernel(self.arrays, turns, split(turns), plain, static, found)
         return found.settled, self._told(turns, found)
+
+    def with_losses(self, train: TurnBalance) -> CompiledTurn:
+        """The same kernel for the same train with other coefficients of friction."""
+        losses = [contact_losses(each) for each in train.contacts.values()]
+        sliding, static = (np.array([0.0 if each is None else each[part] for each in losses]) for part in (1, 2))
+        contacts = self.arrays.contacts._replace(sliding=sliding, static=static)
+        return CompiledTurn(train, self.arrays._replace(contacts=contacts), self.fast)
 
     def _blank(self, size: int) -> TurnAnswers:
         train = self.train

@@ -30,6 +30,20 @@ class TorqueExtreme(NamedTuple):
     days: float | None = None
 
 
+class RunFigures(NamedTuple):
+    """What trials are told of a run: mean, greatest and starting torque, efficiency; None where there is none.
+
+    See Also
+    --------
+    TorqueCycle : everything.
+    """
+
+    mean: float | None
+    greatest: float | None
+    starting: float | None
+    efficiency: float | None
+
+
 class PlaceInRun(NamedTuple):
     """Where in a run something is.
 
@@ -95,6 +109,13 @@ class CycleEnergy(Result):
     def net_out(self) -> float:
         """What loads take out, less what they put in."""
         return self.taken_out - self.loads_put_in
+
+    @property
+    def efficiency(self) -> float | None:
+        """Energy out over energy in; None where nothing is put in on the whole."""
+        if self.net_in > 0:
+            return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))
+        return -self.net_in / -self.net_out if self.net_out < 0 else None
 
     @property
     def lost(self) -> float:

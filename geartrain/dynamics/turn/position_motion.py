@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.dynamics.motion.corner_positions import CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, common_period
 from geartrain.dynamics.turn.flank_choice import FlankChoice
 
@@ -48,6 +49,7 @@ class PositionMotion:
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
+        self._corners: dict[tuple[frozenset[str], float], Floats] = {}
         self.composition = motion.with_sources(pairs)
         self.sources: Mapping[str, PairErrorSource] = {
             source.id: source for source in self.composition.sources if source.id in pairs
@@ -100,6 +102,13 @@ class PositionMotion:
         phase = InputPhase(turns)
         angles = {name: composition.driver_angle(each, phase, error) for name, each in self.sources.items()}
         return LinkMotion(turns, self.senses[:, None] * (self.means[:, None] + found.rate), angles)
+
+    def corners(self, coasting: frozenset[str], span: float) -> Floats:
+        """Turns of the input, from 0 to `span`, at which a law has a corner while some pairs coast all along."""
+        if (coasting, span) not in self._corners:
+            composition = self.coasting_all_along(coasting)
+            self._corners[coasting, span] = CornerSearch(composition).over(0.0, span).turns
+        return self._corners[coasting, span]
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
         """The composition with the coast flanks of some pairs touching everywhere."""

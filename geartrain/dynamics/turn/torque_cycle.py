@@ -186,12 +186,7 @@ class TorqueCycle(FrozenFields, Result):
     @property
     def efficiency(self) -> float | None:
         """Energy out over energy in, over the run; None where the train locks, or nothing is put in on the whole."""
-        if self.energy is None:
-            return None
-        net_in, net_out = self.energy.net_in, self.energy.net_out
-        if net_in > 0:
-            return max(net_out, 0.0) / (net_in + max(-net_out, 0.0))
-        return -net_in / -net_out if net_out < 0 else None
+        return None if self.energy is None else self.energy.efficiency
 
     @property
     def flank_changes(self) -> Mapping[str, int]:

@@ -16,7 +16,7 @@ from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_bal
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.balance_order import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.turn.compiled_turn import compiled_turn
-from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
+from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, RunFigures, TorqueExtreme
 from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import TorqueCycle
@@ -77,6 +77,11 @@ def find_torque_cycle(
     run = TurnRun(train, turns, samples)
     if is_fast(fast, run.seconds):
         train.compiled = compiled_turn(train)
+    return tell_run(run, of)
+
+
+def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:
+    """What a run answers; `of` is the link that is told of, by default the first whose torque is found."""
     return _Answer(run).told(of)
 
 
@@ -115,18 +120,46 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     return TurnBalance(busy, positions, balance, contacts, loads, bearings)
 
 
+def find_figures(run: TurnRun, of: str | None) -> RunFigures:
+    """The figures of a run alone, as of `tell_run`."""
+    return _Answer(run).figures(of)
+
+
 @dataclass
 class _Answer:
     """What is told of a run."""
 
     run: TurnRun
 
+    def figures(self, of: str | None) -> RunFigures:
+        """Mean, greatest, starting torque, efficiency."""
+        train, found = self.run.train, self.run.found
+        own = self._asked(of)
+        if self.run.share(~found.valid):
+            return RunFigures(None, None, None if (least := self._starting(own, None)) is None else least.torque, None)
+        greatest = self._extreme(own, 1, False)
+        starting = self._starting(own, greatest)
+        names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
+        return RunFigures(
+            self._mean(own),
+            None if greatest is None else greatest.torque,
+            None if starting is None else starting.torque,
+            self._energy(self._parts(names)).efficiency,
+        )
+
+    def _asked(self, of: str | None) -> _Asked:
+        train = self.run.train
+        row = train.asked.index(of) if of in train.asked else 0
+        return _Asked(row, -1 if train.setting.speeds[train.asked[row]] < 0 else 1)
+
+    def _mean(self, own: _Asked) -> float:
+        return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
+
     def told(self, of: str | None) -> TorqueCycle:
         """The answer."""
-        train, found, weights = self.run.train, self.run.found, self.run.cells.weights
-        row = train.asked.index(of) if of in train.asked else 0
-        link = train.asked[row]
-        own = _Asked(row, -1 if train.setting.speeds[link] < 0 else 1)
+        train, found = self.run.train, self.run.found
+        own = self._asked(of)
+        link = train.asked[own.row]
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         greatest = None if locked else self._extreme(own, 1, False)
         torque, left_out, period = own.torque(found), self._left_out(), train.motion.period
@@ -147,7 +180,7 @@ class _Answer:
             labelled_array(found.speeds, link=train.outside, position=labels),
             labelled_array(found.powers, link=train.outside, position=labels),
             labelled_array(found.losses, part=names, position=labels),
-            None if locked else float(weights @ torque) / self.run.span,
+            None if locked else self._mean(own),
             greatest,
             self._extreme(own, -1, False),
             self._starting(own, greatest),

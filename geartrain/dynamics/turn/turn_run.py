@@ -25,6 +25,7 @@ _DEPTH = 13  # cuts of a cell one after another
 _MOST_TIMES = 12  # as many positions as at first: the rest stays as coarse as it is
 _ASKED = 2  # times as many positions are asked for, as kinks and extremes are looked for
 _PACE = 3e5  # pairs at positions a second, by arrays
+_CALLS = 0.03  # s a pair, however few positions there are
 _NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cells, and places
 FAINT = 1e-9
 """Of the greatest torque or power in a run: less has no sign."""
@@ -42,7 +43,7 @@ class TurnRun:
     def seconds(self) -> float:
         """What the run may take without kernels."""
         corners = CornerSearch(self.train.motion.composition).rate * self.span
-        return _ASKED * (self.samples + NODES * corners) * len(self.train.pairs) / _PACE
+        return len(self.train.pairs) * (_CALLS + _ASKED * (self.samples + NODES * corners) / _PACE)
 
     @cached_property
     def corners(self) -> Floats:
@@ -56,8 +57,7 @@ class TurnRun:
             names = frozenset(name for name, coasts in zip(train.flanked, column, strict=True) if coasts)
             sets[names] = sets.get(names, 0) + 1
         usual = sorted(sets, key=lambda names: -sets[names])[:_MOST_SETS]
-        found = [CornerSearch(train.motion.coasting_all_along(names)).over(0.0, self.span).turns for names in usual]
-        return np.concatenate(found)
+        return np.concatenate([train.motion.corners(names, self.span) for names in usual])
 
     @cached_property
     def narrowest(self) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,6 +19,8 @@ from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, FRICTION, Ra
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics.turn.cycle_parts import RunFigures
+    from geartrain.dynamics.turn.friction_study import FrictionStudy
     from geartrain.train import Train
 
 _TRAIN = "train"
@@ -73,6 +76,48 @@ class FrictionPlan:
     def spreads(self) -> Mapping[str, FrictionSpread]:
         """What is drawn, by who declares it."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _drawn(friction)}
+
+    @cached_property
+    def _nominal(self) -> GearTrain:
+        from geartrain.analysis.gear_train import GearTrain
+
+        return GearTrain(self.declared)
+
+    @cached_property
+    def study(self) -> FrictionStudy | None:
+        """What trials have in common, as long as the same side drives each pair; None where they have nothing."""
+        return self._nominal.friction_study(self.turns, self.samples, self.state, self.of)
+
+    def follow(self, drawn: Train) -> RunFigures:
+        """Figures of the run of one trial.
+
+        Parameters
+        ----------
+        drawn : Train
+            The train with the coefficients of the trial.
+
+        Raises
+        ------
+        QuestionError
+            Where the torque is not known at all.
+        """
+        from geartrain.analysis.gear_train import GearTrain
+        from geartrain.dynamics.turn.cycle_parts import RunFigures
+
+        train, parts, study = GearTrain(drawn), (*drawn.gears, *drawn.couplings), self.study
+        if study is not None and (study.certain or train.drivers(self.state) == self._nominal.drivers(self.state)):
+            frictions = {part.name: friction for part in parts if (friction := drawn.friction_of(part)) is not None}
+            figures = study.figures(frictions)
+            if not study.certain or figures.mean is not None:  # where it locks other sides may drive
+                return figures
+        found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
+        if found.turns is None:
+            raise QuestionError(Problem("there is no torque to try", found.verdict.text, "declare loads or bearings"))
+        return RunFigures(found.mean, found.greatest_torque, found.starting_torque, found.efficiency)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without what trials have in common, which each process works out for itself."""
+        return {name: value for name, value in self.__dict__.items() if name not in ("study", "_nominal")}
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
         """What a journal knows a run by: everything on which its results depend.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import (
@@ -156,10 +156,12 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     True
     """
     check_trials(trials)
+    # of a study that this process makes for itself anyway, or that costs little beside the trials
+    fast = plan.study is not None and is_fast(None, plan.study.seconds * trials)
     tasks = [[start, min(start + _TASK, trials)] for start in range(0, trials, _TASK)]
     found: list[list[float | None]] = []
     try:
-        for rows in (means or Execution()).run(partial(work_frictions, plan, seed), tasks):
+        for rows in (means or Execution()).run(partial(work_frictions, plan, seed, fast=fast), tasks):
             found += rows
     except KeyboardInterrupt:
         if not found:
@@ -172,18 +174,11 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     )
 
 
-def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Some trials as plain data: the figures of each, None where the train locks."""
-    from geartrain.analysis.gear_train import GearTrain
-
-    rows = []
-    for trial in range(*task):
-        drawn = GearTrain(draw_friction(plan.declared, seed, trial))
-        found = drawn.torques(plan.state, turns=plan.turns, samples=plan.samples, of=plan.of)
-        if found.turns is None:
-            raise QuestionError(Problem("there is no torque to try", found.verdict.text, "declare loads or bearings"))
-        rows.append([found.mean, found.greatest_torque, found.starting_torque, found.efficiency])
-    return rows
+def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int], fast: bool = False) -> list[list[float | None]]:
+    """Some trials as plain data: the figures of each, None where the train locks; `fast` by compiled kernels."""
+    if fast and plan.study is not None:
+        plan.study.compile()
+    return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 
 def _link(plan: FrictionPlan) -> str:

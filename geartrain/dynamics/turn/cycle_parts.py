@@ -30,7 +30,7 @@ class TorqueExtreme(NamedTuple):
     days: float | None = None
 
 
-class RunFigures(NamedTuple):
+class CycleFigures(NamedTuple):
     """What trials are told of a run: mean, greatest and starting torque, efficiency; None where there is none.
 
     See Also

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.torques.torque_balance import LoadedPair
-    from geartrain.dynamics.turn.cycle_parts import RunFigures
+    from geartrain.dynamics.turn.cycle_parts import CycleFigures
     from geartrain.dynamics.turn.pair_contact import PairContact
     from geartrain.dynamics.turn.turn_balance import TurnBalance
     from geartrain.train.friction_in_force import FrictionInForce
@@ -50,7 +50,7 @@ class FrictionStudy:
         """Balance by a kernel from now on, where there is one."""
         self.compiled = self.compiled or compiled_turn(self.run.train)
 
-    def figures(self, friction: Mapping[str, FrictionInForce]) -> RunFigures:
+    def figures(self, friction: Mapping[str, FrictionInForce]) -> CycleFigures:
         """Figures of the run with other frictions of some pairs and couplings."""
         own = self.run.train
         contacts = {name: _rubbed(each, friction.get(name)) for name, each in own.contacts.items()}

@@ -16,7 +16,7 @@ from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_bal
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.balance_order import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.turn.compiled_turn import compiled_turn
-from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, RunFigures, TorqueExtreme
+from geartrain.dynamics.turn.cycle_parts import CycleEnergy, CycleFigures, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import TorqueCycle
@@ -120,7 +120,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     return TurnBalance(busy, positions, balance, contacts, loads, bearings)
 
 
-def find_figures(run: TurnRun, of: str | None) -> RunFigures:
+def find_figures(run: TurnRun, of: str | None) -> CycleFigures:
     """The figures of a run alone, as of `tell_run`."""
     return _Answer(run).figures(of)
 
@@ -131,16 +131,18 @@ class _Answer:
 
     run: TurnRun
 
-    def figures(self, of: str | None) -> RunFigures:
+    def figures(self, of: str | None) -> CycleFigures:
         """Mean, greatest, starting torque, efficiency."""
         train, found = self.run.train, self.run.found
         own = self._asked(of)
         if self.run.share(~found.valid):
-            return RunFigures(None, None, None if (least := self._starting(own, None)) is None else least.torque, None)
+            return CycleFigures(
+                None, None, None if (least := self._starting(own, None)) is None else least.torque, None
+            )
         greatest = self._extreme(own, 1, False)
         starting = self._starting(own, greatest)
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
-        return RunFigures(
+        return CycleFigures(
             self._mean(own),
             None if greatest is None else greatest.torque,
             None if starting is None else starting.torque,

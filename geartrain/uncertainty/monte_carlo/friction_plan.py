@@ -19,7 +19,7 @@ from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, FRICTION, Ra
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics.turn.cycle_parts import RunFigures
+    from geartrain.dynamics.turn.cycle_parts import CycleFigures
     from geartrain.dynamics.turn.friction_study import FrictionStudy
     from geartrain.train import Train
 
@@ -88,7 +88,7 @@ class FrictionPlan:
         """What trials have in common, as long as the same side drives each pair; None where they have nothing."""
         return self._nominal.friction_study(self.turns, self.samples, self.state, self.of)
 
-    def follow(self, drawn: Train) -> RunFigures:
+    def follow(self, drawn: Train) -> CycleFigures:
         """Figures of the run of one trial.
 
         Parameters
@@ -102,7 +102,7 @@ class FrictionPlan:
             Where the torque is not known at all.
         """
         from geartrain.analysis.gear_train import GearTrain
-        from geartrain.dynamics.turn.cycle_parts import RunFigures
+        from geartrain.dynamics.turn.cycle_parts import CycleFigures
 
         train, parts, study = GearTrain(drawn), (*drawn.gears, *drawn.couplings), self.study
         if study is not None and (study.certain or train.drivers(self.state) == self._nominal.drivers(self.state)):
@@ -113,7 +113,7 @@ class FrictionPlan:
         found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
         if found.turns is None:
             raise QuestionError(Problem("there is no torque to try", found.verdict.text, "declare loads or bearings"))
-        return RunFigures(found.mean, found.greatest_torque, found.starting_torque, found.efficiency)
+        return CycleFigures(found.mean, found.greatest_torque, found.starting_torque, found.efficiency)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without what trials have in common, which each process works out for itself."""

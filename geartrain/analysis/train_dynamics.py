@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, overload
 
 from geartrain.analysis.train_motion import TrainMotion
@@ -239,8 +240,8 @@ class TrainDynamics(TrainMotion):
     ) -> SeparationRates:
         """At what rates of the input flanks first part, by pair: above the least `motion` does not hold.
 
-        Counted are inertia, loads, a weight or a torque that drives, friction of bearings and viscous drag, and where
-        speeds jump their blows; friction of teeth is not (docs/dynamics.md, section 3).
+        Counted are inertia, loads, a weight or a torque that drives, friction of bearings and of teeth that do not keep
+        their ratio, viscous drag, and where speeds jump their blows (docs/dynamics.md, section 3).
 
         Parameters
         ----------
@@ -277,6 +278,7 @@ class TrainDynamics(TrainMotion):
         >>> found.pair, round(found.rate, 6)
         ('a~b', 0.440669)
         """
+        from geartrain.dynamics.contacts.rubbing_arms import separate_rubbing
         from geartrain.dynamics.inertia.inertial_contacts import InertialContacts
         from geartrain.dynamics.inertia.inertial_loads import find_inertial_loads
         from geartrain.dynamics.inertia.separation_rate import find_separation_rates
@@ -286,7 +288,9 @@ class TrainDynamics(TrainMotion):
         inertias = self.inertias(state)
         moving = self._moving(case, without)
         acting = find_inertial_loads(self.declaration, case, self.tree, inertias, moving.speeds)
-        return find_separation_rates(InertialContacts(moving, acting), inertias, state, turns)
+        rubbing, uncounted = separate_rubbing(moving)
+        contacts = InertialContacts(moving, acting, rubbing=rubbing)
+        return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=uncounted)
 
     def tells_separation(self, state: str | None = None) -> bool:
         """True if `separation_rates` has an answer: a link behind the input has an inertia, and torques have units.

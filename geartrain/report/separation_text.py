@@ -23,6 +23,8 @@ def separation_section(found: SeparationRates) -> Section:
 def separation_text(found: SeparationRates) -> Iterator[str]:
     """Which pair parts first and when, what was searched, and which inertias are not known."""
     yield _first_words(found)
+    if found.uncounted:
+        yield f"Friction not counted: that of {', '.join(found.uncounted)}."
     if not found.complete:
         yield f"Searched were {found.turns:.6g} turns of '{found.input}', not all after which everything repeats."
     if found.unknown:
@@ -45,5 +47,5 @@ def _first_words(found: SeparationRates) -> str:
         )
     return (
         f"Holds up to {first.rate:.5g} turn/s of '{found.input}': from there on the teeth of {first.pair} part, "
-        f"{where}, for what they drive runs ahead. Friction of teeth is not counted."
+        f"{where}, for what they drive runs ahead."
     )

@@ -9,6 +9,7 @@ import pytest
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import SeparationRates
+from geartrain.dynamics.contacts.rubbing_arms import separate_rubbing
 from geartrain.dynamics.inertia.inertial_contacts import InertialContacts, YieldingPairs, least_rate
 from geartrain.dynamics.inertia.inertial_loads import find_inertial_loads
 
@@ -97,23 +98,27 @@ links:
 INERTIAS = (3e-5, 5e-6, 8e-6, 2e-6)
 
 
-def by_hand(x: np.ndarray) -> np.ndarray:
-    """The rate (turn/s) of each pair of the Moon's train at crank angles x (rad), link by link from the Moon back."""
+def by_hand(x: np.ndarray, rubs: bool = False) -> np.ndarray:
+    """The rate (turn/s) of each pair of the Moon's train at crank angles x (rad), link by link from the Moon back.
+
+    A driver whose teeth rub gives tau/eta times the torque on the driven side.
+    """
     laws = [mesh.law for mesh in load("moon-triangular").meshes]
-    speeds, falls, accelerations = [], [], []
+    speeds, falls, accelerations, arms = [], [], [], []
     S, first, second = x, np.ones_like(x), np.zeros_like(x)
     for law in laws:
         slope = (law.speed(S + 1e-6) - law.speed(S - 1e-6)) / 2e-6
         speed = law.speed(S)
         first, second = speed * first, slope * first**2 + speed * second
         speeds.append(speed)
+        arms.append(speed / law.efficiency(S) if rubs else speed)
         falls.append(slope)
         accelerations.append(second)
         S = law.angle(S)
     rates = []
     D = A = np.zeros_like(x)
     for at in (3, 2, 1, 0):
-        onward = speeds[at + 1] if at < 3 else 0.0
+        onward = arms[at + 1] if at < 3 else 0.0
         D, A = 1e-3 + onward * D, INERTIAS[at] * accelerations[at] + onward * A
         rates.append(np.sqrt(np.where(A < 0, -D / np.where(A < 0, A, -1.0), np.inf)) / tau)
     return np.array(rates[::-1])
@@ -121,7 +126,7 @@ def by_hand(x: np.ndarray) -> np.ndarray:
 
 def test_the_moons_train_parts_first_at_its_last_pair() -> None:
     """Printed figures of dynamics.md are of a grid; teeth part first just after a corner, at a lesser rate."""
-    found = load(MOON).separation_rates()
+    found = load(MOON + "friction: 0\n").separation_rates()
     printed = {"d2~e": 0.4814, "c2~d1": 0.5142, "b2~c1": 0.5314, "a~b1": 0.5399}
     assert [each.pair for each in found.pairs] == list(printed)
     for each in found.pairs:
@@ -139,11 +144,17 @@ def test_the_moons_train_parts_first_at_its_last_pair() -> None:
     assert at_the_corner == pytest.approx([rates[name] for name in names], rel=1e-6)
 
 
-def test_at_any_position_the_moons_pairs_carry_what_a_chain_does() -> None:
-    contacts = contacts_of(load(MOON))
+@pytest.mark.parametrize("rubs", [False, True])
+def test_at_any_position_the_moons_pairs_carry_what_a_chain_does(rubs: bool) -> None:
+    train = load(MOON)
+    moving = train._moving(train._case(None), ())
+    rubbing, uncounted = separate_rubbing(moving)
+    assert list(rubbing) == ["a~b1", "b2~c1", "c2~d1", "d2~e"]
+    assert uncounted == ()
+    contacts = InertialContacts(moving, contacts_of(train).acting, rubbing=rubbing if rubs else None)
     turns = np.random.default_rng(3).uniform(0, 95, 400)
     order = [contacts.pairs.index(name) for name in ("a~b1", "b2~c1", "c2~d1", "d2~e")]
-    found, expected = contacts.rates(turns)[order] / tau, by_hand(tau * turns)
+    found, expected = contacts.rates(turns)[order] / tau, by_hand(tau * turns, rubs)
     both = np.isfinite(found) & np.isfinite(expected)
     assert (np.isfinite(found) == np.isfinite(expected)).mean() > 0.99
     assert np.median(np.abs(found[both] / expected[both] - 1)) < 1e-7

@@ -255,14 +255,29 @@ loads: {last: -2 N mm}
 """
 
 
+# d is heavy: its pair parts while the next one carries torque and rubs, at 0.93544 turn/s without friction
+HEAVY_D = """
+extends: moon-triangular-inertia
+links: {moon: {inertia: 1e-8 kg m2}, d: {inertia: 3e-5 kg m2}}
+"""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(("text", "turns", "steps"), [("moon-triangular-inertia", 37, 4000), (PLANET, 2, None)])
+@pytest.mark.parametrize(
+    ("text", "turns", "steps"),
+    [
+        ("moon-triangular-inertia", 37, 4000),
+        (PLANET, 2, None),
+        (PLANET + "friction: 0.15", 2, None),
+        (HEAVY_D, 5, None),
+    ],
+)
 def test_stepping_finds_the_rate_of_separation_of_the_condition(text: str, turns: float, steps: int | None) -> None:
     found = load(text).stepped_separation(turns=turns, steps=steps)
     assert found.rate is not None
     assert found.error is not None
     assert found.error < 1e-4 * found.rate
-    assert found.rate == pytest.approx(found.predicted, abs=1.2 * found.error)
+    assert found.rate == pytest.approx(found.predicted, abs=2 * found.error)
     closed = load(text).separation_rates(turns=turns)
     assert found.pair == closed.pair
     assert found.at == pytest.approx(closed.first.at, abs=1e-4)  # type: ignore[union-attr]

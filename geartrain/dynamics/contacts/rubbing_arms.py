@@ -8,6 +8,7 @@ whichever wheel puts the power in.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,8 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.inertia.inertial_contacts import FlankArms
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
@@ -31,6 +34,17 @@ Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:
     """What friction adds to the arm of a driver of teeth; None where nothing says that they rub."""
+    ahead, back = drive_flank_arms(mesh), _flank_arms(mesh, mesh.coast)
+    return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
+
+
+def drive_flank_arms(mesh: GearMesh) -> tuple[TabledFunction, TabledFunction] | None:
+    """The same of the drive flank alone, turning forward and back."""
+    return _flank_arms(mesh, mesh.law)
+
+
+def _flank_arms(mesh: GearMesh, law: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
+    """Of one flank, turning the way in which it was made to drive, and the other way."""
     if not mesh.tells_losses or not mesh.rubs:
         return None
     losses = mesh.losses
@@ -38,7 +52,7 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
     if isinstance(losses, RubbedTransmission):
         coefficient = losses.by
 
-    def table(law: TransmissionFunction, way: int) -> TabledFunction:
+    def table(way: int) -> TabledFunction:
         nodes = law.rubbing_nodes()
         if nodes is None:
             return tabled_function(partial(_at_angles, law, coefficient, way, mesh.label), law)
@@ -47,8 +61,7 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
         more = _more_by_teeth(law.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
         return tabled_function(lambda at: np.interp(at, S, more, period=law.period), law, _ROUGH)
 
-    front, back = mesh.law, mesh.coast
-    return table(front, 1), table(front, -1), table(back, -1), table(back, 1)
+    return table(1), table(-1)
 
 
 def _at_angles(
@@ -70,6 +83,25 @@ def _more_by_teeth(
         why = "friction locks its teeth at some angle, so that no torque of the one wheel moves the other"
         raise GearTrainError(Problem(f"{label} cannot be stepped through time", why, "give it less friction"))
     return np.where(touching.any(axis=0), tau * (1 / np.where(passed > 0, passed, 1.0) - 1), 0.0)
+
+
+def separate_rubbing(moving: MotionProblem) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
+    """Drive flanks that rub, of teeth that do not keep their ratio, and all other pairs and pins that rub, by name.
+
+    Teeth that friction locks somewhere are among the others.
+    """
+    found: dict[str, FlankArms] = {}
+    left = []
+    for mesh in moving.teeth:
+        arms = None
+        if not mesh.rigid:
+            with suppress(GearTrainError):
+                arms = drive_flank_arms(mesh)
+        if arms is not None:
+            found[mesh.name] = arms[0].__call__, arms[1].__call__
+        elif mesh.rubs:
+            left.append(mesh.name)
+    return found, (*left, *(joint.coupling.name for joint in moving.pins if joint.law.friction))
 
 
 def pin_arms(law: PinTransmission) -> Arms | None:

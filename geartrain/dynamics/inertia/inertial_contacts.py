@@ -13,7 +13,7 @@ the rate sought, the least of all positions.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -53,6 +53,10 @@ def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
     return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
 
 
+FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
+"""What friction adds to the arm of a driver on its drive flank, turning forward and back, by its forward angle."""
+
+
 class CarriedTorques(NamedTuple):
     """Terms of the torque that each pair must carry, (pairs, n): N m, N m s, N m s2, of forward driven torque."""
 
@@ -62,11 +66,16 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links over the input's at n positions, and slopes of errors of the sources."""
+    """Speeds and accelerations of all links over the input's at n positions, and slopes of errors of the sources.
+
+    arm, virtual   slopes and speeds where each driver's arm is that with friction: those of virtual work
+    """
 
     speed: Floats
     acceleration: Floats
     slope: Floats
+    arm: Floats
+    virtual: Floats
 
 
 @dataclass(frozen=True)
@@ -121,8 +130,14 @@ class YieldingPairs:
 class InertialContacts:
     """The torque that each pair of a moving train must carry at every position."""
 
-    def __init__(self, moving: MotionProblem, acting: InertialLoads, tolerance: float | None = None) -> None:
-        self.moving, self.acting = moving, acting
+    def __init__(
+        self,
+        moving: MotionProblem,
+        acting: InertialLoads,
+        tolerance: float | None = None,
+        rubbing: Mapping[str, FlankArms] | None = None,
+    ) -> None:
+        self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
         if tolerance is None and len(moving.circuits) > _MANY:
             tolerance = _TABLES
@@ -194,7 +209,9 @@ class InertialContacts:
         means = np.array([float(self.moving.ratio(link)) for link in self.moving.system.links])
         phase = InputPhase(turns)
         slope = np.zeros((len(self.sources), len(turns)))  # sense (tau - mean)
+        arm = np.zeros((len(self.sources), len(turns)))
         kick = np.zeros((len(self.pairs), len(turns)))
+        pulled = np.zeros((len(self.pairs), len(turns)))
         for row, source in enumerate(self.sources):
             S = phase.cycles(source.cycles) * source.law.period + source.start
             turning = np.full(len(turns), source.mean)
@@ -203,8 +220,17 @@ class InertialContacts:
                 turning += sign * found.rate[link]
             slope[row] = source.sense * (source.law.speed(S) - float(source.law.ratio))
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
+            arm[row] = slope[row]
+            if source.id in self.rubbing:
+                ahead, back = self.rubbing[source.id]
+                arm[row] += source.sense * np.where(turning >= 0, ahead(S), back(S))
+            pulled[source.pair] = arm[row] * source.mean
         acceleration = self._response @ self._yielding.errors(slope, kick)
-        return _State(means[:, None] + found.rate, acceleration, slope)
+        speed = means[:, None] + found.rate
+        virtual = speed
+        if self.rubbing:
+            virtual = means[:, None] + self._response @ self._yielding.errors(arm, pulled)
+        return _State(speed, acceleration, slope, arm, virtual)
 
     def torques(self, turns: Floats) -> CarriedTorques:
         """What each pair must carry where the input has made some turns."""
@@ -231,11 +257,11 @@ class InertialContacts:
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
         """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""
         for asked in forces:
-            force = self._less_the_crank(asked, state.speed)
-            yield self._senses[:, None] * self._yielding.torques(state.slope, self._response.T @ force)
+            force = self._less_the_crank(asked, state.virtual)
+            yield self._senses[:, None] * self._yielding.torques(state.arm, self._response.T @ force)
 
     def _less_the_crank(self, asked: Floats, speed: Floats) -> Floats:
-        """What links ask of their pairs: where a crank keeps the input turning, all the power that is asked is its."""
+        """What links ask of their pairs: where a crank keeps the input turning, all the virtual work is its."""
         if self.acting.crank is None:
             return asked
         crank = self.moving.system.links.index(self.acting.crank)

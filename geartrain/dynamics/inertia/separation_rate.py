@@ -70,8 +70,6 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
 class SeparationRates(Result):
     """At what rates of the input the flanks of a train first part: while it is slower, `motion` holds.
 
-    Friction of teeth is not counted.
-
     Attributes
     ----------
     state : str or None
@@ -86,13 +84,15 @@ class SeparationRates(Result):
         The pair that parts first before the others.
     inertias : tuple of LinkInertia
         What was counted with.
+    uncounted : tuple of str
+        Pairs and pins whose friction is not counted: those that keep their ratio, and pins.
 
     See Also
     --------
     geartrain.GearTrain.separation_rates : what gives these.
     """
 
-    KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias")
+    KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
     input: str
@@ -100,6 +100,7 @@ class SeparationRates(Result):
     complete: bool
     pairs: tuple[PairSeparation, ...]
     inertias: tuple[LinkInertia, ...]
+    uncounted: tuple[str, ...] = ()
 
     @property
     def first(self) -> PairSeparation | None:

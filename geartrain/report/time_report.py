@@ -283,7 +283,10 @@ def _energy(run: TimeRun) -> Section:
         return Section(
             "Energy", ("None is put in, lost or kept: nothing loads the train, and nothing heavy gets faster.",)
         )
-    text = f"What is put in, lost and kept agrees to {closure:.0e} of it; the account claims {_SURE:.0e}."
+    claim = (
+        f"the account claims {_SURE:.0e}" if closure <= _SURE else f"which is less well than the {_SURE:.0e} claimed"
+    )
+    text = f"What is put in, lost and kept agrees to {closure:.0e} of it; {claim}."
     return Section("Energy", (text,), (Table(("over the run", "J", "of all put in"), rows),))
 
 

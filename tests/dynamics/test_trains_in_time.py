@@ -334,6 +334,17 @@ crank: a
     assert run.torque == pytest.approx(train.torques(turns=1).mean, rel=1e-6)
 
 
+@pytest.mark.parametrize(("name", "state"), [("bevel-differential", "turn"), ("norton-planetary", None)])
+def test_beside_another_input_the_torque_is_that_of_the_link_that_is_told(name: str, state: str | None) -> None:
+    of = load(name).declaration
+    own = {link: {"inertia": "1e-5 kg m2", "bearing": "1 N mm"} for link in of.links if link != of.frame}
+    train = GearTrain.declare({"extends": name, "name": "rubs", "links": own})
+    run = train.dynamics(rate="1 turn/s", state=state, turns=1, fast=False)
+    asked = train.torques(state, turns=1, samples=10)
+    assert run.link == asked.link
+    assert run.torque == pytest.approx(asked.mean, rel=1e-9)
+
+
 def test_a_crank_behind_one_of_two_inputs_leaves_both_their_speeds() -> None:
     train = load("""
 links: {frame: {}, a: {}, c: {wheels: {r: 30}}, d: {wheels: {s: 40}, bearing: 1 N mm, inertia: 10 kg mm2}}

@@ -170,8 +170,22 @@ class RunFigures:
         if source.kind == "torque":
             return float(abs(source.torque))
         angle = abs(float(self.of.speeds[self.of.index[source.link]] @ self.run.turned))
-        work = energy.drive if source.kind == "rate" else energy.springs
+        work = energy.drive - self._other_work if source.kind == "rate" else energy.springs
         return float(work / angle) if angle else 0.0
+
+    @property
+    def _other_work(self) -> float:
+        """What other links put in whose speeds are kept (J): their mean torques over the samples, by their angles."""
+        others = {
+            link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
+        }
+        counted = self.run.drive[self.time > self.plan.step * self.plan.skip]
+        if not others or not len(counted):
+            return 0.0
+        torques = counted.mean(axis=0)
+        return float(
+            sum(torques[self.of.coordinates.index(link)] * speed * self.duration for link, speed in others.items())
+        )
 
     @cached_property
     def differences(self) -> dict[str, Floats]:

@@ -93,7 +93,7 @@ def run(
     tried = None
     if trials is not None and over_turn is not None:
         options = RunOptions.alone(workers, scheduler, resume)
-        tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
+        tried = _tried(train, over_turn, (samples, input_), (trials, seed), fast, out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -127,6 +127,7 @@ def _tried(
     over_turn: TorqueCycle,
     run: tuple[int, str | None],
     drawn: tuple[int, int],
+    fast: bool | None,
     out: Path | None,
     options: RunOptions,
 ) -> FrictionTrials:
@@ -137,7 +138,7 @@ def _tried(
     check_trials(drawn[0])
     plan = find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
-        found = try_frictions(plan, *drawn, given)
+        found = try_frictions(plan, *drawn, given, fast)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
         tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")

@@ -108,7 +108,9 @@ class FrictionTrials(Result):
         return self.done == self.wanted
 
 
-def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None) -> FrictionTrials:
+def try_frictions(
+    plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None, fast: bool | None = None
+) -> FrictionTrials:
     """Torque over a turn, so many times, each with frictions of its own.
 
     The same for any number of workers, however often it was interrupted and taken up. Interrupted (Ctrl-C), it returns
@@ -124,6 +126,8 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
         The same seed draws the same frictions.
     means : Execution, optional
         Executor, journal of finished trials, progress report; by default this process, and none of the others.
+    fast : bool, optional
+        Whether compiled kernels balance the positions; by default where that pays and the extra `fast` is installed.
 
     Returns
     -------
@@ -157,11 +161,11 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     """
     check_trials(trials)
     # of a study that this process makes for itself anyway, or that costs little beside the trials
-    fast = plan.study is not None and is_fast(None, plan.study.seconds * trials)
+    compiled = plan.study is not None and is_fast(fast, plan.study.seconds * trials)
     tasks = [[start, min(start + _TASK, trials)] for start in range(0, trials, _TASK)]
     found: list[list[float | None]] = []
     try:
-        for rows in (means or Execution()).run(partial(work_frictions, plan, seed, fast=fast), tasks):
+        for rows in (means or Execution()).run(partial(work_frictions, plan, seed, fast=compiled), tasks):
             found += rows
     except KeyboardInterrupt:
         if not found:

@@ -56,7 +56,7 @@ def test_the_formulas_of_a_couple_are_those_of_the_law_with_their_derivatives() 
 
 @pytest.mark.parametrize("pairs", [pytest.param(12), pytest.param(150, marks=pytest.mark.slow)])
 def test_every_trial_is_judged_as_without_the_kernel(pairs: int) -> None:
-    """On both sides of the window, at small and at great errors, which the kernel leaves to numpy."""
+    """On both sides of the window, at small and at great errors; many of the great are left to numpy."""
     rng, kinds, done = np.random.default_rng(8), np.zeros(4, int), 0
     while done < pairs:
         z1, z2 = (int(z) for z in rng.integers(8, 45, 2))

@@ -33,19 +33,26 @@ def least_play(
     front: Floats,
     back: Floats,
     work: tuple[Floats, Floats, Floats],
+    every: bool,
 ) -> float:
     """Least play over the cycle.
+
+    every   whether all couples are asked exactly: where errors are great, or teeth lose each other, no estimate holds
 
     Told to first order for all couples, by a step of Newton's method for those that come near the least, exactly for
     those that come near it then; what is seen of each tells how far the estimate before may be above it.
     """
     driver, driven, of_driver, of_driven, stepped = one.place[trial], two.place[trial], work[0], work[1], work[2]
     coarse, fine, least, before = COARSE * sizes.p2, FINE * sizes.p2, inf, 0.0
+    if every:
+        coarse, fine = inf, inf
     greatest = _greatest_errors(one, two, trial)
     # once more where estimates were seen to be farther off than was taken for granted
     while before < coarse:
         before = coarse
         for way in range(len(jams.n)):
+            if every and jams.n[way] in jams.n[:way]:  # the exact play is that of all ways between the same couples
+                continue
             if _bound(jams, way, shift, greatest) > least + coarse:
                 continue
             first = _first_order(sizes, jams, way, one, two, shift, trial, of_driver, of_driven)

@@ -37,10 +37,14 @@ def judge_cycles(
     two: ToothArrays,
     shift: Floats,
     jams: JamCandidates,
+    far: Bools,
     play: Floats,
     marks: Bools,
 ) -> None:
-    """Least play (rad of the driven wheel) of each trial, and (trials, 4): clash, standstill, disengaged, leans."""
+    """Least play (rad of the driven wheel) of each trial, and (trials, 4): clash, standstill, disengaged, leans.
+
+    far   trials whose errors are too great for estimates: every couple of theirs is asked exactly
+    """
     count = sizes.couples
     front, back = np.zeros((count, 11)), np.zeros((count, 11))
     work = np.zeros(sizes.z1), np.zeros(sizes.z2), np.zeros(count)
@@ -48,13 +52,13 @@ def judge_cycles(
         driver, driven = one.place[trial], two.place[trial]
         whole, widest = _fill(sizes, one, two, shift[trial], trial, front, back)
         marks[trial, 3] = _leans(front, back)
-        least = least_play(sizes, jams, one, two, shift[trial], trial, front, back, work)
+        marks[trial, 2] = _gap(sizes, driver, front) or _gap(sizes, driver, back)
+        least = least_play(sizes, jams, one, two, shift[trial], trial, front, back, work, far[trial] or marks[trial, 2])
         most = max(1, int(np.ceil((2 * widest + _range(driver)) / sizes.p1))) if whole else count - 2
         marks[trial, 1] = _left_standing(sizes, driver, driven, front, most)
         marks[trial, 0] = _clashes(sizes, driver, driven, front, most)
         if marks[trial, 1]:
             least = min(least, _play_at_entries(sizes, driver, driven, front, back, most))
-        marks[trial, 2] = _gap(sizes, driver, front) or _gap(sizes, driver, back)
         play[trial] = least
 
 

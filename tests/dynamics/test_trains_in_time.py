@@ -192,6 +192,41 @@ def test_below_the_rate_of_separation_blows_that_come_together_part_no_flanks() 
         assert (run.forces[2:] > 0).all()
 
 
+WEIGHT_ON_TEETH = """
+links:
+  frame: {}
+  a: {wheels: {p: {teeth: 20, module: 1 mm}}, inertia: 1e-6 kg m2}
+  b: {wheels: {w: {teeth: 40, module: 1 mm}}, inertia: 4e-6 kg m2}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+tooth_form: {form: involute, backlash: 0.05}
+friction: 0.3
+inputs: {a: 1}
+rate: 1 turn/s
+loads: {b: 10 N mm}
+"""
+
+
+@pytest.mark.parametrize(("torque", "holds"), [("4.9", True), ("5.2", True), ("6", False)])
+def test_teeth_at_rest_hold_a_weight_by_friction_but_for_a_creep_that_falls_with_the_step(
+    torque: str, holds: bool
+) -> None:
+    # without friction 5 N mm hold 10 N mm at twice the teeth; any other torque would turn the wheels
+    train = load(WEIGHT_ON_TEETH + f"drive: {{torque: {torque} N mm}}\n")
+    moved = []
+    for steps in (2000, 8000):
+        run = train.dynamics(turns=0.125, skip=0, steps=steps, fast=False)
+        moved.append(abs(run.angles["a"][-1]))
+        assert run.unsolved == 0
+    if holds:
+        free = abs(float(torque) - 5) * 1e-3 / 2e-6 * 0.125**2 / 2
+        assert moved[1] < 5e-3 * free
+        assert moved[0] / moved[1] == pytest.approx(4, rel=0.15)
+    else:
+        assert moved[1] > 1
+        assert moved[0] == pytest.approx(moved[1], rel=0.02)
+
+
 CLOCK: dict[str, Any] = {
     "links": {
         "frame": {},

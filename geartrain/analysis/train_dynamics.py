@@ -324,7 +324,7 @@ class TrainDynamics(TrainMotion):
         Returns
         -------
         tuple of LinkInertia
-            In the order of the declaration (docs/dynamics.md, section 4).
+            In the order of the declaration (docs/dynamics.md, section 1).
 
         Examples
         --------

@@ -163,7 +163,7 @@ def _unlike(run: TimeRun) -> Iterator[str]:
 def _lead(run: TimeRun) -> Iterator[str]:
     ways = {
         "rate": f"the speed of '{run.link}' is kept",
-        "torque": f"a torque drives '{run.link}'",
+        "torque": f"a steady torque, such as a weight's, drives '{run.link}'",
         "spring": f"a spring drives '{run.link}'",
         "hand": f"a hand that yields drives '{run.link}'",
     }

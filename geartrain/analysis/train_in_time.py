@@ -264,8 +264,8 @@ class TrainInTime(TrainDynamics):
         from geartrain.dynamics.inertia.link_inertia import find_link_inertias
 
         problem = self._moving(case, without)
-        if rate is not None and problem.speeds[problem.lead] < 0:
-            rate = -rate
+        if rate is not None:
+            rate *= problem.way
         heavy = find_link_inertias(self, case, with_inputs=True)
         inertia = {each.link: each.value for each in heavy if each.value}
         found = find_time_case(self.declaration, case, problem, inertia, rate, restitution)

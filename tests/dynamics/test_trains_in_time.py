@@ -61,6 +61,62 @@ def test_with_friction_of_teeth_slow_turning_asks_the_torque_of_a_turn() -> None
     assert run.energy.friction > 0.2 * abs(run.energy.loads)
 
 
+BLOWN = {"crank": {"inertia": "1e-4 kg m2"}, "moon": {"inertia": "2e-6 kg m2", "drag": "1e-4 N m s/rad"}}
+SLACK = {"kind": "pin_and_slot", "pin": "b", "slot": "c", "pin_radius": "10 mm", "offset": "4 mm"}
+TURNED_BOTH_WAYS: dict[str, dict[str, Any]] = {
+    "kept": {"extends": "moon-triangular-inertia", "restitution": 0.3, "rate": "1 turn/s"},
+    "hung": {
+        "extends": "moon-triangular-inertia",
+        "links": BLOWN,
+        "rate": "1 turn/s",
+        "drive": {"weight": "90 g", "drum": "10 mm"},
+    },
+    "slack": {
+        "links": {
+            "frame": {},
+            "a": {"wheels": {"p": 24}},
+            "b": {"wheels": {"q": 36}, "inertia": "2e-6 kg m2"},
+            "c": {"inertia": "1e-5 kg m2"},
+        },
+        "revolutes": [{"pair": ["frame", link], "axis": link.upper()} for link in "abc"],
+        "gears": [{"pair": ["p", "q"], "driver": "p", "efficiency": {"forward": 0.9, "backward": 0.8}}],
+        "couplings": [SLACK | {"friction": 0.1, "clearance": "0.5 mm"}],
+        "outputs": {"c": {}},
+        "rate": "2 turn/s",
+    },
+}
+
+
+@pytest.mark.parametrize("name", TURNED_BOTH_WAYS)
+def test_a_train_declared_to_turn_backwards_is_the_mirror_image_of_itself(name: str) -> None:
+    link, load = ("a", {"c": 2}) if name == "slack" else ("crank", {"moon": 1 if name == "kept" else 0.1})
+    runs = []
+    for way in (1, -1):
+        loads = {of: f"{-way * each} N mm" for of, each in load.items()}
+        train = GearTrain.declare({**TURNED_BOTH_WAYS[name], "name": name, "inputs": {link: way}, "loads": loads})
+        runs.append((train, train.dynamics(turns=0.05, skip=0.01, steps=2000, fast=False)))
+    (ahead, forth), (back, mirror) = runs
+    assert mirror.rate == pytest.approx(-forth.rate, rel=1e-9)
+    assert mirror.angles.values == pytest.approx(-forth.angles.values, abs=1e-9)
+    for own in ("turns", "drive"):
+        assert getattr(mirror, own) == pytest.approx(getattr(forth, own), abs=1e-9)
+    for own in ("gaps", "coast_gaps", "torques", "ahead"):
+        assert getattr(mirror, own).values == pytest.approx(getattr(forth, own).values, abs=1e-9)
+    assert forth.turns[-1] > 0.005
+    assert [each.to_dict() for each in mirror.contacts] == [each.to_dict() for each in forth.contacts]
+    assert mirror.energy.to_dict() == pytest.approx(forth.energy.to_dict(), abs=1e-12)
+    assert mirror.impacts.total == forth.impacts.total > 0
+    if name != "slack":
+        assert back.separation_rates().rate == ahead.separation_rates().rate
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_slowly_all_drive_flanks_touch_whichever_way_a_train_is_declared_to_turn(way: int) -> None:
+    run = moon_train(inputs={"crank": way}).dynamics(rate="0.02 turn/s", turns=0.1, skip=0.01, steps=4000, fast=False)
+    assert [(each.apart, each.coast) for each in run.contacts] == [(0, 0)] * 4
+    assert max(degrees(max(lead.ahead, lead.behind)) for lead in run.leads) < 1e-4
+
+
 @pytest.mark.parametrize("load", ["-1 N mm", "1 N mm"])
 @pytest.mark.parametrize("play", [{}, {"clearance": "0.02 mm"}])
 def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, play: dict[str, str]) -> None:

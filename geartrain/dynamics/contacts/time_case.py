@@ -123,15 +123,14 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 
 def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> float:
     """Speed of the lead (rad/s): a declared rate, the escapement's, or that of a hand."""
-    sense = -1.0 if problem.speeds[problem.lead] < 0 else 1.0
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.lead])
     if train.escapement is not None and problem.ratio(train.escapement.link):
-        return sense * tau * float(train.escapement.speed / abs(problem.ratio(train.escapement.link)))
+        return problem.way * tau * float(train.escapement.speed / abs(problem.ratio(train.escapement.link)))
     hand = None if case.drive is None else case.drive.hand
     if hand is not None and hand.rate is not None:
-        return sense * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))
+        return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))
     what = "nothing says how fast the train turns"
     why = "the length of a step follows from the time in which teeth pass"
     raise QuestionError(

@@ -256,8 +256,10 @@ class TrainModel:
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Forward speeds of driver and driven side of a pair, seen from its carrier."""
         source = self._start[0].get(circuit.id)
-        forward = source.forward if source else 1
-        sense = source.sense if source else (1 if circuit.a * circuit.b < 0 else -1)
+        # forwards is the sense in which the input turns: front flanks are those that drive that way
+        way = self.problem.way
+        forward = way * (source.forward if source else 1)
+        sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
         path = self.motion.spread.joints[self.motion.spread.pairs.index(circuit.id)]
         signs, names = self.problem.signs, self.problem.system.links
         own, mate, base = (signs.get(names[at], 1) * self.speeds[at] for at in path[:3])
@@ -306,11 +308,6 @@ class TrainModel:
             way = -1 if self.typical(link) < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link)), pitch, beat, restitution)
-
-    @property
-    def way(self) -> int:
-        """1, or -1 where the train turns against its declared sense."""
-        return -1 if self.case.rate * float(self.problem.speeds[self.problem.lead]) < 0 else 1
 
     def _springs(self) -> Iterator[Spring]:
         drive = self.case.drive

@@ -241,7 +241,6 @@ class InertialContacts:
     def _torques(self, turns: Floats) -> CarriedTorques:
         state, (bearer, sense) = self._state(turns), self._joints
         relative = state.speed - sense[:, None] * state.speed[bearer]
-        lead = 1.0 if self.moving.speeds[self.moving.lead] > 0 else -1.0
         forces = []
         for by_link in (
             self._by_link(self.acting.friction)[:, None] * np.sign(relative),
@@ -250,7 +249,7 @@ class InertialContacts:
             force = by_link.copy()
             np.add.at(force, bearer, -sense[:, None] * by_link)
             forces.append(force)
-        forces[0] -= lead * self._by_link(self.acting.load)[:, None]
+        forces[0] -= self.moving.way * self._by_link(self.acting.load)[:, None]
         forces.append(self._by_link(self.acting.inertia)[:, None] * state.acceleration)
         return CarriedTorques(*self._carried(state, forces))
 

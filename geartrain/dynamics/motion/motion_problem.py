@@ -44,6 +44,11 @@ class MotionProblem:
     phases: Mapping[str, float] = field(default_factory=dict)
     loops: Sequence[Loop] = ()
 
+    @property
+    def way(self) -> int:
+        """1, or -1 where the lead turns backwards about its own axis: motion counts turns and angles in its sense."""
+        return -1 if self.speeds[self.lead] < 0 else 1
+
     def ratio(self, link: str) -> Fraction:
         """Mean speed of a link over the lead's, exactly."""
         return self.speeds[link] / self.speeds[self.lead]

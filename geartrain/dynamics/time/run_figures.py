@@ -97,8 +97,8 @@ class RunFigures:
 
     @cached_property
     def turns(self) -> Floats:
-        """Turns of the lead, forwards."""
-        return np.asarray(self.of.way * self.turns_of(self.of.problem.lead), dtype=np.float64)
+        """Turns of the lead, in the sense in which it turns."""
+        return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.lead), dtype=np.float64)
 
     @cached_property
     def names(self) -> list[str]:
@@ -190,8 +190,7 @@ class RunFigures:
     @cached_property
     def differences(self) -> dict[str, Floats]:
         """By how much each output is ahead of the motion in which all drive flanks touch (rad)."""
-        motion = self.of.motion
-        turns = self.turns * self.of.way
+        motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
         at = motion.at(np.append(turns, 0.0)).error if motion.ahead.used else np.zeros((len(names), len(turns) + 1))
         found = {}
@@ -200,7 +199,8 @@ class RunFigures:
             for each in (link, base):
                 row = names.index(each)
                 mean = float(self.of.problem.ratio(each)) * tau * turns
-                parts.append(self.turned[self.of.index[each]] - mean - (at[row, :-1] - at[row, -1]))
+                touching = mean + at[row, :-1] - at[row, -1]
+                parts.append(self.turned[self.of.index[each]] - forwards * touching)
             sense = self.of.sense(link, base)
             way = -1.0 if self.of.typical(link) - sense * self.of.typical(base) < 0 else 1.0
             found[name] = way * (parts[0] - sense * parts[1])

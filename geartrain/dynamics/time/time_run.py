@@ -37,7 +37,7 @@ class TimeRun(Result):
     lead : str
         The input that sets the scale.
     rate : float
-        Its mean speed in the counted part of the run [rad/s].
+        Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards.
     step : float
         Length of a step [s].
     link : str
@@ -47,13 +47,14 @@ class TimeRun(Result):
     skip, duration : float
         Time before what is counted, and of what is counted [s].
     time, turns : array of float, (n,)
-        Of the samples: time [s], and turns of the lead.
+        Of the samples: time [s], and turns of the lead, counted the way in which it is declared to turn.
     angles, speeds : LabelledArray, (link, time)
         Of all links [rad, rad/s].
     torques : LabelledArray, (contact, time)
         Means between samples, of torques on the driven sides [N m].
     gaps, coast_gaps : LabelledArray, (pair, time)
-        By how much the driven side is off its drive flank, and off its coast flank [rad].
+        By how much the driven side is off its drive flank, and off its coast flank [rad]: drive flanks are those that
+        push while the lead turns as declared.
     outputs, ahead : LabelledArray, (output, time)
         Angles through which outputs have turned, and by how much they are ahead of `motion` [rad].
     drive : array of float, (n,)

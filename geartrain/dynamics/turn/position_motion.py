@@ -71,11 +71,10 @@ class PositionMotion:
         """Turns of the input after which every pair that is followed stands as at the start; None where none is."""
         return common_period(self.composition.used)
 
-    @cached_property
+    @property
     def way(self) -> int:
         """-1 where the input turns backwards about its own axis: motion counts in its own sense."""
-        train = self.motion.train
-        return -1 if train.speeds[train.lead] < 0 else 1
+        return self.motion.train.way
 
     @cached_property
     def senses(self) -> Floats:

@@ -114,9 +114,10 @@ def value_and_slope(laws: LawTables, which: int, S: float) -> tuple[float, float
     """A function and its derivative at a driver's angle (rad)."""
     period = laws.period[which]
     u = S - floor(S / period) * period
+    if not 0.0 <= u < period:  # rounded up to it, or so far that no digit is left, or no number
+        u = 0.0
     cell = int(u * laws.cells[which] / period)
-    if cell >= laws.cells[which]:
-        cell = laws.cells[which] - 1
+    cell = min(cell, laws.cells[which] - 1)
     piece = laws.first[laws.start[which] + cell]
     while u >= laws.ends[piece]:
         piece += 1

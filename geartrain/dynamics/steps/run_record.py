@@ -53,7 +53,8 @@ class RunRecord(NamedTuple):
     counts         (pairs and stops, COUNTS)
     angles, speeds samples, (samples, n); `forces` mean force torques between samples, (samples, pairs + stops)
     drive          mean torque of each prescribed coordinate between samples, (samples, n)
-    impacts        (room, IMPACT_COLUMNS); `numbers`: samples, impacts seen, steps not solved, pivots, steps counted
+    impacts        (room, IMPACT_COLUMNS); `numbers`: samples, impacts seen, steps not solved, pivots, steps
+                   counted, 1 where the steps diverged and the run stopped
     """
 
     energy: Floats
@@ -66,4 +67,4 @@ class RunRecord(NamedTuple):
     numbers: Ints
 
 
-SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS = range(5)
+SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)

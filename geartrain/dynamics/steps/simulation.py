@@ -14,6 +14,7 @@ from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules
 from geartrain.dynamics.steps.run_record import (
     COUNTS,
+    DIVERGED,
     ENERGIES,
     FRONT,
     IMPACT_COLUMNS,
@@ -25,6 +26,7 @@ from geartrain.dynamics.steps.run_record import (
 )
 from geartrain.dynamics.steps.time_steps import run_steps
 from geartrain.dynamics.steps.yielding_steps import YieldingTeeth, run_yielding_steps
+from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from geartrain.dynamics.contacts.tooth_yield import ToothYield
@@ -114,6 +116,7 @@ def simulate(
             own = min(piece, steps - done)
             run(own, counted)
             done += own
+            check_convergence(state, record, plan.step)
             if on_done(own) is True:
                 break
         return done
@@ -143,6 +146,14 @@ def simulate(
         pressed,
         None if teeth is None else teeth.peak,
     )
+
+
+def check_convergence(state: ContactState, record: RunRecord, step: float) -> None:
+    """Raise `QuestionError` where the steps of a run diverged."""
+    if record.numbers[DIVERGED]:
+        why = f"steps of {step:.3g} s are too long for what is stiff or heavy in this train: speeds grow without bound"
+        what = f"motion in time diverges after {state.clock[0]:.4g} s"
+        raise QuestionError(Problem(what, why, "give more `--steps`, or a shorter `step`", "--steps"))
 
 
 def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:
@@ -198,7 +209,7 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
         np.zeros((samples, rows)),
         np.zeros((samples, n)),
         np.zeros((impacts, IMPACT_COLUMNS)),
-        np.zeros(5, dtype=np.int64),
+        np.zeros(DIVERGED + 1, dtype=np.int64),
     )
 
 

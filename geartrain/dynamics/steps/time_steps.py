@@ -21,13 +21,24 @@ from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules, solve_guess
 from geartrain.dynamics.steps.guess_correction import AT_ONCE, correct_guess
 from geartrain.dynamics.steps.rest import find_idle_steps, is_at_rest, repeat_counts
-from geartrain.dynamics.steps.run_record import BACK, OPEN, PIVOTS, SAMPLES, STEPS, UNSOLVED, ContactState, RunRecord
+from geartrain.dynamics.steps.run_record import (
+    BACK,
+    DIVERGED,
+    OPEN,
+    PIVOTS,
+    SAMPLES,
+    STEPS,
+    UNSOLVED,
+    ContactState,
+    RunRecord,
+)
 from geartrain.dynamics.steps.step_account import count_contacts, count_energy, count_stops, leaps
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
+FARTHEST = 1000.0  # rad in a step: beyond, it is no motion but an error that grows
 _AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
 _NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
 _JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before
@@ -52,6 +63,9 @@ def run_steps(
         if idle > 1:
             before[:, :] = record.counts
         rounds = solve_step(system, laws, state, here, rules)
+        if diverges(here.v, rules.step):
+            record.numbers[DIVERGED] = 1
+            break
         rests = rounds == 1 and is_at_rest(state.speed, here.v, still)
         times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
@@ -86,6 +100,15 @@ def run_steps(
             if since == rules.stride:
                 end_sample(state, record, rules.stride * rules.step)
                 since = 0
+
+
+@kernel
+def diverges(speed: Floats, step: float) -> bool:
+    """Whether a link turns so far in one step, or by no number, that nothing is followed any more."""
+    near = True
+    for each in speed:
+        near = near and abs(each) * step < FARTHEST
+    return not near
 
 
 @kernel

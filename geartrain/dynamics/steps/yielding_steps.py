@@ -25,6 +25,7 @@ from geartrain.dynamics.steps.run_record import (
     BLOW_SPEED,
     BLOWS,
     CHANGES,
+    DIVERGED,
     FRICTION,
     IMPACTS,
     IMPULSE,
@@ -38,7 +39,7 @@ from geartrain.dynamics.steps.run_record import (
     RunRecord,
 )
 from geartrain.dynamics.steps.step_account import count_energy, count_gap, note_impact
-from geartrain.dynamics.steps.time_steps import add_to_sample, end_sample
+from geartrain.dynamics.steps.time_steps import add_to_sample, diverges, end_sample
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:
@@ -77,6 +78,9 @@ def run_yielding_steps(
     since = 0
     for _ in range(steps):
         rounds = solve_midpoint_step(system, laws, state, here, rules, teeth)
+        if diverges(here.v, rules.step):
+            record.numbers[DIVERGED] = 1
+            break
         if rounds > rules.rounds:
             record.numbers[UNSOLVED] += 1
         for d in range(len(here.v)):

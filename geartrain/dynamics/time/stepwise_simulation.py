@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.dynamics.steps.run_record import BLOW_ENERGY, TIME_APART, UNSOLVED, RunRecord
-from geartrain.dynamics.steps.simulation import StepPlan, empty_equations, empty_record, start_state, step_rules
+from geartrain.dynamics.steps.simulation import (
+    StepPlan,
+    check_convergence,
+    empty_equations,
+    empty_record,
+    start_state,
+    step_rules,
+)
 from geartrain.dynamics.steps.time_steps import run_steps
 from geartrain.errors import Problem, QuestionError, suggest
 
@@ -277,6 +284,7 @@ class Simulation:
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)
         self._run(self._system, self._model.laws, self._state, self._room, record, rules, steps, True)
+        check_convergence(self._state, record, self.step)
 
     def _read(self, record: RunRecord, steps: int) -> None:
         time = steps * self.step

@@ -38,8 +38,13 @@ def step_of(step: Composed) -> ErrorStep:
     )
 
 
-def laws_and_sources(composition: ErrorComposition) -> tuple[tuple[ErrorLawTable, ...], tuple[ErrorSource, ...]]:
-    """Every source with its law; pairs alike share one."""
+def laws_and_sources(
+    composition: ErrorComposition, way: int = 1
+) -> tuple[tuple[ErrorLawTable, ...], tuple[ErrorSource, ...]]:
+    """Every source with its law; pairs alike share one.
+
+    way   -1 where the lead turns backwards: a composition counts in the lead's sense, a scene about declared axes
+    """
     laws: dict[tuple[float, bytes, bytes], ErrorLawTable] = {}
     numbers: dict[tuple[float, bytes, bytes], int] = {}
     sources = []
@@ -57,10 +62,10 @@ def laws_and_sources(composition: ErrorComposition) -> tuple[tuple[ErrorLawTable
                 carrier=joint.carrier,
                 driver_sense=source.driver_sense,
                 carrier_sense=source.carrier_sense,
-                cycles=fraction_text(source.cycles),
+                cycles=fraction_text(way * source.cycles),
                 start=source.start,
-                forward=source.forward,
-                sense=source.sense,
+                forward=way * source.forward,
+                sense=way * source.sense,
             )
         )
     return tuple(laws.values()), tuple(sources)
@@ -110,7 +115,7 @@ class InitialPosition:
 class MovementStart:
     """The movement, and the pose at its beginning.
 
-    back     the movement for negative turns, on the other flanks; None where it is the same
+    back     the movement against the declared sense of the lead, on the other flanks; None where it is the same
     rest     angle A of each link about its body's direction after no turn (rad)
     driving  by pair or coupling that ripples
     """
@@ -154,14 +159,15 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
 
     composition = motion.ahead
     _try(composition, float(motion.period or 1))
-    error = composition.at(np.zeros(1)).error[:, 0]
+    error, way = composition.at(np.zeros(1)).error[:, 0], motion.train.way
     links = tuple(stage.train.declaration.links)
     rest = {
-        link: stage.sense(link) * (stage.start(link) + float(each)) for link, each in zip(links, error, strict=True)
+        link: stage.sense(link) * (stage.start(link) + way * float(each))
+        for link, each in zip(links, error, strict=True)
     }
     own = error - np.array(composition.offsets) if composition.offsets else error
-    driving = dict(_settings(composition, own))
-    movement = _written(stage, composition)
+    driving = dict(_settings(composition, own, way))
+    movement = _written(stage, composition, way)
     back, notices = _backward(stage, motion, movement)
     return MovementStart(movement, rest, driving, motion, notices, back)
 
@@ -175,20 +181,20 @@ def _try(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """How errors follow from negative turns, if otherwise than from positive ones; and why they cannot be followed."""
+    """How errors follow where the lead turns back, if otherwise than ahead; and why they cannot be followed."""
     try:
         composition = motion.back
         _try(composition, -float(motion.period or 1))
-        back = _written(stage, composition)
+        back = _written(stage, composition, motion.train.way)
     except GearTrainError as error:
         mean = _in_the_mean(stage, error.problems)
         return mean.movement, mean.notices
     return (None if plain(back) == plain(ahead) else back), ()
 
 
-def _written(stage: SceneContext, composition: ErrorComposition) -> Movement:
+def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
     """Exact where nothing ripples: teeth that keep their ratio may still have play, and then their offsets stand."""
-    laws, sources = laws_and_sources(composition)
+    laws, sources = laws_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
         "real" if sources else "exact",
@@ -196,15 +202,15 @@ def _written(stage: SceneContext, composition: ErrorComposition) -> Movement:
         laws=laws,
         sources=sources,
         steps=tuple(step_of(step) for step in composition.steps),
-        offsets={link: each for link, each in zip(links, composition.offsets, strict=False) if each},
+        offsets={link: way * each for link, each in zip(links, composition.offsets, strict=False) if each},
     )
 
 
-def _settings(composition: ErrorComposition, error: Floats) -> Iterator[tuple[str, InitialPosition]]:
+def _settings(composition: ErrorComposition, error: Floats, way: int) -> Iterator[tuple[str, InitialPosition]]:
     for source in composition.sources:
         S = source.start + composition.driver_shift(source, error)
         driver = composition.spread.links[composition.spread.joints[source.pair].driver]
-        yield source.id, InitialPosition(driver, source.forward, S, float(source.law.error(S)))
+        yield source.id, InitialPosition(driver, way * source.forward, S, float(source.law.error(S)))
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:

@@ -155,7 +155,7 @@ class Scene:
     notices : sequence of mapping
         What could not be placed or followed, and why: {"what", "why", "fix", "place"}.
     back : Movement or None
-        The movement for negative turns, when the other flanks drive; None where it is the same.
+        The movement while the lead turns against its declared sense, on the other flanks; None where it is the same.
     unit_days : str or None
         Length of the unit in days, exact, where it is a time; None elsewhere.
     run : SceneRun or None

@@ -187,7 +187,7 @@ class _Mounting:
         return forward if at == driver else forward * self.meetings[circuit.id].same
 
     def _forward(self, link: str, carrier: str) -> int:
-        own, base = self.stage.ratio(link) or 0, self.stage.ratio(carrier) or 0
+        own, base = self.stage.speed(link) or 0, self.stage.speed(carrier) or 0
         return -1 if self.stage.sense(link) * own < self.stage.sense(carrier) * base else 1
 
     def _pitch(self, wheel: str) -> float:

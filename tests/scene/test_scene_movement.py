@@ -105,18 +105,22 @@ def off(a: float, b: float) -> float:
 
 
 def compared(train: GearTrain, state: str | None = None, turns: Sequence[float] = TURNS) -> float:
-    """The greatest difference of any output between the scene's data and the train's motion (rad)."""
+    """The greatest difference of any output between the scene's data and the train's motion (rad).
+
+    A scene counts about declared axes; motion counts turns and angles in the sense in which the lead turns.
+    """
     scene = drawn(train, state)
+    way = -1 if Fraction(scene["step"]) < 0 else 1
     reader = Reader(scene)
     motion = train.motion(state)
     tallies, passage = motion.tallies(), motion.at(np.array(turns))
     worst = 0.0
     for column, t in enumerate(turns):
-        angles = reader.angles(t)
+        angles = reader.angles(way * t)
         for row, pointer in enumerate(scene["pointers"]):
             mean = tallies[row].ratio * Fraction(t)
             wanted = motion.starts[row] + 2 * pi * float(mean - floor(mean)) + float(passage.error[row, column])
-            worst = max(worst, off(pointer_angle(scene, angles, pointer), wanted))
+            worst = max(worst, off(pointer_angle(scene, angles, pointer), way * wanted))
     return worst
 
 
@@ -155,17 +159,18 @@ def test_phases_starting_angles_and_opposed_axes_are_kept(form: str, driver: str
 def compared_backwards(train: GearTrain) -> float:
     """As `compared`, for a run of negative turns."""
     scene = drawn(train)
+    way = -1 if Fraction(scene["step"]) < 0 else 1
     reader = Reader(scene, back=True)
     motion = train.motion()
     tallies, worst = motion.tallies(), 0.0
     for stretch in (-0.8125, -1234.5):
         for passage in motion.passages(stretch, 6, first=1):
             for column, t in enumerate(passage.turns):
-                angles = reader.angles(float(t))
+                angles = reader.angles(way * float(t))
                 for row, pointer in enumerate(scene["pointers"]):
                     mean = tallies[row].ratio * Fraction(float(t))
                     wanted = motion.starts[row] + 2 * pi * float(mean - floor(mean)) + passage.error[row, column]
-                    worst = max(worst, off(pointer_angle(scene, angles, pointer), float(wanted)))
+                    worst = max(worst, off(pointer_angle(scene, angles, pointer), way * float(wanted)))
     return worst
 
 
@@ -178,8 +183,21 @@ def test_backwards_the_plain_data_move_every_pointer_as_the_train_does(name: str
 @pytest.mark.parametrize(
     "form", ["form: triangular, half_angle: 30 deg, clearance: 1.01", "form: involute, backlash: 0.1"]
 )
-def test_backwards_play_and_phases_are_kept(form: str, driver: str) -> None:
-    assert compared_backwards(geartrain.load(PAIRS.format(form=form, driver=driver, speed="1"))) < AGREE
+@pytest.mark.parametrize("speed", ["1", "-3/7"])
+def test_backwards_play_and_phases_are_kept(form: str, driver: str, speed: str) -> None:
+    assert compared_backwards(geartrain.load(PAIRS.format(form=form, driver=driver, speed=speed))) < AGREE
+
+
+def test_the_scene_of_a_train_that_is_declared_to_turn_backwards_is_the_mirror_image() -> None:
+    text = PAIRS.format(form=TRIANGULAR, driver="p", speed="1")
+    mirrored = text.replace("inputs: {a: 1}", "inputs: {a: -1}")
+    mirrored = mirrored.replace("angle: 17 deg", "angle: -17 deg").replace("angle: -3 deg", "angle: 3 deg")
+    ahead, back = drawn(geartrain.load(text)), drawn(geartrain.load(mirrored))
+    for other in (False, True):
+        readers = Reader(ahead, back=other), Reader(back, back=other)
+        for turns in (Fraction(0), Fraction(1, 3), Fraction(17, 7)):
+            forth, mirror = (reader.errors(way * turns) for way, reader in zip((1, -1), readers, strict=True))
+            assert mirror == pytest.approx([-each for each in forth], abs=1e-13)
 
 
 def test_the_way_back_is_written_only_where_it_differs() -> None:

@@ -188,8 +188,8 @@ class Motion:
 
     @property
     def starts(self) -> list[float]:
-        """Starting angle of each output (rad)."""
-        angles = np.array([self.train.angles.get(link, 0.0) for link in self.spread.links])
+        """Starting angle of each output (rad), in the sense of the input as its motion is."""
+        angles = self.train.way * np.array([self.train.angles.get(link, 0.0) for link in self.spread.links])
         return [seen.difference(angles) for seen in self._seen]
 
     def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:

@@ -135,7 +135,9 @@ class PairErrors:
             teeth = abs((circuit.b, circuit.a)[driven])
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
-        start = self._phase(circuit, ahead, driven) + forward * (senses[0] * angles[0] - senses[1] * angles[1])
+        # phases count forwards, angles about declared axes
+        turned = self.train.way * forward * (senses[0] * angles[0] - senses[1] * angles[1])
+        start = self._phase(circuit, ahead, driven) + turned
         cycles = abs(driver) * teeth
         if cycles > _FASTEST:
             raise GearTrainError(

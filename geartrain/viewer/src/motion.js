@@ -61,7 +61,7 @@ export class Machine {
   errors(turns = this.turns) {
     const exact = Fraction.of(turns);
     if (!this.latest || !this.latestTurns.equals(exact)) {
-      this.latest = (exact.numerator < 0n ? this.back : this.ahead).at(exact);
+      this.latest = (exact.numerator * this.step.numerator < 0n ? this.back : this.ahead).at(exact);
       this.latestTurns = exact;
     }
     return this.latest;

@@ -8,6 +8,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.composition_arrays import ComposedSources
 from geartrain.dynamics.motion.coupled_errors import FORGIVEN, MOST_STEPS, SETTLED
+from geartrain.numerics.gauss_kernel import solve_in_place
 from geartrain.numerics.kernels import kernel
 from geartrain.teeth.transmission_kernel import law_along
 
@@ -171,26 +172,4 @@ def solve_coupled(matrix: Floats, slope: Floats, gain: Floats, right: Floats) ->
         for column in range(size):
             matrix[row, column] = -slope[row] * gain[row, column]
         matrix[row, row] += 1.0
-    for column in range(size):
-        best = column
-        for row in range(column + 1, size):
-            if abs(matrix[row, column]) > abs(matrix[best, column]):
-                best = row
-        if matrix[best, column] == 0:
-            return 0.0
-        if best != column:
-            determinant = -determinant
-            for at in range(size):
-                matrix[column, at], matrix[best, at] = matrix[best, at], matrix[column, at]
-            right[column], right[best] = right[best], right[column]
-        determinant *= matrix[column, column]
-        for row in range(column + 1, size):
-            factor = matrix[row, column] / matrix[column, column]
-            for at in range(column + 1, size):
-                matrix[row, at] -= factor * matrix[column, at]
-            right[row] -= factor * right[column]
-    for row in range(size - 1, -1, -1):
-        for at in range(row + 1, size):
-            right[row] -= matrix[row, at] * right[at]
-        right[row] /= matrix[row, row]
-    return determinant
+    return solve_in_place(matrix, right)

@@ -9,6 +9,7 @@ import numpy as np
 from geartrain.dynamics.torques.flow_patterns import NEAR
 from geartrain.dynamics.turn.position_balance import SAME, SINGULAR
 from geartrain.dynamics.turn.turn_arrays import BalanceArrays
+from geartrain.numerics.gauss_kernel import solve_in_place
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:
@@ -224,33 +225,10 @@ def _alike(values: Floats, others: Floats) -> bool:
 @kernel
 def _eliminate(matrix: Floats, values: Floats) -> bool:
     """Solve in place by Gauss with row pivots; False for a matrix that is nearly singular."""
-    size, determinant, lengths = len(values), 1.0, 1.0
-    for row in range(size):
+    lengths: float = 1.0
+    for row in range(len(values)):
         square = 0.0
-        for column in range(size):
+        for column in range(len(values)):
             square += matrix[row, column] * matrix[row, column]
         lengths *= np.sqrt(square)
-    for column in range(size):
-        best = column
-        for row in range(column + 1, size):
-            if abs(matrix[row, column]) > abs(matrix[best, column]):
-                best = row
-        if not abs(matrix[best, column]) > 0:
-            return False
-        if best != column:
-            for at in range(size):
-                matrix[column, at], matrix[best, at] = matrix[best, at], matrix[column, at]
-            values[column], values[best] = values[best], values[column]
-        determinant *= matrix[column, column]
-        for row in range(column + 1, size):
-            factor = matrix[row, column] / matrix[column, column]
-            for at in range(column + 1, size):
-                matrix[row, at] -= factor * matrix[column, at]
-            values[row] -= factor * values[column]
-    if not abs(determinant) > SINGULAR * lengths:
-        return False
-    for row in range(size - 1, -1, -1):
-        for at in range(row + 1, size):
-            values[row] -= matrix[row, at] * values[at]
-        values[row] /= matrix[row, row]
-    return True
+    return abs(solve_in_place(matrix, values)) > SINGULAR * lengths

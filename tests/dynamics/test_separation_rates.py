@@ -348,3 +348,17 @@ crank: c
     rates = {each.pair: each.rate for each in train.separation_rates().pairs}
     assert rates["c20~a30"] == pytest.approx(sqrt(float(squared.min())) / tau, rel=1e-8)
     assert rates["a~b"] == pytest.approx(2.76880500 / tau, rel=1e-8)
+
+
+def test_friction_that_is_not_counted_is_named() -> None:
+    def named(**more: object) -> tuple[str, ...]:
+        links = {"frame": {}, "a": {"wheels": {"w": 20}}, "b": {"wheels": {"v": 40}, "inertia": "1e-5 kg m2"}}
+        turning = [{"pair": ["frame", link], "axis": link.upper()} for link in "ab"]
+        gears = [{"pair": ["w", "v"], **more}]
+        train = GearTrain.declare({"links": links, "revolutes": turning, "gears": gears, "inputs": {"a": 1}})
+        return train.separation_rates().uncounted
+
+    assert named() == ()
+    assert named(efficiency=0.9) == ("w~v",)
+    assert named(efficiency=1) == ()
+    assert named(tooth_form={"form": "involute"}, friction=0.1) == ("w~v",)

@@ -31,8 +31,11 @@ def _radians_a_second(rate: str | float | None) -> float | None:
         except PydanticCustomError as error:
             raise QuestionError(Problem(f"rate: {error.message()}", "", "give one such as '1 turn/s'")) from None
     check_numbers(rate=rate)
-    if rate is not None and not 0 < abs(rate) < inf:
-        raise QuestionError(Problem(f"a rate of {rate:g} rad/s", "the train is to turn", "give one other than 0"))
+    if rate is not None and not 0 < rate < inf:
+        why = "a train turns the way its inputs are declared to"
+        raise QuestionError(
+            Problem(f"a rate of {rate:g} rad/s", why, "give one above 0, or declare inputs the other way")
+        )
     return rate
 
 

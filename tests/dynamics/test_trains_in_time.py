@@ -455,7 +455,7 @@ def test_a_kept_rate_that_an_escapement_does_not_let_pass_is_refused() -> None:
         train.dynamics(turns=1)
 
 
-@pytest.mark.parametrize("rate", ["1 furlong/s", "fast", float("nan"), 0.0, float("inf")])
+@pytest.mark.parametrize("rate", ["1 furlong/s", "fast", float("nan"), 0.0, -1.2, "-0.2 turn/s", float("inf")])
 def test_a_rate_that_is_none_is_refused(rate: str | float) -> None:
     with pytest.raises(QuestionError, match="rate"):
         moon_train().dynamics(rate=rate)

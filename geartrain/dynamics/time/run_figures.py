@@ -286,6 +286,7 @@ class RunFigures:
             "rigid" if self.of.yields is None else "compliant",
             self.of.assumed,
             max((self.of.case.restitution.get(name, 0.0) for name in self.names), default=0.0),
+            self.plan.apart,
         )
 
     def _impacts(self) -> ImpactList:

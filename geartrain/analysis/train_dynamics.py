@@ -288,12 +288,9 @@ class TrainDynamics(TrainMotion):
         inertias = self.inertias(state)
         moving = self._moving(case, without)
         acting = find_inertial_loads(self.declaration, case, self.tree, inertias, moving.speeds)
-        rubbing, uncounted = separate_rubbing(moving)
+        rubbing, uncounted = separate_rubbing(moving, self.declaration.gears)
         contacts = InertialContacts(moving, acting, rubbing=rubbing)
-        gears = ((gear.name, gear.efficiency) for gear in self.declaration.gears if gear.name not in rubbing)
-        lossy = [name for name, efficiency in gears if efficiency is not None and efficiency.forward.base < 1]
-        named = tuple(dict.fromkeys((*uncounted, *lossy)))
-        return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=named)
+        return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=uncounted)
 
     def tells_separation(self, state: str | None = None) -> bool:
         """True if `separation_rates` has an answer: a link behind the input has an inertia, and torques have units.

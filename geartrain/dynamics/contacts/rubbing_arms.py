@@ -7,7 +7,7 @@ whichever wheel puts the power in.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
+    from geartrain.train.mechanism import GearPair
 
 _ROUGH = 1e-4  # of what friction adds, where it is read between nodes
 
@@ -85,10 +86,12 @@ def _more_by_teeth(
     return np.where(touching.any(axis=0), tau * (1 / np.where(passed > 0, passed, 1.0) - 1), 0.0)
 
 
-def separate_rubbing(moving: MotionProblem) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
-    """Drive flanks that rub, of teeth that do not keep their ratio, and all other pairs and pins that rub, by name.
+def separate_rubbing(
+    moving: MotionProblem, gears: Sequence[GearPair] = ()
+) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
+    """Drive flanks that rub, of teeth that do not keep their ratio, and all other pairs and pins that lose, by name.
 
-    Teeth that friction locks somewhere are among the others.
+    Teeth that friction locks somewhere are among the others, and gears with a declared efficiency.
     """
     found: dict[str, FlankArms] = {}
     left = []
@@ -101,7 +104,11 @@ def separate_rubbing(moving: MotionProblem) -> tuple[dict[str, FlankArms], tuple
             found[mesh.name] = arms[0].__call__, arms[1].__call__
         elif mesh.rubs:
             left.append(mesh.name)
-    return found, (*left, *(joint.coupling.name for joint in moving.pins if joint.law.friction))
+    left += [joint.coupling.name for joint in moving.pins if joint.law.friction]
+    for gear in gears:
+        if gear.name not in found and gear.efficiency is not None and gear.efficiency.forward.base < 1:
+            left.append(gear.name)
+    return found, tuple(dict.fromkeys(left))
 
 
 def pin_arms(law: PinTransmission) -> Arms | None:

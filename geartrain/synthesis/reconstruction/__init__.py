@@ -1,0 +1,1 @@
+"""Reconstruction: surviving arbors and what dials show go in, every train that explains them comes out."""

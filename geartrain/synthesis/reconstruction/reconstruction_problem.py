@@ -1,0 +1,117 @@
+"""What a reconstruction is asked: surviving arbors with their wheels, dials with their speeds, what may be added.
+
+Speeds are turns per unit of the input arbor, exact, positive in one sense. The input arbor turns at `input_speed`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal
+
+NEW = "new"
+"""The place of a dial whose arbor does not survive."""
+
+
+@dataclass(frozen=True)
+class SurvivingWheel:
+    """A wheel that survives: its name and the counts it may have, each with its prior weight.
+
+    counts   teeth and weights, sorted by teeth, no count twice, weights positive; one pair where the count is sure
+    """
+
+    name: str
+    counts: tuple[tuple[int, Fraction], ...]
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether there is one count."""
+        return len(self.counts) == 1
+
+
+@dataclass(frozen=True)
+class SurvivingArbor:
+    """Wheels that are fixed together."""
+
+    name: str
+    wheels: tuple[SurvivingWheel, ...]
+
+
+@dataclass(frozen=True)
+class Dial:
+    """A pointer and the speed that it must have.
+
+    least, greatest   bounds of its speed, equal where it must be exact
+    signed            whether the sense is known; if not, bounds are those of the magnitude
+    place             the surviving arbor that carries it, `NEW`, or None where that is not known
+    """
+
+    name: str
+    least: Fraction
+    greatest: Fraction
+    signed: bool = True
+    place: str | None = None
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether one speed alone will do."""
+        return self.least == self.greatest
+
+
+@dataclass(frozen=True)
+class Additions:
+    """What may be added: so many wheels, so many arbors, counts of teeth from least to greatest, and where.
+
+    on   "any": also beside surviving wheels; "new": on new arbors alone
+    """
+
+    wheels: int
+    least: int
+    greatest: int
+    arbors: int | None = None
+    on: Literal["any", "new"] = "any"
+
+
+@dataclass(frozen=True)
+class ReconstructionProblem:
+    """Surviving arbors, dials and the rules.
+
+    meshes   pairs of names of wheels that were seen in mesh
+    apart    pairs of names of wheels that do not mesh
+    use      "wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither
+    idlers   whether a driven wheel may drive
+    """
+
+    input: SurvivingArbor
+    arbors: tuple[SurvivingArbor, ...]
+    dials: tuple[Dial, ...]
+    additions: Additions
+    input_speed: Fraction = Fraction(1)
+    meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
+    apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
+    use: Literal["wheels", "arbors", "some"] = "wheels"
+    idlers: bool = False
+
+
+@dataclass(frozen=True)
+class PlacedWheel:
+    """A wheel of a candidate: a surviving one by its name, or an added one (name None), with its count."""
+
+    name: str | None
+    teeth: int
+
+
+@dataclass(frozen=True)
+class Arbor:
+    """An arbor of a candidate and all that it drives: the canonical form, in which equal mechanisms are equal.
+
+    name     of the surviving arbor, None for an added one
+    driven   the wheel that is driven; None for the input arbor
+    dials    names of the dials that it shows, sorted
+    drives   driving wheels with the arbors that each drives, sorted
+    """
+
+    name: str | None
+    driven: PlacedWheel | None
+    dials: tuple[str, ...]
+    drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]

@@ -109,9 +109,11 @@ class Arbor:
     driven   the wheel that is driven; None for the input arbor
     dials    names of the dials that it shows, sorted
     drives   driving wheels with the arbors that each drives, sorted
+    passes   where idlers are allowed: arbors that the driven wheel itself drives, sorted
     """
 
     name: str | None
     driven: PlacedWheel | None
     dials: tuple[str, ...]
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
+    passes: tuple[Arbor, ...] = ()

@@ -1,0 +1,391 @@
+"""Every explanation of a reconstruction by plain growth of concrete trees kept in a set: slow, and hard to get wrong.
+
+An independent program: it takes from the package the words of a question alone. A tree grows by one mesh at a time, in
+every way that the rules allow, with 0 for the count of an added wheel; equal trees fall together in a set. Those that
+keep the rules get counts of teeth in every way, then dials in every way, and again equal trees fall together.
+
+A wheel is `(name, teeth)`, with the name "" of an added one. A node is `(name, driven, dials, drives)`: name "" of an
+added arbor, driven `()` at the input, drives a sorted tuple of `(wheel, sorted tuple of nodes)`. `DRIVEN` among the
+wheels that drive is the driven wheel itself, where idlers are allowed.
+"""
+
+from __future__ import annotations
+
+import itertools
+import random
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import NamedTuple
+
+from geartrain.synthesis.reconstruction.reconstruction_problem import (
+    NEW,
+    Additions,
+    Arbor,
+    Dial,
+    PlacedWheel,
+    ReconstructionProblem,
+    SurvivingArbor,
+    SurvivingWheel,
+)
+
+Wheel = tuple[str, int]
+Node = tuple  # (name, driven, dials, drives)
+
+ADDED = ""
+UNKNOWN = (ADDED, 0)
+DRIVEN = ("=", 0)
+
+
+class Counts(NamedTuple):
+    """What is found with just so many added wheels."""
+
+    added: int
+    mechanisms: int
+    bags: int
+    classes: int
+
+
+class Found(NamedTuple):
+    """All mechanisms with just so many added wheels, and their counts."""
+
+    counts: Counts
+    mechanisms: frozenset[Node]
+
+
+def explanations(problem: ReconstructionProblem) -> tuple[Found, ...]:
+    """Everything with 0, 1, ... added wheels."""
+    return tuple(
+        Found(
+            Counts(added, len(found), len({bag(tree) for tree in found}), len({ratio_class(tree) for tree in found})),
+            found,
+        )
+        for added, found in enumerate(_by_added(problem))
+    )
+
+
+def _by_added(problem: ReconstructionProblem) -> list[frozenset[Node]]:
+    found: list[set[Node]] = [set() for _ in range(problem.additions.wheels + 1)]
+    counts = range(problem.additions.least, problem.additions.greatest + 1)
+    trees: set[Node] = {(problem.input.name, (), (), ())}
+    while trees:
+        for tree in trees:
+            if _keeps_rules(tree, problem):
+                added = added_wheels(tree)
+                for teeth in itertools.product(counts, repeat=added):
+                    found[added].update(_with_dials(_filled(tree, iter(teeth)), problem))
+        trees = {grown for tree in trees for grown in _grown(tree, problem)}
+    return [frozenset(mechanisms) for mechanisms in found]
+
+
+# growth
+
+
+def _grown(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
+    """The tree with one mesh more, in every way. A leaf needs a dial, so leaves are never more than dials."""
+    rules = problem.additions
+    here = {node[0] for node in nodes(tree)}
+    survivors = {arbor.name: arbor for arbor in (problem.input, *problem.arbors)}
+    left = [arbor for arbor in problem.arbors if arbor.name not in here]
+    children: list[Node] = [(ADDED, UNKNOWN, (), ())]
+    for arbor in left:
+        children += [(arbor.name, wheel, (), ()) for wheel in _readings(arbor)]
+        if rules.on == "any":
+            children.append((arbor.name, UNKNOWN, (), ()))
+    for grown in _with_child(tree, children, survivors, problem):
+        arbors = nodes(grown)
+        if added_wheels(grown) > rules.wheels:
+            continue
+        if rules.arbors is not None and sum(arbor[0] == ADDED for arbor in arbors) > rules.arbors:
+            continue
+        if sum(not arbor[3] for arbor in arbors) <= len(problem.dials):
+            yield grown
+
+
+def _with_child(
+    node: Node, children: list[Node], survivors: dict[str, SurvivingArbor], problem: ReconstructionProblem
+) -> Iterator[Node]:
+    name, driven, dials, drives = node
+    for at, (wheel, driven_arbors) in enumerate(drives):
+        rest = drives[:at] + drives[at + 1 :]
+        for child in children:
+            yield name, driven, dials, _sorted(*rest, (wheel, _sorted(*driven_arbors, child)))
+        for nth, arbor in enumerate(driven_arbors):
+            others = driven_arbors[:nth] + driven_arbors[nth + 1 :]
+            for grown in _with_child(arbor, children, survivors, problem):
+                yield name, driven, dials, _sorted(*rest, (wheel, _sorted(*others, grown)))
+    for wheel in _new_drivers(node, survivors, problem):
+        for child in children:
+            yield name, driven, dials, _sorted(*drives, (wheel, (child,)))
+
+
+def _new_drivers(node: Node, survivors: dict[str, SurvivingArbor], problem: ReconstructionProblem) -> Iterator[Wheel]:
+    """Wheels of an arbor that drive nothing yet, and wheels that might be added to it."""
+    name, driven, _, drives = node
+    driving = {wheel[0] for wheel, _ in drives}
+    if problem.idlers and driven and DRIVEN[0] not in driving:
+        yield DRIVEN
+    if name != ADDED:
+        taken = {*driving, *driven[:1]}
+        yield from (wheel for wheel in _readings(survivors[name]) if wheel[0] not in taken)
+    if name == ADDED or problem.additions.on == "any":
+        yield UNKNOWN
+
+
+def _readings(arbor: SurvivingArbor) -> list[Wheel]:
+    return [(wheel.name, teeth) for wheel in arbor.wheels for teeth, _ in wheel.counts]
+
+
+def _filled(node: Node, teeth: Iterator[int]) -> Node:
+    """The arbor and all below it with counts for added wheels."""
+    name, driven, dials, drives = node
+    wheel = (ADDED, next(teeth)) if driven == UNKNOWN else driven
+    filled = []
+    for driving, children in drives:
+        driving = (ADDED, next(teeth)) if driving == UNKNOWN else driving
+        filled.append((driving, _sorted(*(_filled(child, teeth) for child in children))))
+    return name, wheel, dials, _sorted(*filled)
+
+
+def _sorted(*parts: tuple) -> tuple:
+    return tuple(sorted(parts))
+
+
+# what a tree holds
+
+
+def nodes(node: Node) -> list[Node]:
+    """The arbor and all below it."""
+    return [node, *(below for _, children in node[3] for child in children for below in nodes(child))]
+
+
+def added_wheels(tree: Node) -> int:
+    """How many wheels are added."""
+    return sum((node[1][:1] == (ADDED,)) + sum(wheel[0] == ADDED for wheel, _ in node[3]) for node in nodes(tree))
+
+
+def meshes(node: Node) -> list[tuple[Wheel, Wheel]]:
+    """Wheels that drive with those that they drive."""
+    found = []
+    for wheel, children in node[3]:
+        for child in children:
+            found.append((node[1] if wheel == DRIVEN else wheel, child[1]))
+            found += meshes(child)
+    return found
+
+
+def speeds(node: Node, speed: Fraction) -> list[Fraction]:
+    """Speeds of `nodes`, in their order."""
+    found = [speed]
+    for wheel, children in node[3]:
+        teeth = (node[1] if wheel == DRIVEN else wheel)[1]
+        for child in children:
+            found += speeds(child, -speed * teeth / child[1][1])
+    return found
+
+
+def _keeps_rules(tree: Node, problem: ReconstructionProblem) -> bool:
+    pairs = meshes(tree)
+    seen = {frozenset((driving[0], driven[0])) for driving, driven in pairs}
+    if not problem.meshes <= seen or problem.apart & seen:
+        return False
+    if problem.use == "wheels":
+        meshing = {wheel[0] for pair in pairs for wheel in pair}
+        return all(wheel.name in meshing for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels)
+    if problem.use == "arbors":
+        return {arbor.name for arbor in problem.arbors} <= {node[0] for node in nodes(tree)}
+    return True
+
+
+# dials
+
+
+def _with_dials(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
+    arbors = nodes(tree)
+    turning = speeds(tree, problem.input_speed)
+    leaves = {at for at, node in enumerate(arbors) if not node[3]}
+    fitting = [
+        [at for at, node in enumerate(arbors) if _at_place(node, dial) and _fits(turning[at], dial)]
+        for dial in problem.dials
+    ]
+    for places in itertools.product(*fitting):
+        if leaves <= set(places):
+            shown: dict[int, list[str]] = {}
+            for dial, at in zip(problem.dials, places, strict=True):
+                shown.setdefault(at, []).append(dial.name)
+            yield _dialled(tree, shown, itertools.count())
+
+
+def _at_place(node: Node, dial: Dial) -> bool:
+    return dial.place is None or node[0] == (ADDED if dial.place == NEW else dial.place)
+
+
+def _fits(speed: Fraction, dial: Dial) -> bool:
+    return dial.least <= (speed if dial.signed else abs(speed)) <= dial.greatest
+
+
+def _dialled(node: Node, shown: dict[int, list[str]], numbers: Iterator[int]) -> Node:
+    name, driven, _, drives = node
+    dials = tuple(sorted(shown.get(next(numbers), [])))
+    below = [(wheel, [_dialled(child, shown, numbers) for child in children]) for wheel, children in drives]
+    return name, driven, dials, _sorted(*((wheel, _sorted(*children)) for wheel, children in below))
+
+
+# when two are the same
+
+
+def _paths(node: Node, before: tuple = ()) -> Iterator[tuple[str, tuple]]:
+    """Each dial with the arbors on its path: `(arbor, driven wheel, driving wheel)`, the last one with `()`."""
+    for dial in node[2]:
+        yield dial, (*before, (node[0], node[1], ()))
+    for wheel, children in node[3]:
+        for child in children:
+            yield from _paths(child, (*before, (node[0], node[1], node[1] if wheel == DRIVEN else wheel)))
+
+
+def bag(tree: Node) -> tuple:
+    """For every dial, the multiset of oriented arbors on its path."""
+    return _sorted(*((dial, _sorted(*path)) for dial, path in _paths(tree)))
+
+
+def ratio_class(tree: Node) -> tuple:
+    """For every dial, the multisets of driving and of driven wheels on its path."""
+    return _sorted(
+        *(
+            (dial, _sorted(*(step[2] for step in path[:-1])), _sorted(*(step[1] for step in path[1:])))
+            for dial, path in _paths(tree)
+        )
+    )
+
+
+# between these trees and those of the package
+
+
+def concrete(arbor: Arbor) -> Node:
+    """A candidate of the package as a tree of this module."""
+    driven = _wheel(arbor.driven) if arbor.driven else ()
+    drives = [(_wheel(wheel), _sorted(*map(concrete, children))) for wheel, children in arbor.drives]
+    if arbor.passes:
+        drives.append((DRIVEN, _sorted(*map(concrete, arbor.passes))))
+    return arbor.name or ADDED, driven, _sorted(*arbor.dials), _sorted(*drives)
+
+
+def _wheel(wheel: PlacedWheel) -> Wheel:
+    return wheel.name or ADDED, wheel.teeth
+
+
+# questions
+
+
+def sure_arbor(name: str, **teeth: int) -> SurvivingArbor:
+    """A surviving arbor whose counts are sure."""
+    wheels = (SurvivingWheel(wheel, ((count, Fraction(1)),)) for wheel, count in teeth.items())
+    return SurvivingArbor(name, tuple(wheels))
+
+
+def exact_dial(name: str, speed: Fraction | int | str, *, signed: bool = True, place: str | None = None) -> Dial:
+    """A dial of one speed; the magnitude alone is kept where the sense is not known."""
+    wanted = Fraction(speed) if signed else abs(Fraction(speed))
+    return Dial(name, wanted, wanted, signed, place)
+
+
+def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> ReconstructionProblem:
+    """A small question that mostly has an answer: a random train, of which some wheels are then lost.
+
+    Parameters
+    ----------
+    seed : int
+    wheels : int, default 2
+        The most wheels that may be added.
+    idlers : bool, default False
+        Whether a driven wheel may drive, in half of the questions.
+    """
+    chance = random.Random(seed)
+    least = chance.randint(6, 12)
+    greatest = least + chance.randint(1, 4)
+    lost = wheels
+    trees = [_Grown(0, None, None)]
+    for number in range(1, chance.randint(2, 4)):
+        parent = chance.choice(trees)
+        wheel = parent.driver(chance, least, greatest)
+        trees.append(_Grown(number, (parent, wheel), chance.randint(least, greatest)))
+    speeds_of = {arbor.number: arbor.speed() for arbor in trees}
+    for arbor in chance.sample(trees[1:], len(trees) - 1):
+        if len(arbor.counts()) <= lost and chance.random() < 0.7:
+            arbor.survives = False
+            lost -= len(arbor.counts())
+    for arbor in trees:
+        if lost and arbor.survives and len(arbor.drivers) > 1 and chance.random() < 0.3:
+            arbor.hidden = len(arbor.drivers) - 1
+            lost -= 1
+    leaves = [arbor for arbor in trees if not arbor.drivers]
+    shown = leaves + [arbor for arbor in trees[1:] if arbor.drivers and chance.random() < 0.2]
+    survivors = tuple(_survivor(arbor, chance, least, greatest) for arbor in trees if arbor.survives)
+    dials = tuple(_random_dial(chance, arbor, speeds_of[arbor.number]) for arbor in shown[:3])
+    names = [wheel.name for arbor in survivors for wheel in arbor.wheels]
+    pairs = [frozenset(pair) for pair in itertools.combinations(names, 2)]
+    return ReconstructionProblem(
+        input=survivors[0],
+        arbors=survivors[1:],
+        dials=dials,
+        additions=Additions(
+            wheels,
+            least,
+            greatest,
+            arbors=chance.choice((None, None, None, 1)),
+            on=chance.choice(("any", "any", "new")),
+        ),
+        input_speed=Fraction(chance.choice((1, 1, 1, -2))) if not any(dial.place for dial in dials) else Fraction(1),
+        meshes=frozenset(chance.sample(pairs, 1)) if pairs and chance.random() < 0.1 else frozenset(),
+        apart=frozenset(chance.sample(pairs, 1)) if pairs and chance.random() < 0.2 else frozenset(),
+        use=chance.choice(("wheels", "wheels", "arbors", "some")),
+        idlers=idlers and chance.random() < 0.5,
+    )
+
+
+class _Grown:
+    """An arbor of a random train."""
+
+    def __init__(self, number: int, parent: tuple[_Grown, int] | None, driven: int | None) -> None:
+        self.number = number
+        self.parent = parent
+        self.driven = driven
+        self.drivers: list[int] = []
+        self.survives = True
+        self.hidden = 0
+
+    def driver(self, chance: random.Random, least: int, greatest: int) -> int:
+        if not self.drivers or chance.random() < 0.4:
+            self.drivers.append(chance.randint(least, greatest))
+        return chance.choice(self.drivers)
+
+    def counts(self) -> list[int]:
+        return ([] if self.driven is None else [self.driven]) + self.drivers
+
+    def speed(self) -> Fraction:
+        if self.parent is None or self.driven is None:
+            return Fraction(1)
+        arbor, wheel = self.parent
+        return -arbor.speed() * Fraction(wheel, self.driven)
+
+
+def _survivor(arbor: _Grown, chance: random.Random, least: int, greatest: int) -> SurvivingArbor:
+    counts = arbor.counts()
+    if arbor.hidden:
+        counts = counts[: len(counts) - arbor.hidden]
+    wheels = []
+    for number, teeth in enumerate(counts):
+        readings = {teeth: Fraction(2)}
+        if chance.random() < 0.15:
+            readings[teeth + chance.choice((-1, 1))] = Fraction(1)
+        wheels.append(SurvivingWheel(f"w{arbor.number}{'abcdef'[number]}", tuple(sorted(readings.items()))))
+    return SurvivingArbor(f"A{arbor.number}", tuple(wheels))
+
+
+def _random_dial(chance: random.Random, arbor: _Grown, speed: Fraction) -> Dial:
+    signed = chance.random() < 0.7
+    wanted = speed if signed else abs(speed)
+    slack = abs(speed) / 50 if chance.random() < 0.2 else Fraction(0)
+    place = None
+    if chance.random() < 0.4:
+        place = f"A{arbor.number}" if arbor.survives else NEW
+    return Dial(f"D{arbor.number}", wanted - slack, wanted + slack, signed, place)

@@ -321,8 +321,13 @@ def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> Recon
     shown = leaves + [arbor for arbor in trees[1:] if arbor.drivers and chance.random() < 0.2]
     survivors = tuple(_survivor(arbor, chance, least, greatest) for arbor in trees if arbor.survives)
     dials = tuple(_random_dial(chance, arbor, speeds_of[arbor.number]) for arbor in shown[:3])
-    names = [wheel.name for arbor in survivors for wheel in arbor.wheels]
-    pairs = [frozenset(pair) for pair in itertools.combinations(names, 2)]
+    pairs = [
+        frozenset((first.name, second.name))
+        for one, other in itertools.combinations(survivors, 2)
+        for first in one.wheels
+        for second in other.wheels
+    ]
+    chance.shuffle(pairs)
     return ReconstructionProblem(
         input=survivors[0],
         arbors=survivors[1:],
@@ -335,8 +340,8 @@ def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> Recon
             on=chance.choice(("any", "any", "new")),
         ),
         input_speed=Fraction(chance.choice((1, 1, 1, -2))) if not any(dial.place for dial in dials) else Fraction(1),
-        meshes=frozenset(chance.sample(pairs, 1)) if pairs and chance.random() < 0.1 else frozenset(),
-        apart=frozenset(chance.sample(pairs, 1)) if pairs and chance.random() < 0.2 else frozenset(),
+        meshes=frozenset(pairs[:1]) if chance.random() < 0.1 else frozenset(),
+        apart=frozenset(pairs[1:2]) if chance.random() < 0.2 else frozenset(),
         use=chance.choice(("wheels", "wheels", "arbors", "some")),
         idlers=idlers and chance.random() < 0.5,
     )

@@ -66,7 +66,7 @@ class GearTrain(TrainInTime):
         DeclarationError
             With the place of everything that is wrong.
         """
-        if "extends" in data:
+        if "extends" in data or "reconstruct" in data:  # evidence is refused there
             from geartrain.train.declaration_files import read_declaration
 
             return cls(read_declaration(data))

@@ -31,6 +31,7 @@ from geartrain.train.mechanism import (
 )
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import period_table
+from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.state_case import StateCase
 from geartrain.train.states import Clutch, Erratum, Remove, State
 
@@ -114,6 +115,9 @@ class Train(Declared):
     dials: ByName[Annotated[Dial, Nothing]] = Field({}, validate_default=True, description="Dials by name")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="What the train is asked for, by name"
+    )
+    reconstruct: Reconstruction | None = Field(
+        None, description="Makes this evidence of a train that is to be found, not a train"
     )
 
     _marks: Marks | None = PrivateAttr(None)

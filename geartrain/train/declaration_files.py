@@ -19,26 +19,68 @@ _MOST_BYTES = 64 * 2**20
 _MOST_PARENTS = 2000
 
 
+_EVIDENCE = "evidence"
+"""Folder of the shipped trains whose files are evidence."""
+
+
 @cache
 def shipped() -> Mapping[str, Path]:
     """The trains that come with geartrain, by name."""
+    return MappingProxyType({path.stem: path for path in _shipped_files() if path.parent.name != _EVIDENCE})
+
+
+@cache
+def shipped_evidence() -> Mapping[str, Path]:
+    """What survives of trains, as it comes with geartrain, by name."""
+    return MappingProxyType({path.stem: path for path in _shipped_files() if path.parent.name == _EVIDENCE})
+
+
+def _shipped_files() -> list[Path]:
     package = Path(__file__).resolve().parent.parent
     home = next((folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None)
-    return MappingProxyType({path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {})
+    return sorted(home.rglob("*.yaml")) if home else []
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
     """A train from a YAML file, the name of a shipped train, YAML text (of several lines), or plain data.
 
-    Wheels may be without a tooth count that is still to be found. Raises `DeclarationError`.
+    Wheels may be without a tooth count that is still to be found. Raises `DeclarationError`, also for evidence.
     """
+    train = _read_source(source, shipped())
+    check_is_train(train)
+    return train
+
+
+def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
+    """A declaration with `reconstruct`, from a YAML file, the name of shipped evidence, YAML text, or plain data.
+
+    Raises `DeclarationError`, also for a train.
+    """
+    evidence = _read_source(source, shipped_evidence())
+    if evidence.reconstruct is None:
+        what = f"'{evidence.name}' is no evidence"
+        fix = "add `reconstruct:` with what may be added, such as `add: {wheels: 2, teeth: [12, 225]}`"
+        raise DeclarationError(Problem(what, "it does not say what is to be reconstructed", fix, evidence.place()))
+    return evidence
+
+
+def check_is_train(train: Train) -> None:
+    """Raise `DeclarationError` for evidence of a train that is still to be found."""
+    if train.reconstruct is not None:
+        what = f"'{train.name}' is evidence, not yet a train"
+        why = "it says by `reconstruct` that who meshes with whom is to be found"
+        fix = "`geartrain reconstruct` finds the trains that explain it"
+        raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
+
+
+def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Path]) -> Train:
     if isinstance(source, Mapping):
         if "extends" not in source and "remove" not in source:
             return declare(source)
         return _build(node_from_data(source), Path.cwd(), (), "train")
     if isinstance(source, str) and "\n" in source:
         return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
-    path = _find(source)
+    path = _find(source, known)
     return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
 
 
@@ -106,20 +148,21 @@ def _exists(path: Path) -> bool:
         return False
 
 
-def _find(source: str | Path) -> Path:
+def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
     path = Path(source)
     if _exists(path):
         return path
-    if str(source) in shipped():
-        return shipped()[str(source)]
-    within = next((found for found in shipped().values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
+    if str(source) in known:
+        return known[str(source)]
+    everything = [*shipped().values(), *shipped_evidence().values()]
+    within = next((found for found in everything if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
     if within is not None:
         return within
     raise DeclarationError(
         Problem(
             "there is no such file",
             f"and no shipped train is called '{path.stem}'",
-            suggest(path.stem, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True),
+            suggest(path.stem, known, otherwise="`geartrain list` shows the shipped trains", wide=True),
             str(source),
         )
     )

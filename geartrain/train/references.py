@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
 from geartrain.train.outputs import Output
+from geartrain.train.reconstruction import NEW_ARBOR
 from geartrain.train.unit_consistency import declared_units, mixed_inputs, mixed_torques, rates, target_units
 
 
@@ -22,6 +23,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _prescriptions(train)
     yield from _outputs(train)
     yield from _sources(train)
+    yield from _reconstruction(train)
     yield from declared_units(train)
 
 
@@ -31,7 +33,9 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
 
 
 def _links(train: Train) -> Iterator[Problem]:
-    links = train.links
+    links: Collection[str] = train.links
+    if train.reconstruct is not None:  # evidence need not say that there is a frame
+        links = {train.frame, *links}
     if train.frame not in links and "frame" not in train.model_fields_set:
         yield Problem(
             "no link 'frame'",
@@ -229,7 +233,8 @@ def _outputs(train: Train) -> Iterator[Problem]:
 
 def _output(train: Train, name: str, output: Output, loc: Loc, link_given: bool = False) -> Iterator[Problem]:
     link = output.of if output.of is not None else name
-    if not link_given and link not in train.links:
+    to_be_found = train.reconstruct is not None and output.of in (None, NEW_ARBOR)
+    if not link_given and not to_be_found and link not in train.links:
         yield _unknown(train, "link", link, train.links, *loc)
     if output.relative_to is not None and output.relative_to not in train.links:
         yield _unknown(train, "link", output.relative_to, train.links, *loc, "relative_to")
@@ -268,3 +273,34 @@ def _sources(train: Train) -> Iterator[Problem]:
 def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]:
     if key is not None and key not in train.sources:
         yield _unknown(train, "source", key, train.sources, *loc)
+
+
+def _reconstruction(train: Train) -> Iterator[Problem]:
+    """Wheels and links that a question of reconstruction names."""
+    asked = train.reconstruct
+    if asked is None:
+        return
+    if NEW_ARBOR in train.links:
+        yield Problem(
+            f"a surviving link is called '{NEW_ARBOR}'",
+            f"in evidence `of: {NEW_ARBOR}` says that the arbor of a pointer does not survive",
+            "rename the link",
+            train.place("links", NEW_ARBOR),
+        )
+    for at, pair in enumerate(asked.apart):
+        for wheel in pair:
+            if wheel not in train.wheels:
+                yield _unknown(train, "wheel", wheel, train.wheels, "reconstruct", "apart", at)
+    seen = {frozenset(gear.pair) for gear in train.gears}
+    for at, pair in enumerate(asked.apart):
+        if frozenset(pair) in seen:
+            yield Problem(
+                f"'{pair[0]}' and '{pair[1]}' are said to mesh and not to mesh",
+                "`gears` holds the pair too",
+                "take it out of one of them",
+                train.place("reconstruct", "apart", at),
+            )
+    for at, coupling in enumerate(asked.given):
+        for link in coupling.pair:
+            if link not in train.links:
+                yield _unknown(train, "link", link, train.links, "reconstruct", "given", at, "pair")

@@ -73,6 +73,15 @@ class Additions:
 
 
 @dataclass(frozen=True)
+class PriorFactors:
+    """By what factor a candidate is less probable for each added wheel, added arbor and unused surviving wheel."""
+
+    wheel: Fraction = Fraction(10)
+    arbor: Fraction = Fraction(10)
+    unused: Fraction = Fraction(100)
+
+
+@dataclass(frozen=True)
 class ReconstructionProblem:
     """Surviving arbors, dials and the rules.
 
@@ -91,6 +100,7 @@ class ReconstructionProblem:
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
     use: Literal["wheels", "arbors", "some"] = "wheels"
     idlers: bool = False
+    factors: PriorFactors = PriorFactors()
 
 
 @dataclass(frozen=True)

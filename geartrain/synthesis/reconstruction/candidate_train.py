@@ -1,0 +1,188 @@
+"""From a candidate to a complete declaration: what survives as it was declared, what is added marked as hypothetical.
+
+Names do not depend on anything but the evidence and the candidate, so that the same candidate is the same text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from geartrain.numerics.decimal_text import fraction_text
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
+from geartrain.train import Train, declare
+from geartrain.train.yaml_nodes import as_yaml
+
+ADDED_NOTE = "added by reconstruct"
+_LEFT_OUT = {"name", "title", "extends", "remove", "reconstruct", "links", "axes", "revolutes", "gears", "outputs"}
+
+
+def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
+    """A candidate as a checked declaration.
+
+    evidence   what it explains
+    arbor      the candidate, from its input on
+    name       of the train
+    """
+    return declare(candidate_data(evidence, arbor, name))
+
+
+def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
+    """A candidate as YAML, the same text for the same candidate."""
+    return as_yaml(candidate_data(evidence, arbor, name))
+
+
+def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
+    """A candidate with the keys of a declaration."""
+    given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
+    train = _Construction(evidence, given)
+    train.add(arbor)
+    kept = {key: value for key, value in given.items() if key not in _LEFT_OUT}
+    about = {"title": f"{given['title']}, as {name}"} if given.get("title") else {}
+    data = {"name": name, **about, **kept, "frame": evidence.frame, **train.parts()}
+    unused = [link for link in evidence.links if link not in (*train.links, evidence.frame)]
+    if unused:
+        said = f"Not used: {', '.join(unused)}."
+        data["note"] = f"{kept['note']} {said}" if kept.get("note") else said
+    return data
+
+
+@dataclass
+class _Construction:
+    """A declaration that is put together arbor by arbor."""
+
+    evidence: Train
+    given: Mapping[str, Any]
+    links: dict[str, Any] = field(default_factory=dict)
+    revolutes: list[dict[str, Any]] = field(default_factory=list)
+    gears: list[dict[str, Any]] = field(default_factory=list)
+    shown: dict[str, tuple[str, Fraction]] = field(default_factory=dict)
+    wheels: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.wheels.update(self.evidence.wheels)
+
+    def add(self, source: Arbor) -> None:
+        """All arbors of a candidate."""
+        speed = self.evidence.case(None).inputs[source.name or ""]
+        waiting: list[tuple[Arbor, str, Fraction]] = [(source, "", speed)]
+        while waiting:
+            arbor, driving, speed = waiting.pop()
+            link, driven = self._link(arbor), ""
+            if arbor.driven is not None:
+                driven = self._wheel(link, arbor.driven)
+                self.gears.append(self._gear(driving, driven))
+            self.shown.update(dict.fromkeys(arbor.dials, (link, speed)))
+            below: list[tuple[Arbor, str, Fraction]] = []
+            if arbor.driven is not None:
+                below += _driven_by(arbor.passes, driven, arbor.driven.teeth, speed)
+            for wheel, children in sorted(arbor.drives, key=_drive_order):
+                same = arbor.driven is not None and wheel.name is not None and wheel.name == arbor.driven.name
+                name = driven if same else self._wheel(link, wheel)
+                below += _driven_by(children, name, wheel.teeth, speed)
+            waiting += reversed(below)
+
+    def parts(self) -> dict[str, Any]:
+        """What differs from the evidence."""
+        frame = self.evidence.frame
+        links = {frame: self.given["links"].get(frame, {})}
+        links |= {link: self.links[link] for link in (*self.evidence.links, *self.links) if link in self.links}
+        labels = {joint["axis"] for joint in self.revolutes}
+        axes = {label: axis for label, axis in self.given.get("axes", {}).items() if label in labels}
+        outputs = {name: self._output(name) for name in self.evidence.outputs}
+        found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, "outputs": outputs}
+        return {"axes": axes, **found} if axes else found
+
+    def _link(self, arbor: Arbor) -> str:
+        frame, joints = self.evidence.frame, self.given.get("revolutes", ())
+        taken = {*self.evidence.links, *self.links, frame}
+        if arbor.name is None:
+            link = _free_name(arbor.dials[0], "arbor", taken) if arbor.dials else _numbered("new", taken)
+            self.links[link] = {"wheels": {}, "note": ADDED_NOTE}
+        else:
+            link = arbor.name
+            self.links[link] = dict(self.given["links"][link] or {})
+        joint = next((joint for joint in joints if set(joint["pair"]) == {frame, link}), None)
+        if joint is None:
+            labels = {joint["axis"] for joint in (*joints, *self.revolutes)} | set(self.evidence.axes)
+            joint = {"pair": [frame, link], "axis": _free_name(link, "axis", labels)}
+        self.revolutes.append(joint)
+        return link
+
+    def _wheel(self, link: str, wheel: PlacedWheel) -> str:
+        """The id of a wheel, which then stands on its link with the count of the candidate."""
+        wheels = dict(self.links[link].get("wheels", {}))
+        if wheel.name is None:
+            stem = f"{link}_" if link[-1].isdigit() else link
+            name = _numbered(stem, self.wheels)
+            self.wheels.add(name)
+            wheels[name] = {"teeth": wheel.teeth, "status": "hypothetical", "note": ADDED_NOTE}
+        else:
+            name = wheel.name
+            wheels[name] = wheels[name] | {"teeth": _with_count(wheels[name]["teeth"], wheel.teeth)}
+        self.links[link]["wheels"] = wheels
+        return name
+
+    def _gear(self, driving: str, driven: str) -> dict[str, Any]:
+        for gear in self.given.get("gears", ()):
+            if set(gear["pair"]) == {driving, driven}:
+                return {key: value for key, value in gear.items() if key != "driver"}
+        return {"pair": [driving, driven]}
+
+    def _output(self, name: str) -> dict[str, Any]:
+        link, speed = self.shown[name]
+        output = self.evidence.outputs[name]
+        given = dict(self.given["outputs"][name] or {})
+        if output.expect is None or not output.expect.holds(speed):
+            given["expect"] = fraction_text(speed)
+        elif set(given["expect"]) == {"value"}:
+            given["expect"] = given["expect"]["value"]
+        return {"of": link} | {key: value for key, value in given.items() if key != "of"}
+
+
+def _driven_by(
+    arbors: tuple[Arbor, ...], wheel: str, teeth: int, speed: Fraction
+) -> Iterator[tuple[Arbor, str, Fraction]]:
+    for arbor in sorted(arbors, key=_order):
+        assert arbor.driven is not None
+        yield arbor, wheel, -speed * teeth / arbor.driven.teeth
+
+
+def _order(arbor: Arbor) -> tuple[Any, ...]:
+    """A key by which arbors are put in order, whatever the order in which they were found."""
+    driven = (arbor.driven.name or "", arbor.driven.teeth) if arbor.driven is not None else ("", 0)
+    below = tuple(sorted(map(_drive_order, arbor.drives)))
+    return arbor.name or "", driven, arbor.dials, below, tuple(sorted(map(_order, arbor.passes)))
+
+
+def _drive_order(drive: tuple[PlacedWheel, tuple[Arbor, ...]]) -> tuple[Any, ...]:
+    wheel, arbors = drive
+    return wheel.name or "", wheel.teeth, tuple(sorted(map(_order, arbors)))
+
+
+def _with_count(teeth: Any, count: int) -> Any:
+    """A declared tooth count with the value of a candidate; its doubt stays."""
+    if not isinstance(teeth, Mapping):
+        return count
+    found = {"value": count, **{key: part for key, part in teeth.items() if key not in ("value", "search")}}
+    if "search" in teeth and not {"range", "choices"} & set(found):
+        found["range"] = teeth["search"]
+    return found
+
+
+def _free_name(name: str, kind: str, taken: Container[str]) -> str:
+    """The name itself, else one that says what it is."""
+    if name not in taken:
+        return name
+    longer = f"{name}_{kind}"
+    return longer if longer not in taken else _numbered(f"{longer}_", taken)
+
+
+def _numbered(stem: str, taken: Container[str]) -> str:
+    """The stem with the first number from 1 on that is free."""
+    number = 1
+    while f"{stem}{number}" in taken:
+        number += 1
+    return f"{stem}{number}"

@@ -1,0 +1,196 @@
+"""From declared evidence to what a reconstruction is asked; what cannot be asked yet is refused by name, or told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from geartrain.errors import DeclarationError, Loc, Problem, first_problems
+from geartrain.synthesis.reconstruction.pointer_bounds import find_bounds
+from geartrain.synthesis.reconstruction.reconstruction_problem import (
+    NEW,
+    Additions,
+    Dial,
+    PriorFactors,
+    ReconstructionProblem,
+    SurvivingArbor,
+    SurvivingWheel,
+)
+from geartrain.train import Teeth, Train, Wheel
+from geartrain.train.reconstruction import NEW_ARBOR, AddedParts, Reconstruction
+
+_NOT_TAKEN_UP = ("couplings", "fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
+"""Keys of a train that change what turns, or need arbors that a candidate may not have."""
+
+_MOST_COUNTS = 10_000
+"""That one wheel may have."""
+
+
+@dataclass(frozen=True)
+class EvidenceQuestion:
+    """The question that evidence asks.
+
+    unused   what is declared and plays no part in the answer, a line each
+    """
+
+    problem: ReconstructionProblem
+    unused: tuple[str, ...]
+
+
+def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
+    """What evidence asks.
+
+    wheels   the most wheels that may be added, instead of what the evidence says
+    idlers   a driven wheel may drive, also where the evidence does not say so
+
+    Raises `DeclarationError` with the place of everything that is not taken up yet, or gives no question.
+    """
+    asked = evidence.reconstruct
+    assert asked is not None, "no evidence"
+    found = [*_not_taken_up(evidence, asked), *_links(evidence), *_inputs(evidence)]
+    if wheels and asked.add.teeth is None:
+        fix = "add for example `teeth: [12, 225]`"
+        place = evidence.place("reconstruct")
+        found.append(Problem("wheels are to be added whose counts have no bounds", "", fix, place))
+    bounds = {}
+    for name in evidence.outputs:
+        try:
+            bounds[name] = find_bounds(evidence, name, asked.sense == "free")
+        except DeclarationError as error:
+            found += error.problems
+    if not evidence.outputs:
+        fix = "add `outputs:`, each with `expect` or a target with its tolerance"
+        found.append(Problem("nothing is known of any pointer", "a train explains what pointers show", fix))
+    if found:
+        raise DeclarationError(first_problems(found))
+    source = next(link for link, speed in evidence.case(None).inputs.items() if speed)
+    places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
+    problem = ReconstructionProblem(
+        input=_arbor(evidence, source),
+        arbors=tuple(_arbor(evidence, link) for link in evidence.links if link not in (source, evidence.frame)),
+        dials=tuple(Dial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
+        additions=_additions(asked.add, wheels),
+        input_speed=evidence.case(None).inputs[source],
+        meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
+        apart=frozenset(frozenset(pair) for pair in asked.apart),
+        use=asked.use,
+        idlers=asked.idlers or idlers,
+        factors=PriorFactors(asked.cost.wheel.value, asked.cost.arbor.value, asked.cost.unused.value),
+    )
+    unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
+    return EvidenceQuestion(problem, tuple(unused))
+
+
+def _additions(add: AddedParts, wheels: int | None) -> Additions:
+    least, greatest = add.teeth or (1, 1)  # where none are added, it does not matter
+    return Additions(add.wheels if wheels is None else wheels, least, greatest, add.arbors, add.on)
+
+
+def _arbor(evidence: Train, link: str) -> SurvivingArbor:
+    wheels = evidence.links[link].wheels
+    return SurvivingArbor(link, tuple(SurvivingWheel(name, _counts(wheel)) for name, wheel in wheels.items()))
+
+
+def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
+    """The counts that a wheel may have, with weights whose sum is 1."""
+    teeth = wheel.teeth
+    if isinstance(teeth, int):
+        return ((teeth, Fraction(1)),)
+    counts = teeth.allowed
+    if not counts and teeth.search is not None:
+        counts = tuple(range(teeth.search[0], teeth.search[1] + 1))
+    if not counts:
+        assert teeth.value is not None
+        return ((teeth.value, Fraction(1)),)
+    weights = [figure.value for figure in teeth.weights] if teeth.weights is not None else [Fraction(1)] * len(counts)
+    whole, by_count = sum(weights), dict[int, Fraction]()
+    for count, weight in zip(counts, weights, strict=True):
+        by_count[count] = by_count.get(count, Fraction(0)) + weight / whole
+    return tuple((count, weight) for count, weight in sorted(by_count.items()) if weight)
+
+
+# what cannot be asked
+
+
+def _not_taken_up(evidence: Train, asked: Reconstruction) -> Iterator[Problem]:
+    for key in _NOT_TAKEN_UP:
+        if getattr(evidence, key):
+            yield _later(evidence, f"`{key}` is not taken up by a reconstruction yet", key)
+    if asked.given:
+        yield _later(evidence, "`given` couplings are not taken up by a reconstruction yet", "reconstruct", "given")
+    if evidence.crank is not None and evidence.crank not in evidence.inputs:
+        yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
+    on_axis: dict[str, str] = {}
+    for at, joint in enumerate(evidence.revolutes):
+        place: Loc = ("revolutes", at)
+        if evidence.frame not in joint.pair:
+            yield _later(evidence, "an arbor on a moving arbor is not taken up by a reconstruction yet", *place)
+            continue
+        link = joint.pair[1] if joint.pair[0] == evidence.frame else joint.pair[0]
+        if joint.axis in on_axis:
+            what = f"'{on_axis[joint.axis]}' and '{link}' on one axis are not taken up by a reconstruction yet"
+            yield _later(evidence, what, *place)
+        on_axis[joint.axis] = link
+    for label, axis in evidence.axes.items():
+        if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
+            yield _later(evidence, "axes that are not parallel are not taken up by a reconstruction yet", "axes", label)
+
+
+def _later(evidence: Train, what: str, *loc: str | int) -> Problem:
+    return Problem(
+        what, "it would change which trains are found", "leave it out to ask without it", evidence.place(*loc)
+    )
+
+
+def _links(evidence: Train) -> Iterator[Problem]:
+    frame = evidence.links.get(evidence.frame)
+    if frame is not None and frame.wheels:
+        yield _later(
+            evidence, "a wheel that stands still is not taken up by a reconstruction yet", "links", evidence.frame
+        )
+    for link, part in evidence.links.items():
+        for name, wheel in part.wheels.items():
+            place = ("links", link, "wheels", name)
+            if wheel.internal or wheel.kind != "spur":
+                kind = "ring" if wheel.internal else f"{wheel.kind} wheel"
+                yield _later(evidence, f"'{name}' is a {kind}, which is not taken up by a reconstruction yet", *place)
+            yield from _teeth(evidence, wheel, place)
+
+
+def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
+    teeth = wheel.teeth
+    if not isinstance(teeth, Teeth):
+        return
+    for bounds in (teeth.range, teeth.search):
+        if bounds is not None and bounds[1] - bounds[0] > _MOST_COUNTS:
+            what = f"{bounds[1] - bounds[0] + 1} counts are too many for one wheel"
+            yield Problem(what, f"{_MOST_COUNTS} are the most", "narrow the range", evidence.place(*place, "teeth"))
+    weights = [figure.value for figure in teeth.weights or ()]
+    if weights and (min(weights) < 0 or not any(weights)):
+        fix = "give weights of 0 or more, at least one of them above 0"
+        yield Problem("the weights of a count are no weights", "", fix, evidence.place(*place, "teeth", "weights"))
+
+
+def _inputs(evidence: Train) -> Iterator[Problem]:
+    case = evidence.case(None)
+    turning = [link for link, speed in case.inputs.items() if speed]
+    place = evidence.place("inputs")
+    if len(turning) != 1 or len(case.inputs) != 1:
+        what = f"{len(turning)} links are driven" if len(case.inputs) == len(turning) else "an input stands still"
+        yield Problem(what, "a reconstruction has one input that turns", "give one, such as `inputs: {b: 1}`", place)
+    elif not case.exact:
+        yield Problem("the speed of the input is no fraction", "speeds are exact here", "give it in the unit", place)
+
+
+def _unused(evidence: Train) -> Iterator[str]:
+    """Evidence that is declared and plays no part yet."""
+    for name, (_, wheel) in evidence.wheels.items():
+        if wheel.module is not None:
+            yield f"the module of '{name}', {wheel.module}: geometry is not taken up yet"
+    for label, axis in evidence.axes.items():
+        if axis.position is not None:
+            yield f"the position of axis '{label}': geometry is not taken up yet"
+    for gear in evidence.gears:
+        if gear.driver is not None:
+            yield f"the driver of '{gear.name}': either wheel may drive"

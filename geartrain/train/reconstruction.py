@@ -1,0 +1,116 @@
+"""What `geartrain reconstruct` may do to explain the evidence: what may be added, what must be used, what it costs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.quantity import Figure
+from geartrain.train.fields import Boolean, Count, Declared, Id, above_zero
+
+MOST_ADDED = 1000
+NEW_ARBOR = "new"
+"""Said of an output instead of a link: the arbor of its pointer does not survive."""
+
+
+def _number(raw: object) -> object:
+    """A whole number from 0 on."""
+    try:
+        # True is an int of Python's; a text of thousands of digits would take minutes to read
+        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
+    except ValueError:
+        number = None
+    if number is not None and 0 <= number <= MOST_ADDED and str(raw).isascii():
+        return number
+    fix = f"give a whole number from 0 to {MOST_ADDED}"
+    raise PydanticCustomError("number", "{shown} is no number of parts", {"shown": str(raw)[:30], "fix": fix})
+
+
+def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
+    if bounds[0] > bounds[1]:
+        context = {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"}
+        raise PydanticCustomError("teeth", "the range {low} to {high} is empty", context)
+    return bounds
+
+
+PartNumber = Annotated[int, BeforeValidator(_number)]
+Factor = Annotated[Figure, above_zero("give a factor above 0, such as 10")]
+
+
+class AddedParts(Declared):
+    """What may be added to what survives.
+
+    See Also
+    --------
+    Reconstruction : holds it as `add`
+    """
+
+    wheels: PartNumber = Field(0, description="The most wheels that may be added")
+    arbors: PartNumber | None = Field(None, description="The most arbors that may be added; default any number")
+    teeth: Annotated[tuple[Count, Count], AfterValidator(_ordered)] | None = Field(
+        None, description="Least and greatest count of an added wheel, inclusive"
+    )
+    on: Literal["any", "new"] = Field(
+        "any", description="Where added wheels stand: also beside surviving wheels, or on new arbors alone"
+    )
+
+    @model_validator(mode="after")
+    def _is_bounded(self) -> AddedParts:
+        if self.wheels and self.teeth is None:
+            raise PydanticCustomError(
+                "add", "wheels are added whose counts have no bounds", {"fix": "add for example `teeth: [12, 225]`"}
+            )
+        return self
+
+
+class GivenCoupling(Declared):
+    """A coupling of two surviving links that is taken as it is.
+
+    See Also
+    --------
+    Reconstruction : holds them as `given`
+    """
+
+    pair: tuple[Id, Id] = Field(description="The two links")
+    kind: Literal["pin_and_slot"] = Field("pin_and_slot", description="A pin in a slot: a mean ratio of 1")
+
+
+class PriorCost(Declared):
+    """By what factor a candidate is less probable for each thing that it assumes.
+
+    See Also
+    --------
+    Reconstruction : holds it as `cost`
+    """
+
+    wheel: Factor = Field(Figure.parse(10), description="Each added wheel")
+    arbor: Factor = Field(Figure.parse(10), description="Each added arbor")
+    unused: Factor = Field(Figure.parse(100), description="Each surviving wheel that is not used")
+
+
+class Reconstruction(Declared):
+    """How the evidence is to be explained. A declaration that has it is evidence, not a train.
+
+    Its links are what survives, its gears are pairs that were seen in mesh, and an output without `of` is a pointer
+    whose arbor is to be found (`of: new` where that arbor is known not to survive).
+
+    Examples
+    --------
+    >>> asked = Reconstruction(add={"wheels": 2, "teeth": (12, 225)})
+    >>> asked.add.on, asked.use, asked.sense, asked.cost.unused.value
+    ('any', 'wheels', 'given', Fraction(100, 1))
+    """
+
+    add: AddedParts = Field(AddedParts(), description="What may be added")
+    use: Literal["wheels", "arbors", "some"] = Field(
+        "wheels", description="What must be used: every surviving wheel, every surviving arbor, or neither"
+    )
+    sense: Literal["given", "free"] = Field(
+        "given", description="Whether the signs of speeds are evidence, or their magnitudes alone"
+    )
+    idlers: Boolean = Field(False, description="Whether a driven wheel may itself drive")
+    apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels known not to mesh")
+    given: tuple[GivenCoupling, ...] = Field((), description="Couplings that are taken as they are")
+    cost: PriorCost = Field(PriorCost(), description="Factors of the prior")

@@ -19,26 +19,22 @@ _MOST_BYTES = 64 * 2**20
 _MOST_PARENTS = 2000
 
 
-_EVIDENCE = "evidence"
-"""Folder of the shipped trains whose files are evidence."""
-
-
 @cache
 def shipped() -> Mapping[str, Path]:
     """The trains that come with geartrain, by name."""
-    return MappingProxyType({path.stem: path for path in _shipped_files() if path.parent.name != _EVIDENCE})
+    return _shipped_files("trains")
 
 
 @cache
 def shipped_evidence() -> Mapping[str, Path]:
-    """What survives of trains, as it comes with geartrain, by name."""
-    return MappingProxyType({path.stem: path for path in _shipped_files() if path.parent.name == _EVIDENCE})
+    """The evidence of trains to be found that comes with geartrain, by name."""
+    return _shipped_files("evidence")
 
 
-def _shipped_files() -> list[Path]:
+def _shipped_files(kind: str) -> Mapping[str, Path]:
     package = Path(__file__).resolve().parent.parent
-    home = next((folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None)
-    return sorted(home.rglob("*.yaml")) if home else []
+    home = next((folder for folder in (package / kind, package.parent / kind) if folder.is_dir()), None)
+    return MappingProxyType({path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {})
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
@@ -154,15 +150,16 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
         return path
     if str(source) in known:
         return known[str(source)]
-    everything = [*shipped().values(), *shipped_evidence().values()]
-    within = next((found for found in everything if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
+    within = next((found for found in known.values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
     if within is not None:
         return within
+    evidence = known is shipped_evidence()
+    kind, plural, option = ("evidence", "evidence", " --evidence") if evidence else ("train", "trains", "")
     raise DeclarationError(
         Problem(
             "there is no such file",
-            f"and no shipped train is called '{path.stem}'",
-            suggest(path.stem, known, otherwise="`geartrain list` shows the shipped trains", wide=True),
+            f"and no shipped {kind} is called '{path.stem}'",
+            suggest(path.stem, known, otherwise=f"`geartrain list{option}` shows the shipped {plural}", wide=True),
             str(source),
         )
     )

@@ -1,0 +1,201 @@
+"""Evidence of a train that is to be found: the models of a train, pointers without an arbor, and what is refused."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from geartrain import GearTrain, GearTrainError, load
+from geartrain.synthesis.reconstruction.evidence_question import EvidenceQuestion, evidence_question
+from geartrain.synthesis.reconstruction.reconstruction_problem import PriorFactors
+from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
+
+SOUND = """\
+links:
+  frame: {}
+  a: {wheels: {p: 20}}
+  b:
+    wheels:
+      v: {teeth: {value: 30, range: [30, 32]}, status: surviving}
+      w: 40
+inputs: {a: 1}
+outputs:
+  sun: {expect: 1/3}
+reconstruct:
+  add: {wheels: 2, teeth: [10, 20]}
+"""
+
+
+def changed(old: str, new: str) -> str:
+    assert SOUND.count(old) == 1, old
+    return SOUND.replace(old, new)
+
+
+def ask(text: str) -> EvidenceQuestion:
+    return evidence_question(read_evidence(text))
+
+
+def test_what_is_asked() -> None:
+    problem = ask(SOUND).problem
+    assert problem.input.name == "a"
+    assert [arbor.name for arbor in problem.arbors] == ["b"]
+    assert problem.arbors[0].wheels[0].counts == tuple((count, Fraction(1, 3)) for count in (30, 31, 32))
+    assert problem.arbors[0].wheels[1].is_sure
+    dial = problem.dials[0]
+    assert (dial.name, dial.least, dial.greatest, dial.signed, dial.place) == (
+        "sun",
+        Fraction(1, 3),
+        Fraction(1, 3),
+        True,
+        None,
+    )
+    assert (problem.use, problem.idlers, problem.additions.on) == ("wheels", False, "any")
+    assert problem.factors == PriorFactors()
+
+
+def test_a_pointer_without_of_may_stand_anywhere_even_if_an_arbor_has_its_name() -> None:
+    assert ask(changed("  sun:", "  b:")).problem.dials[0].place is None
+    assert ask(changed("{expect", "{of: b, expect")).problem.dials[0].place == "b"
+    assert ask(changed("{expect", "{of: new, expect")).problem.dials[0].place == "new"
+
+
+def test_a_frame_need_not_be_listed() -> None:
+    assert ask(changed("  frame: {}\n", "")).problem == ask(SOUND).problem
+
+
+def test_all_of_the_block() -> None:
+    block = """\
+  add: {wheels: 3, arbors: 1, teeth: [10, 20], on: new}
+  use: some
+  sense: free
+  idlers: true
+  apart: [[p, w]]
+  cost: {wheel: 5, arbor: 2.5, unused: 7}
+gears: [{pair: [p, v]}]
+"""
+    problem = ask(changed("  add: {wheels: 2, teeth: [10, 20]}\n", block)).problem
+    assert (problem.additions.wheels, problem.additions.arbors, problem.additions.on) == (3, 1, "new")
+    assert (problem.use, problem.idlers, problem.dials[0].signed) == ("some", True, False)
+    assert problem.apart == {frozenset("pw")}
+    assert problem.meshes == {frozenset("pv")}
+    assert problem.factors == PriorFactors(Fraction(5), Fraction(5, 2), Fraction(7))
+
+
+@pytest.mark.parametrize(
+    ("said", "limits", "signed"),
+    [
+        ("expect: 0.33", ("13/40", "67/200"), True),
+        ("expect: {value: -1/3, tolerance: 1/30}", ("-11/30", "-3/10"), True),
+        ("targets: [{speed: -1/3}]", ("-1/3", "-1/3"), True),
+        ("targets: [{speed: -1/3, tolerance: 10 %}]", ("-11/30", "-3/10"), True),
+        ("targets: [{period: 3 d, tolerance: 10 %}]", ("3/10", "11/30"), False),
+        ("targets: [{period: 3 d, tolerance: 10 %, sense: retrograde}]", ("-11/30", "-3/10"), True),
+        ("expect: -0.3, targets: [{period: 3 d, tolerance: 10 %}]", ("-7/20", "-3/10"), True),
+    ],
+)
+def test_what_is_said_of_a_speed(said: str, limits: tuple[str, str], signed: bool) -> None:
+    dial = ask("unit: {per: 1 d}\n" + changed("expect: 1/3", said)).problem.dials[0]
+    assert (dial.least, dial.greatest, dial.signed) == (Fraction(limits[0]), Fraction(limits[1]), signed)
+
+
+def test_the_sense_may_be_given_up() -> None:
+    text = changed("1/3", "-1/3").replace("reconstruct:\n", "reconstruct:\n  sense: free\n")
+    dial = ask(text).problem.dials[0]
+    assert (dial.least, dial.greatest, dial.signed) == (Fraction(1, 3), Fraction(1, 3), False)
+
+
+MISTAKES = {
+    "misspelt key": (changed("  add:", "  ad:"), 12, ["unknown key 'ad'", "did you mean 'add'?"]),
+    "misspelt key of a part": (changed("{wheels: 2, t", "{wheel: 2, t"), 12, ["unknown key 'wheel'", "'wheels'"]),
+    "no bounds": (changed(", teeth: [10, 20]", ""), 12, ["no bounds", "teeth: [12, 225]"]),
+    "empty bounds": (changed("[10, 20]", "[20, 10]"), 12, ["the range 20 to 10 is empty"]),
+    "negative number": (changed("{wheels: 2, t", "{wheels: -1, t"), 12, ["-1 is no number of parts"]),
+    "no such word": (
+        changed("  add:", "  use: all\n  add:"),
+        12,
+        ["none of the words", "'wheels', 'arbors' or 'some'"],
+    ),
+    "no such wheel": (changed("  add:", "  apart: [[p, x]]\n  add:"), 12, ["no wheel 'x'"]),
+    "a mesh that is none": (
+        changed("  add:", "  apart: [[p, v]]\n  add:") + "gears: [{pair: [v, p]}]\n",
+        12,
+        ["and not"],
+    ),
+    "no such arbor": (changed("{expect", "{of: bb, expect"), 10, ["no link 'bb'", "did you mean 'b'?"]),
+    "a link called new": (changed("  b:\n", "  new:\n"), 4, ["a surviving link is called 'new'"]),
+    "no such factor": (changed("  add:", "  cost: {wheel: 0}\n  add:"), 12, ["0 is not above 0"]),
+    "given": (changed("  add:", "  given: [{pair: [a, b]}]\n  add:"), 12, ["`given` couplings are not taken up"]),
+    "given of nothing": (changed("  add:", "  given: [{pair: [a, c]}]\n  add:"), 12, ["no link 'c'"]),
+    "a lock": (SOUND + "locks: [[a, b]]\n", 13, ["`locks` is not taken up"]),
+    "a ring": (
+        changed("      w: 40", "      w: {teeth: 40, internal: true}"),
+        7,
+        ["'w' is a ring, which is not taken up"],
+    ),
+    "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving arbor"]),
+    "one axis": (
+        SOUND + "revolutes: [{pair: [frame, a], axis: B}, {pair: [frame, b], axis: B}]\n",
+        13,
+        ["'a' and 'b' on one axis are not taken up"],
+    ),
+    "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is seen from 'a'"]),
+    "no speed": (changed("{expect: 1/3}", "{}"), 10, ["how fast 'sun' turns is not known"]),
+    "no tolerance": ("unit: {per: 1 d}\n" + changed("expect: 1/3", "targets: [{period: 3 d}]"), 11, ["is not known"]),
+    "two speeds": (changed("1/3", "1/3, targets: [{speed: 1/2, tolerance: 1 %}]"), 10, ["contradicts itself"]),
+    "two inputs": (changed("{a: 1}", "{a: 1, b: 1}"), 8, ["2 links are driven"]),
+    "no input": (changed("inputs: {a: 1}\n", ""), 1, ["0 links are driven"]),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_told_with_its_line(mistake: str, tmp_path) -> None:
+    text, line, words = MISTAKES[mistake]
+    path = tmp_path / "evidence.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(GearTrainError) as caught:
+        evidence_question(read_evidence(path))
+    said = str(caught.value)
+    for word in words:
+        assert word in said, said
+    if mistake != "no input":
+        assert f"evidence.yaml:{line}" in said, said
+
+
+def test_what_plays_no_part_is_told() -> None:
+    text = changed("      w: 40", "      w: {teeth: 40, module: 0.5 mm}")
+    text = text.replace("expect: 1/3", "expect: 1/3, targets: [{period: 3 d}], published: 0.3333")
+    text = text.replace("published: 0.3333", "published: {value: 0.3333}")
+    text += "unit: {per: 1 d}\naxes: {B: {position: [0 mm, 1 mm, 0 mm]}}\nrevolutes: [{pair: [frame, b], axis: B}]\n"
+    told = " ".join(ask(text).unused)
+    assert "module of 'w'" in told
+    assert "position of axis 'B'" in told
+    assert "target of 'sun'" in told
+    assert "published of 'sun'" in told
+
+
+def test_the_number_of_wheels_and_idlers_may_be_asked_otherwise() -> None:
+    evidence = read_evidence(SOUND)
+    assert evidence_question(evidence, wheels=0).problem.additions.wheels == 0
+    assert evidence_question(evidence, idlers=True).problem.idlers
+    bare = read_evidence(changed("{wheels: 2, teeth: [10, 20]}", "{}"))
+    assert evidence_question(bare).problem.additions.wheels == 0
+    with pytest.raises(GearTrainError, match="no bounds"):
+        evidence_question(bare, wheels=1)
+
+
+def test_evidence_is_no_train_and_a_train_no_evidence() -> None:
+    for read in (load, read_declaration):
+        with pytest.raises(GearTrainError, match="is evidence, not yet a train"):
+            read(SOUND)
+    with pytest.raises(GearTrainError, match="is evidence, not yet a train"):
+        GearTrain.declare(read_evidence(SOUND).model_dump(mode="json", exclude_unset=True, by_alias=True))
+    with pytest.raises(GearTrainError, match="is no evidence"):
+        read_evidence(shipped()["planetary-24-18-60"])
+
+
+def test_evidence_has_its_own_catalogue() -> None:
+    assert "back-train" in shipped_evidence()
+    assert not set(shipped_evidence()) & set(shipped())
+    with pytest.raises(GearTrainError, match="did you mean 'back-train'"):
+        read_evidence("back-trian")

@@ -273,6 +273,16 @@ def _wheel(wheel: PlacedWheel) -> Wheel:
     return wheel.name or ADDED, wheel.teeth
 
 
+def package_arbor(tree: Node) -> Arbor:
+    """A concrete tree as a candidate of the package."""
+    name, driven, dials, drives = tree
+    placed = PlacedWheel(driven[0] or None, driven[1]) if driven else None
+    children = [(key, tuple(map(package_arbor, below))) for key, below in drives]
+    passes = next((below for key, below in children if key[0] == "="), ())
+    others = tuple((PlacedWheel(key[0] or None, key[1]), below) for key, below in children if key[0] != "=")
+    return Arbor(name or None, placed, dials, others, passes)
+
+
 # questions
 
 

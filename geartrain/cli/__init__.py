@@ -31,6 +31,7 @@ class VerbGroup(EndingGroup, LazyGroup):
                 "teeth",
                 "posterior",
                 "optimise",
+                "reconstruct",
                 "schema",
                 "list",
                 "periods",

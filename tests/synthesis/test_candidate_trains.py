@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from concrete_trees import concrete, exact_dial, explanations, random_problem
+from concrete_trees import concrete, exact_dial, explanations, package_arbor, random_problem
 
 from geartrain import GearTrain, load
 from geartrain.synthesis.reconstruction.candidate_train import candidate_data, candidate_text
@@ -169,16 +169,6 @@ def test_every_explanation_of_a_small_question_is_a_train(seed: int) -> None:
             assert train.solve()
             assert len([1 for _, part in train.declaration.wheels.values() if part.note]) == found.counts.added
             assert concrete(package_arbor(tree)) == tree
-
-
-def package_arbor(tree: tuple) -> Arbor:
-    """A concrete tree as a candidate of the package."""
-    name, driven, dials, drives = tree
-    placed = PlacedWheel(driven[0] or None, driven[1]) if driven else None
-    children = [(key, tuple(map(package_arbor, below))) for key, below in drives]
-    passes = next((below for key, below in children if key[0] == "="), ())
-    others = tuple((PlacedWheel(key[0] or None, key[1]), below) for key, below in children if key[0] != "=")
-    return Arbor(name or None, placed, dials, others, passes)
 
 
 def declared(problem: ReconstructionProblem) -> Train:

@@ -36,9 +36,8 @@ def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
 
 def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
     """A candidate with the keys of a declaration."""
-    given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
-    train = _Construction(evidence, given)
-    train.add(arbor)
+    train = TrainConstruction.of(evidence, arbor)
+    given = train.given
     kept = {key: value for key, value in given.items() if key not in _LEFT_OUT}
     about = {"title": f"{given['title']}, as {name}"} if given.get("title") else {}
     data = {"name": name, **about, **kept, "frame": evidence.frame, **train.parts()}
@@ -50,8 +49,15 @@ def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
 
 
 @dataclass
-class _Construction:
-    """A declaration that is put together arbor by arbor."""
+class TrainConstruction:
+    """A declaration that is put together arbor by arbor.
+
+    given    the evidence as plain data
+    links, revolutes, gears   those of the candidate, as plain data
+    shown    link and speed of every pointer
+    meshes   ids of wheels, the driving one first
+    added    ids of added wheels with their counts
+    """
 
     evidence: Train
     given: Mapping[str, Any]
@@ -59,12 +65,17 @@ class _Construction:
     revolutes: list[dict[str, Any]] = field(default_factory=list)
     gears: list[dict[str, Any]] = field(default_factory=list)
     shown: dict[str, tuple[str, Fraction]] = field(default_factory=dict)
-    wheels: set[str] = field(default_factory=set)
+    meshes: list[tuple[str, str]] = field(default_factory=list)
+    added: dict[str, int] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        self.wheels.update(self.evidence.wheels)
+    @classmethod
+    def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
+        """All of a candidate."""
+        made = cls(evidence, evidence.model_dump(mode="json", exclude_unset=True, by_alias=True))
+        made._add(arbor)
+        return made
 
-    def add(self, source: Arbor) -> None:
+    def _add(self, source: Arbor) -> None:
         """All arbors of a candidate."""
         speed = self.evidence.case(None).inputs[source.name or ""]
         waiting: list[tuple[Arbor, str, Fraction]] = [(source, "", speed)]
@@ -74,6 +85,7 @@ class _Construction:
             if arbor.driven is not None:
                 driven = self._wheel(link, arbor.driven)
                 self.gears.append(self._gear(driving, driven))
+                self.meshes.append((driving, driven))
             self.shown.update(dict.fromkeys(arbor.dials, (link, speed)))
             below: list[tuple[Arbor, str, Fraction]] = []
             if arbor.driven is not None:
@@ -116,8 +128,8 @@ class _Construction:
         wheels = dict(self.links[link].get("wheels", {}))
         if wheel.name is None:
             stem = f"{link}_" if link[-1].isdigit() else link
-            name = _numbered(stem, self.wheels)
-            self.wheels.add(name)
+            name = _numbered(stem, {*self.evidence.wheels, *self.added})
+            self.added[name] = wheel.teeth
             wheels[name] = {"teeth": wheel.teeth, "status": "hypothetical", "note": ADDED_NOTE}
         else:
             name = wheel.name

@@ -1,0 +1,103 @@
+"""`geartrain reconstruct`: from what survives and what the pointers show to every train that explains it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import GOOD, INTERRUPTED, STANDARD, VERDICT, Force, Json, as_json, emit, plural, show, tell
+from geartrain.cli.option_values import MOST_COUNT
+
+if TYPE_CHECKING:
+    from geartrain.report.reconstruction_report import RankedTrain
+    from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
+    from geartrain.train import Train
+
+Evidence = Annotated[
+    str,
+    typer.Argument(
+        help="A YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`).",
+        metavar="FILE",
+    ),
+]
+
+
+def run(
+    evidence: Evidence,
+    most: Annotated[
+        int | None,
+        typer.Option("-k", min=0, max=1000, help="The most wheels that may be added; default what the evidence says."),
+    ] = None,
+    count: Annotated[bool, typer.Option("--count", help="Count only, list nothing.")] = False,
+    best: Annotated[int, typer.Option("--best", min=0, max=MOST_COUNT, help="How many trains are listed.")] = 20,
+    every: Annotated[bool, typer.Option("--all", help="List all of them.")] = False,
+    idlers: Annotated[bool, typer.Option("--idlers", help="A driven wheel may drive.")] = False,
+    folder: Annotated[
+        Path | None, typer.Option("--write", "-o", help="Write what is listed into this folder, a declaration a file.")
+    ] = None,
+    json: Json = False,
+    force: Force = False,
+) -> None:
+    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none."""
+    from geartrain.numerics.files import check_folder
+    from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
+    from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+    from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+    from geartrain.train.declaration_files import read_evidence
+
+    if count and folder is not None:
+        raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
+    declared = read_evidence(evidence)
+    question = evidence_question(declared, most, idlers)
+    if folder is not None:
+        check_folder(folder, [_file(1)], force)
+    found = find_reconstructions(question.problem)
+    listed = () if count else found.candidates if every else found.candidates[:best]
+    report = ReconstructionReport(
+        declared.name,
+        question.problem,
+        found.counts,
+        found.complete,
+        question.unused,
+        tuple(_ranked(declared, listed)),
+    )
+    if folder is not None and listed:
+        _write(declared, listed, folder, force)
+    if json:
+        emit(as_json(report))
+    else:
+        show([describe_reconstruction(report)], STANDARD)
+    if not found.complete:
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(GOOD if report.total else VERDICT)
+
+
+def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrain]:
+    from geartrain.report.reconstruction_report import RankedTrain
+    from geartrain.synthesis.reconstruction.candidate_train import TrainConstruction
+
+    for rank, candidate in enumerate(listed, 1):
+        train = TrainConstruction.of(evidence, candidate.arbor)
+        meshes = tuple(f"{driving} > {driven}" for driving, driven in train.meshes)
+        yield RankedTrain(rank, candidate.added, candidate.weight, train.added, meshes)
+
+
+def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool) -> None:
+    """Every listed candidate as a declaration of its own."""
+    from geartrain.numerics.files import check_folder, write_folder
+    from geartrain.synthesis.reconstruction.candidate_train import candidate_text
+
+    def files() -> Iterator[tuple[str, bytes]]:
+        for rank, candidate in enumerate(listed, 1):
+            name = f"{evidence.name}-{_file(rank).removesuffix('.yaml')}"
+            yield _file(rank), candidate_text(evidence, candidate.arbor, name).encode("utf-8")
+
+    check_folder(folder, [_file(rank) for rank in range(1, len(listed) + 1)], force)
+    tell(f"wrote {plural(write_folder(folder, files(), force), 'file')} to {folder}")
+
+
+def _file(rank: int) -> str:
+    return f"rank-{rank:04}.yaml"

@@ -1,0 +1,160 @@
+"""A reconstruction as a page: what was taken as known, how many trains explain it, and the best of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.report.document import Document, Section, Table, figure
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_problem import Dial as SearchedDial
+from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
+
+_USE = {
+    "wheels": "every surviving wheel meshes",
+    "arbors": "every surviving arbor is in the train",
+    "some": "surviving arbors need not be in the train",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RankedTrain(Result):
+    """One of the best explanations.
+
+    Attributes
+    ----------
+    rank : int
+        From 1 on.
+    added : int
+        Added wheels.
+    weight : float
+        Share of the weight of all explanations.
+    wheels : dict of str to int
+        Added wheels with their counts.
+    meshes : tuple of str
+        Every mesh, the driving wheel first.
+    """
+
+    KEYS = ("rank", "added", Key("weight", to=float), "wheels", "meshes")
+
+    rank: int
+    added: int
+    weight: float
+    wheels: dict[str, int]
+    meshes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ReconstructionReport(Result):
+    """What is told of a reconstruction.
+
+    Attributes
+    ----------
+    name : str
+        Of the evidence.
+    counts : tuple of ExplanationCount
+        Explanations by number of added wheels.
+    complete : bool
+        Whether all were looked at.
+    unused : tuple of str
+        What is declared and plays no part.
+    best : tuple of RankedTrain
+        The best, as many as were asked for.
+    """
+
+    KEYS = ("name", "counts", "complete", "unused", "best")
+
+    name: str
+    problem: ReconstructionProblem
+    counts: tuple[ExplanationCount, ...]
+    complete: bool
+    unused: tuple[str, ...]
+    best: tuple[RankedTrain, ...]
+
+    @property
+    def total(self) -> int:
+        """Mechanisms in all."""
+        return sum(count.mechanisms for count in self.counts)
+
+
+def describe_reconstruction(found: ReconstructionReport) -> Document:
+    """The page of a reconstruction."""
+    return Document(f"Trains that explain {found.name}", list(_lead(found)), list(_sections(found)))
+
+
+def _lead(found: ReconstructionReport) -> Iterator[str]:
+    problem, limits = found.problem, found.problem.additions
+    where = "on any arbor" if limits.on == "any" else "on new arbors"
+    arbors = "" if limits.arbors is None else f" and {_many(limits.arbors, 'arbor')}"
+    idlers = "a driven wheel may drive" if problem.idlers else "a driven wheel drives nothing"
+    wheels = f"{_many(limits.wheels, 'wheel')} of {limits.least} to {limits.greatest} teeth"
+    added = f"at most {wheels}{arbors} may be added {where}"
+    if not limits.wheels:
+        added = "nothing may be added"
+    yield f"Rules: {added}; {_USE[problem.use]}; {idlers}; every arbor at an end carries a pointer."
+    some = next((count for count in found.counts if count.mechanisms), None)
+    if some is None:
+        yield f"No train explains it with {_many(limits.wheels, 'added wheel')} or fewer."
+    else:
+        said = "1 train explains it" if found.total == 1 else f"{found.total} trains explain it"
+        yield f"{said}; at least {_many(some.added, 'wheel')} must be added."
+    if not found.complete:
+        yield "Interrupted: the counts are of what had been looked at."
+
+
+def _sections(found: ReconstructionReport) -> Iterator[Section]:
+    problem = found.problem
+    rows = [
+        (each.name, ", ".join(f"{wheel.name} {_counts(wheel.counts)}" for wheel in each.wheels) or "no wheels")
+        for each in (problem.input, *problem.arbors)
+    ]
+    yield Section("Surviving arbors", [f"{problem.input.name} is the input."], [Table(("arbor", "wheels"), rows)])
+    pointers = [(dial.name, _speed(dial), _place(dial)) for dial in problem.dials]
+    yield Section("Pointers", (), [Table(("pointer", "speed", "on arbor"), pointers)])
+    known = [f"{' and '.join(sorted(pair))} mesh." for pair in sorted(problem.meshes, key=sorted)]
+    known += [f"{' and '.join(sorted(pair))} do not mesh." for pair in sorted(problem.apart, key=sorted)]
+    if known:
+        yield Section("Meshes that are known", known)
+    if found.unused:
+        yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
+    counted = [tuple(map(str, (each.added, each.mechanisms, each.bags, each.classes))) for each in found.counts]
+    line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
+    yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
+    if found.best:
+        yield _best(found)
+
+
+def _best(found: ReconstructionReport) -> Section:
+    rows = []
+    for one in found.best:
+        wheels = ", ".join(f"{name} {teeth}" for name, teeth in one.wheels.items())
+        rows.append((str(one.rank), f"{100 * one.weight:.3g} %", wheels or "none", ", ".join(one.meshes)))
+    more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
+    return Section("The best", more, [Table(("rank", "weight", "added wheels", "meshes"), rows)])
+
+
+def _many(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _counts(counts: tuple[tuple[int, Fraction], ...]) -> str:
+    if len(counts) == 1:
+        return str(counts[0][0])
+    teeth = [count for count, _ in counts]
+    if teeth == list(range(teeth[0], teeth[-1] + 1)):
+        return f"{teeth[0]}-{teeth[-1]}"
+    return "/".join(map(str, teeth))
+
+
+def _speed(dial: SearchedDial) -> str:
+    sense = "" if dial.signed else " in either sense"
+    if dial.is_exact:
+        return f"{fraction_text(dial.least)}{sense}"
+    return f"{figure(dial.least)} to {figure(dial.greatest)}{sense}"
+
+
+def _place(dial: SearchedDial) -> str:
+    return "any" if dial.place is None else "one that does not survive" if dial.place == NEW else dial.place

@@ -1,0 +1,70 @@
+"""What a reconstruction finds: exact counts, and the candidates in their order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
+
+
+@dataclass(frozen=True, slots=True)
+class ExplanationCount(Result):
+    """How many explanations there are with just so many added wheels.
+
+    Attributes
+    ----------
+    added : int
+        Added wheels.
+    mechanisms : int
+        Trains, all different.
+    bags : int
+        Trains that differ by more than the order of arbors on the path of a dial.
+    classes : int
+        Trains that differ by more than which wheel drives which on the path of a dial.
+    """
+
+    added: int
+    mechanisms: int
+    bags: int
+    classes: int
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate(Result):
+    """One explanation.
+
+    Attributes
+    ----------
+    arbor : Arbor
+        The train from its input on.
+    added : int
+        Added wheels.
+    weight : float
+        Its share of the weight of all explanations.
+    """
+
+    KEYS = ("added", Key("weight", to=float))
+
+    arbor: Arbor
+    added: int
+    weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class Reconstructions(Result):
+    """All explanations of a question, counted, and the best of them.
+
+    Attributes
+    ----------
+    counts : tuple of ExplanationCount
+        By number of added wheels, from 0 on.
+    complete : bool
+        Whether all were looked at.
+    candidates : tuple of Candidate
+        The best first.
+    """
+
+    counts: tuple[ExplanationCount, ...]
+    complete: bool
+    candidates: tuple[Candidate, ...]

@@ -1,0 +1,91 @@
+"""From a question to its counts and candidates: every explanation is listed, weighed and put in order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.synthesis.reconstruction.explanation_search import ExplanationSearch
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
+
+
+def find_reconstructions(problem: ReconstructionProblem) -> Reconstructions:
+    """All explanations with at most as many added wheels as may be added."""
+    _check_taken_up(problem)
+    counts: list[ExplanationCount] = []
+    found: list[tuple[Fraction, int, Arbor]] = []
+    for added in range(problem.additions.wheels + 1):
+        arbors = [
+            arbor for (arbor,) in ExplanationSearch(problem).explain(added).trees() if _is_allowed(arbor, problem)
+        ]
+        kinds = len({bag(arbor) for arbor in arbors}), len({ratio_class(arbor) for arbor in arbors})
+        counts.append(ExplanationCount(added, len(arbors), *kinds))
+        found += [(prior(arbor, problem), added, arbor) for arbor in arbors]
+    whole = sum(weight for weight, _, _ in found)
+    found.sort(key=lambda one: (-one[0], one[1], sum(_added_teeth(one[2])), repr(one[2])))
+    return Reconstructions(
+        tuple(counts), True, tuple(Candidate(arbor, added, float(weight / whole)) for weight, added, arbor in found)
+    )
+
+
+def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
+    """Weight of a candidate before its dials are looked at, up to a factor that all candidates share."""
+    factors, limits = problem.factors, problem.additions
+    counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
+    wheels = list(_wheels(arbor))
+    used = {wheel.name: wheel.teeth for wheel in wheels if wheel.name is not None}
+    weight = Fraction(1)
+    for name, teeth in used.items():
+        weight *= counts[name][teeth]
+    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** sum(wheel.name is None for wheel in wheels)
+    weight /= factors.arbor ** sum(each.name is None for each in _arbors(arbor))
+    return weight / factors.unused ** (len(counts) - len(used))
+
+
+def _check_taken_up(problem: ReconstructionProblem) -> None:
+    later = {
+        f"`use: {problem.use}`": problem.use != "wheels",
+        "`idlers`": problem.idlers,
+        "a pointer whose speed has a tolerance": any(not dial.is_exact for dial in problem.dials),
+    }
+    for what, asked in later.items():
+        if asked:
+            raise QuestionError(Problem(f"{what} is not taken up by the search yet", "", "ask without it"))
+
+
+def _is_allowed(arbor: Arbor, problem: ReconstructionProblem) -> bool:
+    pairs = {frozenset(pair) for pair in _meshes(arbor)}
+    new = sum(each.name is None for each in _arbors(arbor))
+    enough = problem.additions.arbors is None or new <= problem.additions.arbors
+    return enough and problem.meshes <= pairs and not problem.apart & pairs
+
+
+def _arbors(arbor: Arbor) -> Iterator[Arbor]:
+    yield arbor
+    for _, children in (*arbor.drives, (None, arbor.passes)):
+        for child in children:
+            yield from _arbors(child)
+
+
+def _wheels(arbor: Arbor) -> Iterator[PlacedWheel]:
+    """Every wheel of a train once."""
+    for each in _arbors(arbor):
+        if each.driven is not None:
+            yield each.driven
+        yield from (wheel for wheel, _ in each.drives if wheel.name is None or wheel != each.driven)
+
+
+def _added_teeth(arbor: Arbor) -> list[int]:
+    return [wheel.teeth for wheel in _wheels(arbor) if wheel.name is None]
+
+
+def _meshes(arbor: Arbor) -> Iterator[tuple[str | None, str | None]]:
+    for each in _arbors(arbor):
+        for wheel, children in (*each.drives, (each.driven, each.passes)):
+            for child in children:
+                assert wheel is not None
+                assert child.driven is not None
+                yield wheel.name, child.driven.name

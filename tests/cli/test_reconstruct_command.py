@@ -1,0 +1,92 @@
+"""`geartrain reconstruct`, as a user runs it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from answer_schemas import holds
+from commands import call, ended
+from concrete_trees import explanations, package_arbor
+
+from geartrain import load
+from geartrain.synthesis.reconstruction import reconstruction_search
+from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+
+COUNTS = [
+    ("metonic-l-m", [(0, 0, 0, 0), (1, 2, 1, 1)]),
+    ("moon-c-e", [(0, 0, 0, 0), (1, 0, 0, 0), (2, 2, 1, 1)]),
+    ("al-biruni-without-moon", [(0, 0, 0, 0), (1, 2, 2, 2)]),
+]
+NONE = """\
+links: {a: {wheels: {p: 20}}}
+inputs: {a: 1}
+outputs: {sun: {expect: 1/3}}
+reconstruct: {add: {wheels: 1, teeth: [10, 20]}}
+"""
+
+
+@pytest.mark.parametrize(("name", "counts"), COUNTS)
+def test_counts(name: str, counts: list[tuple[int, ...]]) -> None:
+    result = call("reconstruct", name, "--count", "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    holds("reconstruct", found)
+    assert found["counts"] == [
+        dict(zip(("added", "mechanisms", "bags", "classes"), row, strict=True)) for row in counts
+    ]
+    assert found["complete"] is True
+    assert found["best"] == []
+
+
+def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
+    folder = tmp_path / "found"
+    result = call("reconstruct", "moon-c-e", "--write", folder)
+    assert result.exit_code == 0
+    assert "24" in result.stdout
+    files = sorted(folder.iterdir())
+    assert [path.name for path in files] == ["rank-0001.yaml", "rank-0002.yaml"]
+    for path in files:
+        assert load(path).solve()
+        assert call("check", path).exit_code == 0
+    before = [path.read_bytes() for path in files]
+    assert ended("reconstruct", "moon-c-e", "-o", folder).returncode == 2
+    assert call("reconstruct", "moon-c-e", "-o", folder, "--force").exit_code == 0
+    assert [path.read_bytes() for path in files] == before
+
+
+def test_as_many_are_listed_as_are_asked_for() -> None:
+    assert len(json.loads(call("reconstruct", "moon-c-e", "--best", "1", "--json").stdout)["best"]) == 1
+    assert len(json.loads(call("reconstruct", "moon-c-e", "--best", "1", "--all", "--json").stdout)["best"]) == 2
+    assert "1 of 2." in call("reconstruct", "moon-c-e", "--best", "1").stdout
+
+
+def test_nothing_found_is_a_verdict_and_what_cannot_be_asked_is_none(tmp_path: Path) -> None:
+    path = tmp_path / "evidence.yaml"
+    path.write_text(NONE, encoding="utf-8")
+    result = call("reconstruct", path)
+    assert result.exit_code == 1
+    assert "No train explains it with 1 added wheel or fewer." in result.stdout
+    assert call("reconstruct", path, "-k", "0", "--count").exit_code == 1
+    assert ended("reconstruct", "planetary-24-18-60").returncode == 2
+    assert ended("reconstruct", path, "--count", "--write", tmp_path / "out").returncode == 2
+    path.write_text(NONE + "locks: [[a, a]]\n", encoding="utf-8")
+    assert ended("reconstruct", path).returncode == 2
+
+
+def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command takes whatever finds reconstructions at its word."""
+
+    def grown(problem: ReconstructionProblem) -> Reconstructions:
+        found = explanations(problem)
+        trees = [(each.counts.added, tree) for each in found for tree in sorted(each.mechanisms)]
+        listed = tuple(Candidate(package_arbor(tree), added, 1 / len(trees)) for added, tree in trees)
+        return Reconstructions(tuple(ExplanationCount(*each.counts) for each in found), True, listed)
+
+    theirs = json.loads(call("reconstruct", "al-biruni-without-moon", "--json").stdout)
+    monkeypatch.setattr(reconstruction_search, "find_reconstructions", grown)
+    mine = json.loads(call("reconstruct", "al-biruni-without-moon", "--json").stdout)
+    assert mine["counts"] == theirs["counts"]
+    assert sorted(each["meshes"] for each in mine["best"]) == sorted(each["meshes"] for each in theirs["best"])

@@ -341,22 +341,82 @@ class ExplanationSearch:
     def _child(self, pitch: Fraction, arbors: Names, dials: Names, added: int) -> Iterator[Alternative]:
         """One child of a wheel, and all that it drives, with two dials or more."""
         for name in sorted(arbors):
-            arbor = self.arbors[name]
-            rest = arbors - {name}
-            for counts in product(*([count for count, _ in wheel.counts] for wheel in arbor.wheels)):
-                wheels = tuple(PlacedWheel(wheel.name, count) for wheel, count in zip(arbor.wheels, counts, strict=True))
+            arbor, rest = self.arbors[name], arbors - {name}
+            for wheels in _choices(arbor):
                 for driven in wheels:
                     others = tuple(each for each in wheels if each != driven)
-                    speed = -pitch / driven.teeth
-                    yield from self._arbor(name, driven, speed, others, rest, dials, added)
+                    yield from self._if_reached(name, driven, -pitch / driven.teeth, others, rest, dials, added)
                 if added and self.beside is not None:
                     for teeth in self.added.counts:
                         driven = PlacedWheel(None, teeth)
-                        yield from self._arbor(name, driven, -pitch / teeth, wheels, rest, dials, added - 1)
+                        yield from self._if_reached(name, driven, -pitch / teeth, wheels, rest, dials, added - 1)
         if added:
+            yield from self._new_child(pitch, arbors, dials, added)
+
+    def _if_reached(
+        self,
+        name: str,
+        driven: PlacedWheel,
+        speed: Fraction,
+        wheels: tuple[PlacedWheel, ...],
+        arbors: Names,
+        dials: Names,
+        added: int,
+    ) -> list[Alternative]:
+        """What hangs from a surviving arbor, looked for only where each dial may be reached from it."""
+        if not (added and self.beside is not None):  # then no added wheel can stand on it
+            for dial in dials:
+                if not self._shows(self.dials[dial], name, speed) and not any(
+                    self._reaches(speed * wheel.teeth, arbors, dial, added) for wheel in wheels
+                ):
+                    return []
+        return self._arbor(name, driven, speed, wheels, arbors, dials, added)
+
+    def _new_child(self, pitch: Fraction, arbors: Names, dials: Names, added: int) -> Iterator[Alternative]:
+        """An added arbor that a wheel drives: one that shows a dial, one with one driving wheel, or with several."""
+        told = set()
+        for dial in map(self.dials.__getitem__, dials):
+            for speed in (dial.least, -dial.least)[: 1 if dial.signed else 2]:
+                teeth = -pitch / speed
+                if teeth.denominator == 1 and self.added.counts[0] <= teeth <= self.added.counts[-1]:
+                    told.add(int(teeth))
+        for teeth in sorted(told):
+            driven = PlacedWheel(None, teeth)
+            for each in self._arbor(None, driven, -pitch / teeth, (), arbors, dials, added - 1):
+                if isinstance(each, Branching) and each.dials:
+                    yield each
+        if added > 1:
+            yield from self._compounds(pitch, arbors, dials, added - 2)
+        if added > 2:
             for teeth in self.added.counts:
                 driven = PlacedWheel(None, teeth)
-                yield from self._arbor(None, driven, -pitch / teeth, (), arbors, dials, added - 1)
+                for drives in self._shared_out(None, -pitch / teeth, (), arbors, dials, added - 1):
+                    if len(drives) > 1:
+                        yield Branching(None, driven, (), drives)
+
+    def _compounds(self, pitch: Fraction, arbors: Names, dials: Names, left: int) -> Iterator[Alternative]:
+        """An added arbor of two added wheels, with so many added wheels left behind it."""
+        known = self._added_quotients
+        for ratio in sorted(self._wanted_quotients(pitch, arbors, dials)) if not left else known:
+            part = self._hang(-pitch * ratio, arbors, dials, left) if ratio in known else None
+            for driver, driven in known[ratio] if part else ():
+                wheel = PlacedWheel(None, driver)
+                yield Branching(None, PlacedWheel(None, driven), (), ((wheel, part),))
+
+    @cached_property
+    def _added_quotients(self) -> dict[Fraction, list[tuple[int, int]]]:
+        found: dict[Fraction, list[tuple[int, int]]] = {}
+        for driver, driven in product(self.added.counts, repeat=2):
+            found.setdefault(Fraction(driver, driven), []).append((driver, driven))
+        return found
+
+    def _wanted_quotients(self, pitch: Fraction, arbors: Names, dials: Names) -> set[Fraction]:
+        """Quotients after which one of the dials can be reached with no more added wheels."""
+        if not self._sure:
+            return set(self._added_quotients)
+        ratio = abs(self.dials[min(dials)].least / pitch)
+        known = self._quotients_to(min(dials))
+        return {ratio / each for each, needs in known.items() if any(some <= arbors for some in needs)}
 
     # a path to one dial
 
@@ -457,6 +517,12 @@ class ExplanationSearch:
             factors.append([Fraction(1), *(Fraction(1, count) for count in counts)])
         for choice in product(*factors):
             yield prod(choice, start=Fraction(1))
+
+
+def _choices(arbor: SurvivingArbor) -> Iterator[tuple[PlacedWheel, ...]]:
+    """A surviving arbor with each choice of counts."""
+    for counts in product(*([count for count, _ in wheel.counts] for wheel in arbor.wheels)):
+        yield tuple(PlacedWheel(wheel.name, count) for wheel, count in zip(arbor.wheels, counts, strict=True))
 
 
 def _subsets(names: Names) -> Iterator[Names]:

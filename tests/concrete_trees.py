@@ -184,6 +184,9 @@ def speeds(node: Node, speed: Fraction) -> list[Fraction]:
 
 
 def _keeps_rules(tree: Node, problem: ReconstructionProblem) -> bool:
+    joined = {frozenset((node[0], child[0])) for node in nodes(tree) for _, below in node[3] for child in below}
+    if joined & problem.coaxial:
+        return False
     pairs = meshes(tree)
     seen = {frozenset((driving[0], driven[0])) for driving, driven in pairs}
     if not problem.meshes <= seen or problem.apart & seen:
@@ -352,6 +355,9 @@ def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> Recon
         input_speed=Fraction(chance.choice((1, 1, 1, -2))) if not any(dial.place for dial in dials) else Fraction(1),
         meshes=frozenset(pairs[:1]) if chance.random() < 0.1 else frozenset(),
         apart=frozenset(pairs[1:2]) if chance.random() < 0.2 else frozenset(),
+        coaxial=frozenset([frozenset(arbor.name for arbor in survivors[:2])])
+        if len(survivors) > 1 and chance.random() < 0.1
+        else frozenset(),
         use=chance.choice(("wheels", "wheels", "arbors", "some")),
         idlers=idlers and chance.random() < 0.5,
     )

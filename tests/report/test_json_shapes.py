@@ -155,6 +155,11 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
     "teeth set --kind list": [("teeth", "set", "--kind", "list")],
     "teeth train": [("teeth", "train", "pennestri-2002-missing", "--best", "1", "--workers", "1")],
     "teeth orrery": [("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40")],
+    "reconstruct": [
+        ("reconstruct", "moon-c-e"),
+        ("reconstruct", "moon-c-e", "-k", "1"),
+        ("reconstruct", "metonic-l-m", "--count"),
+    ],
     "optimise": [("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")],
     "mesh triangular": [
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),

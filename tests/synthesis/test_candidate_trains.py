@@ -206,9 +206,11 @@ def declared(problem: ReconstructionProblem) -> Train:
         "idlers": problem.idlers,
         "apart": [sorted(pair) for pair in problem.apart],
     }
+    joints = [{"pair": ["frame", arbor], "axis": "same"} for pair in problem.coaxial for arbor in sorted(pair)]
     return declare(
         {
             "unit": {"per": "1 d"},
+            "revolutes": joints,
             "links": links,
             "gears": [{"pair": sorted(pair)} for pair in problem.meshes if len(pair) == 2],
             "inputs": {problem.input.name: str(problem.input_speed)},
@@ -224,6 +226,7 @@ def test_a_small_question_is_read_as_it_was_declared(seed: int) -> None:
     found = evidence_question(declared(problem)).problem
     assert found.dials == problem.dials
     assert found.additions == problem.additions
+    assert found.coaxial == problem.coaxial
     assert (found.meshes, found.apart, found.use) == (problem.meshes, problem.apart, problem.use)
     assert (found.input_speed, found.idlers) == (problem.input_speed, problem.idlers)
     mine = [[part.counts for part in arbor.wheels] for arbor in (problem.input, *problem.arbors)]

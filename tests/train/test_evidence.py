@@ -99,6 +99,12 @@ def test_what_is_said_of_a_speed(said: str, limits: tuple[str, str], signed: boo
     assert (dial.least, dial.greatest, dial.signed) == (Fraction(limits[0]), Fraction(limits[1]), signed)
 
 
+def test_arbors_on_one_axis_do_not_mesh() -> None:
+    joints = "revolutes: [{pair: [frame, a], axis: B}, {pair: [b, frame], axis: B}]\n"
+    assert ask(SOUND + joints).problem.coaxial == {frozenset("ab")}
+    assert ask(SOUND).problem.coaxial == frozenset()
+
+
 def test_the_sense_may_be_given_up() -> None:
     text = changed("1/3", "-1/3").replace("reconstruct:\n", "reconstruct:\n  sense: free\n")
     dial = ask(text).problem.dials[0]
@@ -134,11 +140,6 @@ MISTAKES = {
         ["'w' is a ring, which is not taken up"],
     ),
     "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving arbor"]),
-    "one axis": (
-        SOUND + "revolutes: [{pair: [frame, a], axis: B}, {pair: [frame, b], axis: B}]\n",
-        13,
-        ["'a' and 'b' on one axis are not taken up"],
-    ),
     "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is seen from 'a'"]),
     "no speed": (changed("{expect: 1/3}", "{}"), 10, ["how fast 'sun' turns is not known"]),
     "no tolerance": ("unit: {per: 1 d}\n" + changed("expect: 1/3", "targets: [{period: 3 d}]"), 11, ["is not known"]),

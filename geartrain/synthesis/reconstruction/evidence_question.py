@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem, first_problems
 from geartrain.synthesis.reconstruction.pointer_bounds import find_bounds
@@ -74,6 +75,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         input_speed=evidence.case(None).inputs[source],
         meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
         apart=frozenset(frozenset(pair) for pair in asked.apart),
+        coaxial=frozenset(_coaxial(evidence)),
         use=asked.use,
         idlers=asked.idlers or idlers,
         factors=PriorFactors(asked.cost.wheel.value, asked.cost.arbor.value, asked.cost.unused.value),
@@ -90,6 +92,15 @@ def _additions(add: AddedParts, wheels: int | None) -> Additions:
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:
     wheels = evidence.links[link].wheels
     return SurvivingArbor(link, tuple(SurvivingWheel(name, _counts(wheel)) for name, wheel in wheels.items()))
+
+
+def _coaxial(evidence: Train) -> Iterator[frozenset[str]]:
+    """Arbors that are declared on one axis."""
+    on_axis: dict[str, list[str]] = {}
+    for joint in evidence.revolutes:
+        on_axis.setdefault(joint.axis, []).extend(link for link in joint.pair if link != evidence.frame)
+    for links in on_axis.values():
+        yield from map(frozenset, combinations(links, 2))
 
 
 def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
@@ -121,17 +132,11 @@ def _not_taken_up(evidence: Train, asked: Reconstruction) -> Iterator[Problem]:
         yield _later(evidence, "`given` couplings are not taken up by a reconstruction yet", "reconstruct", "given")
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
         yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
-    on_axis: dict[str, str] = {}
     for at, joint in enumerate(evidence.revolutes):
-        place: Loc = ("revolutes", at)
         if evidence.frame not in joint.pair:
-            yield _later(evidence, "an arbor on a moving arbor is not taken up by a reconstruction yet", *place)
-            continue
-        link = joint.pair[1] if joint.pair[0] == evidence.frame else joint.pair[0]
-        if joint.axis in on_axis:
-            what = f"'{on_axis[joint.axis]}' and '{link}' on one axis are not taken up by a reconstruction yet"
-            yield _later(evidence, what, *place)
-        on_axis[joint.axis] = link
+            yield _later(
+                evidence, "an arbor on a moving arbor is not taken up by a reconstruction yet", "revolutes", at
+            )
     for label, axis in evidence.axes.items():
         if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
             yield _later(evidence, "axes that are not parallel are not taken up by a reconstruction yet", "axes", label)

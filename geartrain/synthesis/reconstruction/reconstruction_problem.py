@@ -87,6 +87,7 @@ class ReconstructionProblem:
 
     meshes   pairs of names of wheels that were seen in mesh
     apart    pairs of names of wheels that do not mesh
+    coaxial  pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included
     use      "wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither
     idlers   whether a driven wheel may drive
     """
@@ -98,6 +99,7 @@ class ReconstructionProblem:
     input_speed: Fraction = Fraction(1)
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
+    coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
     use: Literal["wheels", "arbors", "some"] = "wheels"
     idlers: bool = False
     factors: PriorFactors = PriorFactors()

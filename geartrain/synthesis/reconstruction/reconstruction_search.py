@@ -58,16 +58,22 @@ def _check_taken_up(problem: ReconstructionProblem) -> None:
 
 def _is_allowed(arbor: Arbor, problem: ReconstructionProblem) -> bool:
     pairs = {frozenset(pair) for pair in _meshes(arbor)}
+    joined = {frozenset((each.name, child.name)) for each in _arbors(arbor) for child in _children(each)}
     new = sum(each.name is None for each in _arbors(arbor))
     enough = problem.additions.arbors is None or new <= problem.additions.arbors
-    return enough and problem.meshes <= pairs and not problem.apart & pairs
+    return enough and problem.meshes <= pairs and not problem.apart & pairs and not problem.coaxial & joined
 
 
 def _arbors(arbor: Arbor) -> Iterator[Arbor]:
     yield arbor
-    for _, children in (*arbor.drives, (None, arbor.passes)):
-        for child in children:
-            yield from _arbors(child)
+    for child in _children(arbor):
+        yield from _arbors(child)
+
+
+def _children(arbor: Arbor) -> Iterator[Arbor]:
+    for _, children in arbor.drives:
+        yield from children
+    yield from arbor.passes
 
 
 def _wheels(arbor: Arbor) -> Iterator[PlacedWheel]:

@@ -89,7 +89,7 @@ def _grown(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
     children: list[Node] = [(ADDED, UNKNOWN, (), ())]
     for arbor in left:
         children += [(arbor.name, wheel, (), ()) for wheel in _readings(arbor)]
-        if rules.on == "any":
+        if rules.on == "any" and not arbor.wheels:
             children.append((arbor.name, UNKNOWN, (), ()))
     for grown in _with_child(tree, children, survivors, problem):
         arbors = nodes(grown)

@@ -53,7 +53,7 @@ class AddedParts(Declared):
         None, description="Least and greatest count of an added wheel, inclusive"
     )
     on: Literal["any", "new"] = Field(
-        "any", description="Where added wheels stand: also beside surviving wheels, or on new arbors alone"
+        "any", description="Where added wheels stand: also beside surviving wheels, to drive, or on new arbors alone"
     )
 
     @model_validator(mode="after")

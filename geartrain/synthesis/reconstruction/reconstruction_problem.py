@@ -62,7 +62,7 @@ class Dial:
 class Additions:
     """What may be added: so many wheels, so many arbors, counts of teeth from least to greatest, and where.
 
-    on   "any": also beside surviving wheels; "new": on new arbors alone
+    on   "any": also beside surviving wheels, where they drive; "new": on new arbors alone
     """
 
     wheels: int

@@ -49,6 +49,7 @@ def _check_taken_up(problem: ReconstructionProblem) -> None:
     later = {
         f"`use: {problem.use}`": problem.use != "wheels",
         "`idlers`": problem.idlers,
+        "an arbor without wheels": not all(arbor.wheels for arbor in problem.arbors),
         "a pointer whose speed has a tolerance": any(not dial.is_exact for dial in problem.dials),
     }
     for what, asked in later.items():
@@ -57,6 +58,8 @@ def _check_taken_up(problem: ReconstructionProblem) -> None:
 
 
 def _is_allowed(arbor: Arbor, problem: ReconstructionProblem) -> bool:
+    if any(each.name is not None and each.driven is not None and each.driven.name is None for each in _arbors(arbor)):
+        return False  # where wheels of an arbor survive, one of them is driven; an added one beside them drives
     pairs = {frozenset(pair) for pair in _meshes(arbor)}
     joined = {frozenset((each.name, child.name)) for each in _arbors(arbor) for child in _children(each)}
     new = sum(each.name is None for each in _arbors(arbor))

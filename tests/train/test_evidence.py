@@ -200,3 +200,54 @@ def test_evidence_has_its_own_catalogue() -> None:
     assert not set(shipped_evidence()) & set(shipped())
     with pytest.raises(GearTrainError, match="did you mean 'back-train'"):
         read_evidence("back-trian")
+
+
+BACK_TRAIN = """\
+name: back-train
+sources: {W: Wright, F06: Freeth et al. 2006}
+unit: {per: year_tropical_J2000}
+frame: frame
+links:
+  b: {wheels: {b2: {teeth: {value: 64, range: [64, 66]}, status: surviving, module: 0.484 mm}}}
+  m: {wheels: {m1: {teeth: {value: 96, range: [95, 99]}, source: W}, m2: 15}}
+  E: {wheels: {e3: {teeth: 223}, e4: 188}}
+  f: {wheels: {f1: 53, f2: 30}}
+  g: {wheels: {g1: 54}}
+  h:
+inputs: {b: 1}
+axes: {M: {position: [0 mm, 61 mm, 0 mm]}}
+revolutes: [{pair: [frame, m], axis: M}]
+gears: [{pair: [e4, f1], source: F06}]
+outputs:
+  metonic: {expect: -5/19}
+  saros:   {of: g, targets: [{speed: -940/4237, tolerance: 1/446}]}
+reconstruct:
+  add: {wheels: 3, arbors: 2, teeth: [12, 225], on: any}
+  use: wheels
+  sense: given
+  idlers: false
+  apart: [[m1, g1]]
+  cost: {wheel: 10, arbor: 10, unused: 100}
+"""
+
+
+def test_a_whole_file_of_evidence() -> None:
+    found = ask(BACK_TRAIN)
+    problem = found.problem
+    assert [arbor.name for arbor in problem.arbors] == ["m", "E", "f", "g", "h"]
+    assert problem.arbors[-1].wheels == ()
+    metonic, saros = problem.dials
+    assert metonic.is_exact
+    assert metonic.place is None
+    assert saros.place == "g"
+    half = Fraction(940, 4237) / 446
+    assert (saros.least, saros.greatest) == (Fraction(-940, 4237) - half, Fraction(-940, 4237) + half)
+    assert problem.meshes == {frozenset(("e4", "f1"))}
+    assert problem.additions.arbors == 2
+    assert len(found.unused) == 2
+
+
+def test_what_is_given_is_refused_by_name_and_not_passed_over() -> None:
+    text = BACK_TRAIN + "  given: [{pair: [f, g], kind: pin_and_slot}]\n"
+    with pytest.raises(GearTrainError, match="`given` couplings are not taken up"):
+        ask(text)

@@ -36,7 +36,7 @@ def run(
     every: Annotated[bool, typer.Option("--all", help="List all of them.")] = False,
     idlers: Annotated[bool, typer.Option("--idlers", help="A driven wheel may drive.")] = False,
     folder: Annotated[
-        Path | None, typer.Option("--write", "-o", help="Write what is listed into this folder, a declaration a file.")
+        Path | None, typer.Option("-o", "--write", help="Write what is listed into this folder, a declaration a file.")
     ] = None,
     json: Json = False,
     force: Force = False,

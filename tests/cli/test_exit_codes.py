@@ -23,7 +23,12 @@ from test_output_files import ASKED, DOUBT
 from geartrain.cli import app, main
 from geartrain.cli.exit_codes import EndingGroup
 
-OTHERS = {"check": ("check", "worm"), "list": ("list",), "periods": ("periods",)}
+OTHERS = {
+    "check": ("check", "worm"),
+    "list": ("list",),
+    "periods": ("periods",),
+    "reconstruct": ("reconstruct", "moon-c-e"),
+}
 
 
 def runs() -> Iterator[tuple[str, Any]]:

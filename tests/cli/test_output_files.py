@@ -75,6 +75,7 @@ for _form in FORMS:
     ASKED[f"mesh {_form.replace('-', '_')}", "--plot"] = (("mesh", _form.replace("-", "_"), *PAIR), (".svg",))
     ASKED[f"mesh {_form.replace('-', '_')}", "--profile"] = (("mesh", _form.replace("-", "_"), *SIZED), (".svg",))
 FOLDER = ("export", "--to")
+FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstruct_command.py
 TRAINS: dict[str, Path] = {}
 
 CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED.items() for suffix in suffixes]
@@ -115,7 +116,7 @@ def ask(command: str, option: str, path: object, *more: object) -> Any:
 
 def test_every_option_that_names_a_file_is_tried_here() -> None:
     reads = {("sphere", "--graph")}
-    assert set(writing()) - reads == {*ASKED, FOLDER}
+    assert set(writing()) - reads == {*ASKED, FOLDER, FOUND}
 
 
 @pytest.fixture

@@ -8,7 +8,8 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure
-from geartrain.train.fields import Boolean, Count, Declared, Id, above_zero
+from geartrain.numerics.quantity_bounds import above_zero
+from geartrain.train.fields import Boolean, Count, Declared, Id
 
 MOST_ADDED = 1000
 NEW_ARBOR = "new"

@@ -5,13 +5,14 @@ Names do not depend on anything but the evidence and the candidate, so that the 
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from geartrain.numerics.decimal_text import fraction_text
-from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
+from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, free_name, name_train
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
 from geartrain.train import Train, declare
 from geartrain.train.yaml_nodes import as_yaml
 
@@ -72,29 +73,26 @@ class TrainConstruction:
     def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
         """All of a candidate."""
         made = cls(evidence, evidence.model_dump(mode="json", exclude_unset=True, by_alias=True))
-        made._add(arbor)
+        made._add(name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels))
         return made
 
-    def _add(self, source: Arbor) -> None:
+    def _add(self, source: NamedArbor) -> None:
         """All arbors of a candidate."""
-        speed = self.evidence.case(None).inputs[source.name or ""]
-        waiting: list[tuple[Arbor, str, Fraction]] = [(source, "", speed)]
-        while waiting:
-            arbor, driving, speed = waiting.pop()
-            link, driven = self._link(arbor), ""
-            if arbor.driven is not None:
-                driven = self._wheel(link, arbor.driven)
-                self.gears.append(self._gear(driving, driven))
-                self.meshes.append((driving, driven))
-            self.shown.update(dict.fromkeys(arbor.dials, (link, speed)))
-            below: list[tuple[Arbor, str, Fraction]] = []
-            if arbor.driven is not None:
-                below += _driven_by(arbor.passes, driven, arbor.driven.teeth, speed)
-            for wheel, children in sorted(arbor.drives, key=_drive_order):
-                same = arbor.driven is not None and wheel.name is not None and wheel.name == arbor.driven.name
-                name = driven if same else self._wheel(link, wheel)
-                below += _driven_by(children, name, wheel.teeth, speed)
-            waiting += reversed(below)
+        self._put(source, self.evidence.case(None).inputs[source.name])
+        speeds = {source.name: self.evidence.case(None).inputs[source.name]}
+        for driving, wheel, arbor in source.meshes():
+            assert arbor.driven is not None
+            speeds[arbor.name] = -speeds[driving.name] * wheel.teeth / arbor.driven.teeth
+            self._put(arbor, speeds[arbor.name])
+            self.gears.append(self._gear(wheel.name, arbor.driven.name))
+            self.meshes.append((wheel.name, arbor.driven.name))
+
+    def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
+        """An arbor with its wheels and pointers."""
+        self._link(arbor)
+        for wheel in arbor.wheels():
+            self._wheel(arbor.name, wheel)
+        self.shown.update(dict.fromkeys(arbor.dials, (arbor.name, speed)))
 
     def parts(self) -> dict[str, Any]:
         """What differs from the evidence."""
@@ -107,35 +105,25 @@ class TrainConstruction:
         found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, "outputs": outputs}
         return {"axes": axes, **found} if axes else found
 
-    def _link(self, arbor: Arbor) -> str:
+    def _link(self, arbor: NamedArbor) -> None:
         frame, joints = self.evidence.frame, self.given.get("revolutes", ())
-        taken = {*self.evidence.links, *self.links, frame}
-        if arbor.name is None:
-            link = _free_name(arbor.dials[0], "arbor", taken) if arbor.dials else _numbered("new", taken)
-            self.links[link] = {"wheels": {}, "note": ADDED_NOTE}
-        else:
-            link = arbor.name
-            self.links[link] = dict(self.given["links"][link] or {})
+        link = arbor.name
+        self.links[link] = {"wheels": {}, "note": ADDED_NOTE} if arbor.added else dict(self.given["links"][link] or {})
         joint = next((joint for joint in joints if set(joint["pair"]) == {frame, link}), None)
         if joint is None:
             labels = {joint["axis"] for joint in (*joints, *self.revolutes)} | set(self.evidence.axes)
-            joint = {"pair": [frame, link], "axis": _free_name(link, "axis", labels)}
+            joint = {"pair": [frame, link], "axis": free_name(link, "axis", labels)}
         self.revolutes.append(joint)
-        return link
 
-    def _wheel(self, link: str, wheel: PlacedWheel) -> str:
-        """The id of a wheel, which then stands on its link with the count of the candidate."""
+    def _wheel(self, link: str, wheel: NamedWheel) -> None:
+        """A wheel on its link, with the count of the candidate."""
         wheels = dict(self.links[link].get("wheels", {}))
-        if wheel.name is None:
-            stem = f"{link}_" if link[-1].isdigit() else link
-            name = _numbered(stem, {*self.evidence.wheels, *self.added})
-            self.added[name] = wheel.teeth
-            wheels[name] = {"teeth": wheel.teeth, "status": "hypothetical", "note": ADDED_NOTE}
+        if wheel.added:
+            self.added[wheel.name] = wheel.teeth
+            wheels[wheel.name] = {"teeth": wheel.teeth, "status": "hypothetical", "note": ADDED_NOTE}
         else:
-            name = wheel.name
-            wheels[name] = wheels[name] | {"teeth": _with_count(wheels[name]["teeth"], wheel.teeth)}
+            wheels[wheel.name] = wheels[wheel.name] | {"teeth": _with_count(wheels[wheel.name]["teeth"], wheel.teeth)}
         self.links[link]["wheels"] = wheels
-        return name
 
     def _gear(self, driving: str, driven: str) -> dict[str, Any]:
         for gear in self.given.get("gears", ()):
@@ -154,26 +142,6 @@ class TrainConstruction:
         return {"of": link} | {key: value for key, value in given.items() if key != "of"}
 
 
-def _driven_by(
-    arbors: tuple[Arbor, ...], wheel: str, teeth: int, speed: Fraction
-) -> Iterator[tuple[Arbor, str, Fraction]]:
-    for arbor in sorted(arbors, key=_order):
-        assert arbor.driven is not None
-        yield arbor, wheel, -speed * teeth / arbor.driven.teeth
-
-
-def _order(arbor: Arbor) -> tuple[Any, ...]:
-    """A key by which arbors are put in order, whatever the order in which they were found."""
-    driven = (arbor.driven.name or "", arbor.driven.teeth) if arbor.driven is not None else ("", 0)
-    below = tuple(sorted(map(_drive_order, arbor.drives)))
-    return arbor.name or "", driven, arbor.dials, below, tuple(sorted(map(_order, arbor.passes)))
-
-
-def _drive_order(drive: tuple[PlacedWheel, tuple[Arbor, ...]]) -> tuple[Any, ...]:
-    wheel, arbors = drive
-    return wheel.name or "", wheel.teeth, tuple(sorted(map(_order, arbors)))
-
-
 def _with_count(teeth: Any, count: int) -> Any:
     """A declared tooth count with the value of a candidate; its doubt stays."""
     if not isinstance(teeth, Mapping):
@@ -182,19 +150,3 @@ def _with_count(teeth: Any, count: int) -> Any:
     if "search" in teeth and not {"range", "choices"} & set(found):
         found["range"] = teeth["search"]
     return found
-
-
-def _free_name(name: str, kind: str, taken: Container[str]) -> str:
-    """The name itself, else one that says what it is."""
-    if name not in taken:
-        return name
-    longer = f"{name}_{kind}"
-    return longer if longer not in taken else _numbered(f"{longer}_", taken)
-
-
-def _numbered(stem: str, taken: Container[str]) -> str:
-    """The stem with the first number from 1 on that is free."""
-    number = 1
-    while f"{stem}{number}" in taken:
-        number += 1
-    return f"{stem}{number}"

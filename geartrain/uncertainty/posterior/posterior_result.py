@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import log2
 from typing import Literal, NotRequired, TypedDict
 
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.information import relative_entropy
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.uncertainty.posterior.observations import ObservedOutput
@@ -96,9 +96,7 @@ class WheelPosterior(Result):
     @property
     def bits(self) -> float:
         """What the outputs tell of it: the relative entropy of posterior and prior [bit]; 0 for nothing."""
-        pairs = zip(map(float, self.chances), self.doubt.priors, strict=False)
-        # never negative but for rounding
-        return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
+        return relative_entropy(map(float, self.chances), self.doubt.priors)
 
     def chance(self, count: int) -> CountProbability:
         """The posterior probability of a count.

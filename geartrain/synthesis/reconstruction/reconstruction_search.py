@@ -5,22 +5,27 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.reconstruction.explanation_search import ExplanationSearch
+from geartrain.synthesis.reconstruction.added_counts import AddedCounts
+from geartrain.synthesis.reconstruction.arrangements import MeshFacts, arranged, count_orders
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
 from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
+from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
 
 
 def find_reconstructions(problem: ReconstructionProblem) -> Reconstructions:
     """All explanations with at most as many added wheels as may be added."""
-    _check_taken_up(problem)
     counts: list[ExplanationCount] = []
     found: list[tuple[Fraction, int, Arbor]] = []
+    search, facts = SkeletonSearch(problem), MeshFacts.of(problem)
+    choices = AddedCounts(problem.additions.least, problem.additions.greatest)
     for added in range(problem.additions.wheels + 1):
-        arbors = [
-            arbor for (arbor,) in ExplanationSearch(problem).explain(added).trees() if _is_allowed(arbor, problem)
-        ]
+        arbors = []
+        for skeleton in search.skeletons(added):
+            if not count_orders(skeleton, facts):
+                continue
+            for assigned, idle in choices.assignments(skeleton.added, skeleton.wanted):
+                arbors += arranged(skeleton, assigned, idle, facts)
         kinds = len({bag(arbor) for arbor in arbors}), len({ratio_class(arbor) for arbor in arbors})
         counts.append(ExplanationCount(added, len(arbors), *kinds))
         found += [(prior(arbor, problem), added, arbor) for arbor in arbors]
@@ -43,28 +48,6 @@ def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
     weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** sum(wheel.name is None for wheel in wheels)
     weight /= factors.arbor ** sum(each.name is None for each in _arbors(arbor))
     return weight / factors.unused ** (len(counts) - len(used))
-
-
-def _check_taken_up(problem: ReconstructionProblem) -> None:
-    later = {
-        f"`use: {problem.use}`": problem.use != "wheels",
-        "`idlers`": problem.idlers,
-        "an arbor without wheels": not all(arbor.wheels for arbor in problem.arbors),
-        "a pointer whose speed has a tolerance": any(not dial.is_exact for dial in problem.dials),
-    }
-    for what, asked in later.items():
-        if asked:
-            raise QuestionError(Problem(f"{what} is not taken up by the search yet", "", "ask without it"))
-
-
-def _is_allowed(arbor: Arbor, problem: ReconstructionProblem) -> bool:
-    if any(each.name is not None and each.driven is not None and each.driven.name is None for each in _arbors(arbor)):
-        return False  # where wheels of an arbor survive, one of them is driven; an added one beside them drives
-    pairs = {frozenset(pair) for pair in _meshes(arbor)}
-    joined = {frozenset((each.name, child.name)) for each in _arbors(arbor) for child in _children(each)}
-    new = sum(each.name is None for each in _arbors(arbor))
-    enough = problem.additions.arbors is None or new <= problem.additions.arbors
-    return enough and problem.meshes <= pairs and not problem.apart & pairs and not problem.coaxial & joined
 
 
 def _arbors(arbor: Arbor) -> Iterator[Arbor]:

@@ -1,0 +1,118 @@
+"""In how many ways the added wheels of a skeleton have counts with which every dial turns as it must.
+
+Wheels that change the speeds of the same dials enter by their quotient alone: a group. A dial with one group left fixes
+its quotient; else the smallest group is tried with each quotient that it may have (variable elimination).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import lru_cache
+from itertools import product
+
+from geartrain.synthesis.reconstruction.count_products import (
+    count_between,
+    count_choices,
+    list_choices,
+    quotients,
+)
+from geartrain.synthesis.reconstruction.skeletons import AddedWheels, Dials, Quotients
+
+Group = tuple[Dials, int, int]
+Wanted = tuple[tuple[str, Quotients], ...]
+Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
+"""By group, counts of its drivers and of its driven wheels."""
+
+
+class AddedCounts:
+    """Assignments of counts from least to greatest to added wheels."""
+
+    def __init__(self, least: int, greatest: int) -> None:
+        self.range = least, greatest
+        self._count = lru_cache(maxsize=1 << 18)(self._counted)
+
+    @property
+    def _choices(self) -> int:
+        return self.range[1] - self.range[0] + 1
+
+    def count(self, added: AddedWheels, wanted: Wanted) -> int:
+        """How many there are; wheels are told apart."""
+        return self._count(added.groups, wanted) * self._choices**added.idle
+
+    def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
+        """The assignments themselves, and the counts of wheels that change no speed."""
+        for counts in self._listed(added.groups, wanted):
+            for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
+                yield counts, idle
+
+    def _counted(self, groups: tuple[Group, ...], wanted: Wanted) -> int:
+        if not _may_hold(groups, wanted):
+            return 0
+        step = self._next(groups, wanted)
+        if step is None:
+            return 1
+        at, bounds, private = step
+        (dials, drivers, driven), rest = groups[at], groups[:at] + groups[at + 1 :]
+        if private:
+            own = count_between(*bounds, drivers, driven, self.range)
+            return own and own * self._count(rest, _without(wanted, dials))
+        if bounds[0] == bounds[1]:
+            own = count_choices(bounds[0], drivers, driven, self.range)
+            return own and own * self._count(rest, _divided(wanted, dials, bounds[0]))
+        return sum(
+            own * self._count(rest, _divided(wanted, dials, quotient))
+            for quotient, own in quotients(*bounds, drivers, driven, self.range)
+        )
+
+    def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
+        step = self._next(groups, wanted)
+        if step is None:
+            if _may_hold(groups, wanted):
+                yield {}
+            return
+        at, bounds, _ = step
+        (dials, drivers, driven), rest = groups[at], groups[:at] + groups[at + 1 :]
+        for quotient, _ in quotients(*bounds, drivers, driven, self.range):
+            left = _divided(wanted, dials, quotient)
+            if self._count(rest, left):
+                own = list(list_choices(quotient, drivers, driven, self.range))
+                for others in self._listed(rest, left):
+                    yield from ({dials: choice, **others} for choice in own)
+
+    @staticmethod
+    def _next(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, Quotients, bool] | None:
+        """The group to be settled next, bounds of its quotient, and whether one dial alone asks for it."""
+        if not groups:
+            return None
+        anywhere: Quotients = Fraction(0), _BOUNDLESS
+        found = min(range(len(groups)), key=lambda at: groups[at][1] + groups[at][2]), anywhere, False
+        best = False
+        for dial, bounds in wanted:
+            own = [at for at, group in enumerate(groups) if dial in group[0]]
+            if len(own) == 1 and not best:
+                exact = bounds[0] == bounds[1]
+                private = groups[own[0]][0] == (dial,)
+                if exact or private:
+                    found, best = (own[0], bounds, private), exact
+        return found
+
+
+_BOUNDLESS = Fraction(10**40)
+
+
+def _may_hold(groups: tuple[Group, ...], wanted: Wanted) -> bool:
+    """Whether the dials whose speed no group changes any more turn as they must."""
+    open_dials = {dial for dials, _, _ in groups for dial in dials}
+    return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
+
+
+def _without(wanted: Wanted, dials: Dials) -> Wanted:
+    return tuple(each for each in wanted if each[0] not in dials)
+
+
+def _divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
+    """What is left to be reached by the other groups."""
+    return tuple(
+        (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
+    )

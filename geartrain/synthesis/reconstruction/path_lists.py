@@ -1,0 +1,280 @@
+"""All surviving arbors and wheels that a path from the input to one dial may use, whatever is added to it.
+
+Most have no answer: what is left of a dial's speed when the surviving wheels on a path are taken out must be a quotient
+of few added counts. So few paths remain, whichever trains they then belong to, and a search over trains goes only where
+every dial still has one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from math import prod
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass, arbor_passes
+from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
+
+Rows = NDArray[np.int64]
+_ENDED = 1 << 62
+
+
+@dataclass(frozen=True)
+class AddedArbors:
+    """Added arbors on a path: `compounds` with a driven and a driving wheel, `idlers` with one wheel that is both."""
+
+    compounds: int
+    idlers: int
+
+    @property
+    def wheels(self) -> int:
+        """Number of their wheels."""
+        return 2 * self.compounds + self.idlers
+
+
+class PathList:
+    """Paths to a dial, one a row.
+
+    codes      by row and arbor, the input first: which of `passes` is taken, from 1 on; 0 where the path is elsewhere
+    arbors     by row: bit i - 1 for each surviving arbor i on the path
+    owing      by row: the same for those where surviving wheels are passed by, if all must mesh; -1 for the input's
+    ends_new   by row: whether the dial's arbor is added
+    wheels     by row: number of wheels that are added beside surviving ones or at the end
+    possible   by row: bit j where `plans[j]` may be the added arbors on the path
+    """
+
+    def __init__(self, dial: Dial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
+        self.dial, self.problem, self.keys = dial, problem, keys
+        every = (problem.input, *problem.arbors)
+        self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
+        self.plans = tuple(_plans(problem.additions.wheels, problem.idlers))
+        growth = self._grown()
+        self.codes = growth.codes
+        self.ends_new = ~growth.ended
+        self.wheels = growth.added + self.ends_new
+        self.drivers, self.driven = growth.drivers, growth.driven + self.ends_new
+        bits = (np.int64(1) << np.arange(len(every) - 1, dtype=np.int64)) if len(every) > 1 else np.zeros(0, np.int64)
+        self.arbors = (self.codes[:, 1:] > 0) @ bits
+        idle = np.zeros(self.codes.shape, dtype=bool)
+        if problem.use == "wheels":
+            for at, passes in enumerate(self.passes):
+                table = np.array([False, *(each.idle > 0 for each in passes)])
+                idle[:, at] = table[self.codes[:, at]]
+        self.owing = idle[:, 1:] @ bits
+        self.root_owing = idle[:, 0]
+        self.possible = self._possible(growth)
+        self._keep(self.possible > 0)
+
+    def _passes(self, at: int) -> Iterator[ArborPass]:
+        problem = self.problem
+        arbor = (problem.input, *problem.arbors)[at]
+        # those that end come last: so the others have the same codes in the lists of all dials
+        for each in sorted(arbor_passes(arbor, problem), key=lambda each: each.driver is None):
+            if each.driver is None and self.dial.place not in (None, arbor.name):
+                continue
+            if problem.use == "wheels" and each.idle >= len(problem.dials):
+                continue
+            yield each
+
+    # growth, arbor by arbor
+
+    def _grown(self) -> _Growth:
+        limits, problem = self.problem.additions, self.problem
+        growth = _Growth.start(len(self.passes), self._wanted_key, self._wanted_powers)
+        order = sorted(range(len(self.passes)), key=lambda at: -len(self.passes[at]))
+        debts = len(problem.dials) - 1 if problem.use == "wheels" else None
+        for number, at in enumerate(order):
+            growth = self._with_arbor(growth, at)
+            later = {prime for each in order[number + 1 :] for prime in self._primes_of(each)}
+            closed = [column for column, prime in enumerate(self._primes) if prime not in later]
+            growth = growth.kept(growth.may_stand(closed, self._lost, limits.wheels, debts))
+        if self.dial.place not in (None, NEW):
+            growth = growth.kept(growth.ended)
+        return growth
+
+    def _with_arbor(self, growth: _Growth, at: int) -> _Growth:
+        parts = [growth] if at else []
+        for code, each in enumerate(self.passes[at], 1):
+            parts.append(growth.through(at, code, each, *self._step(each)))
+        return _Growth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
+
+    def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:
+        """By how much a pass changes the key, and the powers of large primes, of what is left to be added."""
+        if each.idler:
+            return np.uint64(0), np.zeros(len(self._primes), dtype=np.int8)
+        ratio = Fraction(_sure(each.driven), _sure(each.driver))
+        return np.uint64(self.keys.key(ratio)), self._powers(ratio)
+
+    # primes of which an added wheel holds one at most
+
+    @cached_property
+    def _primes(self) -> tuple[int, ...]:
+        if not self.dial.is_exact:
+            return ()
+        least = self.problem.additions.greatest
+        found = {prime for at in range(len(self.passes)) for prime in self._primes_of(at)}
+        found |= {
+            prime for prime, _ in (*prime_powers(self._wanted.numerator), *prime_powers(self._wanted.denominator))
+        }
+        return tuple(sorted(prime for prime in found if prime * prime > least))
+
+    @lru_cache(maxsize=None)  # noqa: B019 -- lives as long as the list
+    def _primes_of(self, at: int) -> frozenset[int]:
+        counts = {_sure(wheel) for each in self.passes[at] for wheel in (each.driven, each.driver)}
+        return frozenset(prime for count in counts for prime, _ in prime_powers(count))
+
+    def _powers(self, ratio: Fraction) -> NDArray[np.int8]:
+        up, down = dict(prime_powers(ratio.numerator)), dict(prime_powers(ratio.denominator))
+        return np.array([up.get(prime, 0) - down.get(prime, 0) for prime in self._primes], dtype=np.int8)
+
+    @cached_property
+    def _lost(self) -> NDArray[np.bool_]:
+        """Which primes no added wheel has."""
+        return np.array([prime > self.problem.additions.greatest for prime in self._primes], dtype=bool)
+
+    @cached_property
+    def _wanted(self) -> Fraction:
+        """Magnitude of the dial's speed over that of the input, the least where it has a tolerance."""
+        least = self.dial.least
+        return abs(least / self.problem.input_speed) if least else Fraction(1)
+
+    @property
+    def _wanted_key(self) -> int:
+        return self.keys.key(self._wanted)
+
+    @property
+    def _wanted_powers(self) -> NDArray[np.int8]:
+        return self._powers(self._wanted)
+
+    # which added arbors may be on a path
+
+    def _possible(self, growth: _Growth) -> Rows:
+        limits = self.problem.additions
+        found = np.zeros(len(self.codes), dtype=np.int64)
+        meshes = (self.codes[:, 1:] > 0).sum(axis=1) + self.ends_new
+        for bit, plan in enumerate(self.plans):
+            fits = self.wheels + plan.wheels <= limits.wheels
+            turned = (meshes + plan.compounds + plan.idlers) % 2 == 1
+            fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
+            if self.dial.is_exact:
+                fits &= self._may_be_quotient(growth.keys, plan.compounds, fits)
+            found |= fits.astype(np.int64) << bit
+        return found
+
+    def _may_turn(self, turned: bool) -> bool:
+        """Whether the dial may turn the other way than the input, or the same way."""
+        return self._magnitudes(turned)[1] > 0
+
+    def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
+        """Least and greatest magnitude of the dial's speed if it turns so; the greatest is 0 where it must not."""
+        low, high = self.dial.least, self.dial.greatest
+        if self.dial.signed and (self.problem.input_speed > 0) == turned:
+            low, high = -high, -low
+        return max(low, Fraction(0)), max(high, Fraction(0))
+
+    def _may_be_quotient(self, keys: NDArray[np.uint64], compounds: int, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        found = asked.copy()
+        kinds = self.drivers.astype(np.int64) * 64 + self.driven
+        for kind in np.unique(kinds[asked]):
+            rows = np.flatnonzero(asked & (kinds == kind))
+            drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
+            found[rows] = self.keys.may_be_quotients(keys[rows], drivers, driven)
+        return found
+
+    def _keep(self, rows: NDArray[np.bool_]) -> None:
+        for name in ("codes", "arbors", "owing", "root_owing", "ends_new", "wheels", "drivers", "driven", "possible"):
+            setattr(self, name, getattr(self, name)[rows])
+
+    # a path's speed
+
+    def known_ratio(self, row: int) -> Fraction:
+        """Product of the surviving wheels that drive over that of those that are driven, on a path."""
+        taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
+        taken = [each for each in taken if not each.idler]
+        return Fraction(prod(_sure(each.driver) for each in taken), prod(_sure(each.driven) for each in taken))
+
+    def wanted_quotients(self, row: int, turned: bool) -> tuple[Fraction, Fraction]:
+        """Least and greatest quotient that the added wheels on a path may have if it ends turning the other way."""
+        known = abs(self.known_ratio(row) * self.problem.input_speed)
+        low, high = self._magnitudes(turned)
+        return low / known, high / known
+
+
+def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
+    for compounds in range(wheels // 2 + 1):
+        for single in range(wheels - 2 * compounds + 1 if idlers else 1):
+            yield AddedArbors(compounds, single)
+
+
+def _sure(wheel: object) -> int:
+    """The count of a surviving wheel on a path; 1 for an added one, and for none."""
+    teeth = getattr(wheel, "teeth", 1)
+    return teeth if wheel is not None and wheel != ADDED else 1
+
+
+@dataclass(frozen=True)
+class _Growth:
+    """Paths through some of the arbors, a row each.
+
+    keys, powers   of what is left to be added: its key, and the powers of large primes in it
+    """
+
+    codes: NDArray[np.uint16]
+    keys: NDArray[np.uint64]
+    powers: NDArray[np.int8]
+    drivers: NDArray[np.int8]
+    driven: NDArray[np.int8]
+    added: NDArray[np.int8]
+    idle: NDArray[np.int8]
+    ended: NDArray[np.bool_]
+
+    @staticmethod
+    def start(arbors: int, key: int, powers: NDArray[np.int8]) -> _Growth:
+        none = np.zeros(1, dtype=np.int8)
+        return _Growth(
+            np.zeros((1, arbors), dtype=np.uint16),
+            np.array([key], dtype=np.uint64),
+            powers[None, :],
+            *(none,) * 4,
+            np.zeros(1, dtype=bool),
+        )
+
+    def _columns(self) -> tuple[NDArray, ...]:
+        return self.codes, self.keys, self.powers, self.drivers, self.driven, self.added, self.idle, self.ended
+
+    @staticmethod
+    def joined(parts: list[_Growth]) -> _Growth:
+        return _Growth(*map(np.concatenate, zip(*(part._columns() for part in parts), strict=True)))
+
+    def kept(self, rows: NDArray[np.bool_]) -> _Growth:
+        return _Growth(*(column[rows] for column in self._columns()))
+
+    def through(self, at: int, code: int, each: ArborPass, key: np.uint64, powers: NDArray[np.int8]) -> _Growth:
+        """The same paths, through one arbor more; one that has ended is not ended again."""
+        found = self.kept(~self.ended) if each.driver is None else self
+        codes = found.codes.copy()
+        codes[:, at] = code
+        return _Growth(
+            codes,
+            found.keys + key,
+            found.powers + powers,
+            found.drivers + np.int8(each.added_drivers),
+            found.driven + np.int8(each.added_driven),
+            found.added + np.int8(each.added),
+            found.idle + np.int8(each.idle),
+            found.ended | (each.driver is None),
+        )
+
+    def may_stand(
+        self, closed: list[int], lost: NDArray[np.bool_], wheels: int, debts: int | None
+    ) -> NDArray[np.bool_]:
+        """Which may become a path: no more is added, and no more wheels are passed by, than may be."""
+        held = self.powers[:, closed]
+        need = np.abs(held).sum(axis=1)
+        found = (need <= wheels) & (self.added <= wheels) & ~(held[:, lost[closed]] != 0).any(axis=1)
+        return found if debts is None else found & (self.idle <= debts)

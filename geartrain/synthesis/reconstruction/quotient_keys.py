@@ -1,0 +1,89 @@
+"""Keys of positive rationals that add where these multiply: sets of millions of quotients are looked up at once.
+
+The key of a number is the sum of fixed random 64-bit words, one for each of its primes, modulo 2^64. Equal numbers have
+equal keys. Two different ones have the same key with a chance of 2^-64; then a part of a train is looked into that
+explains nothing, so that no answer depends on it.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Keys = NDArray[np.uint64]
+
+_WHOLE = 1 << 64
+_LONGEST = 3_000_000
+"""Quotients in a table; where there would be more, every number is taken for one."""
+
+
+class QuotientKeys:
+    """Keys of numbers, and of all quotients of products of added wheels' counts.
+
+    least, greatest   counts of an added wheel
+    """
+
+    def __init__(self, least: int, greatest: int) -> None:
+        self.least, self.greatest = least, greatest
+        self._words: dict[int, int] = {}
+        self._random = np.random.default_rng(0x6EA7)
+        self._tables: dict[tuple[int, int], Keys | None] = {(0, 0): np.zeros(1, dtype=np.uint64)}
+
+    def key(self, number: Fraction | int) -> int:
+        """The key of a positive number."""
+        ratio = Fraction(number)
+        found = 0
+        for part, sign in ((ratio.numerator, 1), (ratio.denominator, -1)):
+            found += sign * sum(self._word(prime) * power for prime, power in prime_powers(part))
+        return found % _WHOLE
+
+    def _word(self, prime: int) -> int:
+        if prime not in self._words:
+            self._words[prime] = int(self._random.integers(1, _WHOLE, dtype=np.uint64))
+        return self._words[prime]
+
+    def may_be_quotients(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
+        """Which keys are those of quotients of so many drivers over so many driven wheels; never wrongly False."""
+        table = self._table(drivers, driven)
+        if table is None:
+            return np.ones(len(keys), dtype=bool)
+        at = np.searchsorted(table, keys)
+        at[at == len(table)] = 0
+        return np.asarray(table[at] == keys)
+
+    def _table(self, drivers: int, driven: int) -> Keys | None:
+        key = drivers, driven
+        if key not in self._tables:
+            before = (drivers, driven - 1) if driven >= drivers else (drivers - 1, driven)
+            known = self._table(*before)
+            counts = self._counts if driven < drivers else -self._counts
+            self._tables[key] = (
+                None
+                if known is None or len(known) * len(counts) > 4 * _LONGEST
+                else np.unique(np.add.outer(known, counts))
+            )
+        return self._tables[key]
+
+    @cached_property
+    def _counts(self) -> Keys:
+        return np.array([self.key(count) for count in range(self.least, self.greatest + 1)], dtype=np.uint64)
+
+
+@lru_cache(maxsize=1 << 16)
+def prime_powers(number: int) -> tuple[tuple[int, int], ...]:
+    """Primes of a number from 1 on with their powers; what no prime below 10 000 divides is taken for one prime."""
+    found, prime = [], 2
+    while prime * prime <= number and prime < 10_000:
+        power = 0
+        while number % prime == 0:
+            number //= prime
+            power += 1
+        if power:
+            found.append((prime, power))
+        prime += 1
+    if number > 1:
+        found.append((number, 1))
+    return tuple(found)

@@ -1,0 +1,160 @@
+"""Hard facts, each dropped in turn: what it carried is what would explain the evidence without it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from geartrain.errors import QuestionError
+from geartrain.numerics.plain_data import Result
+from geartrain.numerics.work import Execution
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+
+Search = Callable[[ReconstructionProblem], Reconstructions]
+"""What finds all explanations of a question."""
+
+_LEAST_TEETH = 3
+
+
+@dataclass(frozen=True)
+class ChangedQuestion:
+    """A question in which one thing is otherwise, and the words for it."""
+
+    change: str
+    problem: ReconstructionProblem
+
+
+@dataclass(frozen=True, slots=True)
+class ChangedCount(Result):
+    """How many trains explain what one thing otherwise would leave.
+
+    Attributes
+    ----------
+    change : str
+        What is otherwise.
+    mechanisms : tuple of int
+        Trains with just 0, 1, 2, ... added wheels.
+    complete : bool
+        Whether all were looked at.
+    refused : str or None
+        Why it could not be asked.
+    """
+
+    KEYS = ("change", "mechanisms", "complete", "refused")
+
+    change: str
+    mechanisms: tuple[int, ...]
+    complete: bool = True
+    refused: str | None = None
+
+    @property
+    def total(self) -> int:
+        """Trains in all."""
+        return sum(self.mechanisms)
+
+    @property
+    def fewest(self) -> int | None:
+        """The fewest added wheels with which there is a train; None where there is none."""
+        return next((added for added, count in enumerate(self.mechanisms) if count), None)
+
+
+def count_changed(
+    questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
+) -> tuple[ChangedCount, ...]:
+    """The counts of questions, in their order; `search` stands at the top of a module."""
+    answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
+    return tuple(
+        ChangedCount(question.change, tuple(mechanisms), complete, refused)
+        for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True)
+    )
+
+
+def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool, str | None]:
+    problem, search = task
+    try:
+        found = search(problem)
+    except QuestionError as error:
+        return [], False, error.problems[0].what
+    return [count.mechanisms for count in found.counts], found.complete, None
+
+
+def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
+    """The question without each of its hard facts in turn."""
+    return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
+
+
+def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
+    """The question without what each of its dials shows, where there are several."""
+    if len(problem.dials) < 2:
+        return []
+    return [
+        ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=_but(problem.dials, dial)))
+        for dial in problem.dials
+    ]
+
+
+def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
+    for name, what in (
+        ("meshes", "that {} mesh"),
+        ("apart", "that {} do not mesh"),
+        ("coaxial", "that {} are coaxial"),
+    ):
+        pairs: frozenset[frozenset[str]] = getattr(problem, name)
+        for pair in sorted(pairs, key=sorted):
+            said = what.format(" and ".join(sorted(pair)))
+            left: dict[str, Any] = {name: pairs - {pair}}
+            yield f"without the fact {said}", replace(problem, **left)
+    yield from _senses(problem)
+    for at, dial in enumerate(problem.dials):
+        where = "is lost" if dial.place == NEW else f"is {dial.place}"
+        changed = _with_dial(problem, at, replace(dial, place=None))
+        yield f"without the fact that the arbor of {dial.name} {where}", changed
+    yield from _rules(problem)
+
+
+def _senses(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
+    signed = [at for at, dial in enumerate(problem.dials) if dial.signed]
+    for at in signed:
+        dial = problem.dials[at]
+        yield f"without the sense of {dial.name}", _with_dial(problem, at, _unsigned(dial))
+    if len(signed) > 1:
+        free = tuple(_unsigned(dial) if dial.signed else dial for dial in problem.dials)
+        yield "without any sense", replace(problem, dials=free)
+
+
+def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
+    limits = problem.additions
+    if problem.use == "wheels":
+        yield "if every surviving arbor is used, but not every wheel", replace(problem, use="arbors")
+    yield "if surviving arbors need not be used", replace(problem, use="some")
+    if not problem.idlers:
+        yield "if a driven wheel may drive", replace(problem, idlers=True)
+    if not limits.wheels:
+        return
+    wider = {replace(limits, least=max(_LEAST_TEETH, limits.least // 2)), replace(limits, greatest=2 * limits.greatest)}
+    for wide in sorted((wide for wide in wider if wide.least <= limits.least), key=lambda wide: wide.greatest):
+        said = f"{wide.least} to {wide.greatest}"
+        yield f"if added wheels may have {said} teeth", replace(problem, additions=wide)
+    if limits.arbors is not None:
+        yield "if any number of arbors may be added", replace(problem, additions=replace(limits, arbors=None))
+    if limits.on == "new":
+        yield "if wheels may be added on surviving arbors", replace(problem, additions=replace(limits, on="any"))
+
+
+def _unsigned(dial: Dial) -> Dial:
+    """The dial in either sense."""
+    ends = sorted(map(abs, (dial.least, dial.greatest)))
+    least = Fraction(0) if dial.least < 0 < dial.greatest else ends[0]
+    return replace(dial, least=least, greatest=ends[1], signed=False)
+
+
+def _with_dial(problem: ReconstructionProblem, at: int, dial: Dial) -> ReconstructionProblem:
+    return replace(problem, dials=(*problem.dials[:at], dial, *problem.dials[at + 1 :]))
+
+
+def _but(dials: tuple[Dial, ...], left_out: Dial) -> tuple[Dial, ...]:
+    return tuple(dial for dial in dials if dial != left_out)

@@ -1,0 +1,233 @@
+"""What each candidate says of single facts: marginals by weight, and which fact would divide the candidates most.
+
+A fact has one answer in each candidate: whether two wheels mesh, what drives an arbor, the count of a wheel. Its
+marginal is the weight of each answer; looking it up is expected to tell the entropy of these weights, as the candidate
+decides the answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal, NamedTuple, get_args
+
+from geartrain.numerics.information import entropy
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.synthesis.reconstruction.named_train import NamedArbor
+from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem, SurvivingArbor
+
+FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
+"""What a fact is about.
+
+mesh     one wheel drives another, `e4 > f1`
+pair     two surviving wheels mesh, whichever drives
+driver   by which arbor a surviving one is driven
+pointer  on which arbor the pointer of a dial is
+count    the count of a surviving wheel that is in doubt
+added    the count of an added wheel, by its name
+needed   a wheel of this count is added
+used     a surviving wheel meshes
+"""
+
+_KINDS: tuple[FactKind, ...] = get_args(FactKind)
+
+YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not used"
+_ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
+"""The answer of a candidate that says nothing of a fact; `NO` of the other kinds."""
+
+_LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
+"""Facts that may be found out by looking at what survives, or at what still turns up."""
+
+_MOST_FACTS = 200
+"""That are looked through for facts that divide the candidates in the same way."""
+
+
+class Fact(NamedTuple):
+    """A question with one answer in each candidate."""
+
+    kind: FactKind
+    subject: str
+
+
+@dataclass(frozen=True, slots=True)
+class FactAnswer(Result):
+    """One answer to a fact.
+
+    Attributes
+    ----------
+    answer : str
+        A name, a count, `yes` or `no`.
+    weight : float
+        Share of the weight of the candidates that give it.
+    mechanisms : int
+        How many candidates give it.
+    """
+
+    KEYS = ("answer", Key("weight", "share", float), "mechanisms")
+
+    answer: str
+    share: Fraction
+    mechanisms: int
+
+
+@dataclass(frozen=True, slots=True)
+class FactMarginal(Result):
+    """What the candidates say of one fact.
+
+    Attributes
+    ----------
+    kind : str
+        What the fact is about.
+    subject : str
+        Wheels, an arbor, a dial or a count.
+    bits : float
+        What an answer is expected to tell [bit].
+    answers : tuple of FactAnswer
+        The one of the greatest weight first.
+    """
+
+    KEYS = ("kind", "subject", "bits", "answers")
+
+    kind: FactKind
+    subject: str
+    answers: tuple[FactAnswer, ...]
+
+    @property
+    def bits(self) -> float:
+        """What an answer is expected to tell [bit]."""
+        return entropy(float(answer.share) for answer in self.answers)
+
+    def share(self, answer: str) -> Fraction:
+        """The weight of an answer."""
+        return next((one.share for one in self.answers if one.answer == answer), Fraction(0))
+
+
+@dataclass(frozen=True, slots=True)
+class NextFact(Result):
+    """A fact to look for.
+
+    Attributes
+    ----------
+    fact : FactMarginal
+        What each answer would leave.
+    same : tuple of Fact
+        Others that divide the candidates in the same way.
+    """
+
+    KEYS = (Key("", "fact"), "same")
+
+    fact: FactMarginal
+    same: tuple[Fact, ...]
+
+
+@dataclass(frozen=True)
+class WeighedTrains:
+    """Candidates, the best first, with their shares of the weight of all of them, which sum to 1."""
+
+    trains: tuple[NamedArbor, ...]
+    shares: tuple[Fraction, ...]
+
+    @classmethod
+    def of(cls, trains: Iterable[NamedArbor], weights: Iterable[Fraction | float]) -> WeighedTrains:
+        """Candidates with weights of any sum."""
+        exact = [Fraction(weight) for weight in weights]
+        whole = sum(exact)
+        return cls(tuple(trains), tuple(weight / whole for weight in exact))
+
+
+class ExplainedFacts:
+    """Every fact with the candidates that give each of its answers."""
+
+    def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem) -> None:
+        self._weighed = weighed
+        self._found: dict[Fact, dict[str, list[int]]] = {}
+        doubtful = {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
+        for index, train in enumerate(weighed.trains):
+            for fact, answer in _facts(train, doubtful):
+                self._found.setdefault(fact, {}).setdefault(answer, []).append(index)
+        self._all_used(problem)
+
+    def marginals(self) -> tuple[FactMarginal, ...]:
+        """Of every fact but `pair`, those of a kind together; what is in all candidates first, then by weight."""
+        found = [self._marginal(fact) for fact in self._found if fact.kind != "pair"]
+        return tuple(sorted(found, key=lambda one: (_KINDS.index(one.kind), -_affirmed(one), _natural(one.subject))))
+
+    def next_facts(self) -> tuple[NextFact, ...]:
+        """Facts that would divide the candidates, the most telling first."""
+        asked = [self._marginal(fact) for fact in self._found if fact.kind in _LOOKED_FOR]
+        asked = [one for one in asked if len(one.answers) > 1]
+        order = {kind: at for at, kind in enumerate(_LOOKED_FOR)}
+        asked.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
+        alike: dict[frozenset[frozenset[int]], list[FactMarginal]] = {}
+        for one in asked[:_MOST_FACTS]:
+            alike.setdefault(self._parts(Fact(one.kind, one.subject)), []).append(one)
+        return tuple(
+            NextFact(first, tuple(Fact(one.kind, one.subject) for one in others)) for first, *others in alike.values()
+        )
+
+    def _all_used(self, problem: ReconstructionProblem) -> None:
+        """Leave out what is said of wheels that all candidates use; say it of those that none uses."""
+        count = len(self._weighed.trains)
+        for arbor in _survivors(problem):
+            for wheel in arbor.wheels:
+                used = self._found.setdefault(Fact("used", wheel.name), {})
+                if len(used.get(YES, ())) == count:
+                    del self._found[Fact("used", wheel.name)]
+
+    def _marginal(self, fact: Fact) -> FactMarginal:
+        shares = self._weighed.shares
+        answers = [
+            FactAnswer(answer, sum((shares[index] for index in indexes), Fraction(0)), len(indexes))
+            for answer, indexes in self._found[fact].items()
+        ]
+        left = len(shares) - sum(answer.mechanisms for answer in answers)
+        if left:
+            rest = 1 - sum((answer.share for answer in answers), Fraction(0))
+            answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))
+        answers.sort(key=lambda one: (-one.share, _natural(one.answer)))
+        return FactMarginal(fact.kind, fact.subject, tuple(answers))
+
+    def _parts(self, fact: Fact) -> frozenset[frozenset[int]]:
+        """The parts into which a fact divides the candidates."""
+        parts = [frozenset(indexes) for indexes in self._found[fact].values()]
+        rest = frozenset(range(len(self._weighed.trains))).difference(*parts)
+        return frozenset([*parts, *([rest] if rest else [])])
+
+
+def _facts(train: NamedArbor, doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
+    """All that a candidate says; no fact twice."""
+    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
+    for arbor in train.arbors():
+        for dial in arbor.dials:
+            yield Fact("pointer", dial), "an added arbor" if arbor.added else arbor.name
+    for wheel in wheels:
+        if wheel.added:
+            yield Fact("added", wheel.name), str(wheel.teeth)
+        else:
+            yield Fact("used", wheel.name), YES
+        if wheel.name in doubtful:
+            yield Fact("count", wheel.name), str(wheel.teeth)
+    for teeth in {wheel.teeth for wheel in wheels if wheel.added}:
+        yield Fact("needed", str(teeth)), YES
+    for driving, wheel, arbor in train.meshes():
+        assert arbor.driven is not None
+        yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
+        if not (wheel.added or arbor.driven.added):
+            yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
+        if not arbor.added:
+            yield Fact("driver", arbor.name), "an added arbor" if driving.added else driving.name
+
+
+def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
+    return (problem.input, *problem.arbors)
+
+
+def _affirmed(fact: FactMarginal) -> Fraction:
+    """The weight of yes, or of the likeliest answer where there is no yes and no."""
+    return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
+
+
+def _natural(answer: str) -> tuple[int, str]:
+    """Counts by size, then words."""
+    return (int(answer), "") if answer.isdigit() else (1 << 62, answer)

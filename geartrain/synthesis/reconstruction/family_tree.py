@@ -1,0 +1,128 @@
+"""Candidates as a family tree: a trie over their meshes, from the input along the path to each pointer in turn.
+
+Counts part candidates last: a branch is a structure, and the trains at its end differ by their counts alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.synthesis.reconstruction.explained_facts import WeighedTrains
+from geartrain.synthesis.reconstruction.named_train import NamedArbor
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyTrain(Result):
+    """A candidate at the end of a branch.
+
+    Attributes
+    ----------
+    rank : int
+        From 1 on.
+    weight : float
+        Share of the weight of all in the tree.
+    counts : dict of str to int
+        Of added wheels, and of surviving ones whose count is in doubt.
+    """
+
+    KEYS = ("rank", Key("weight", "share", float), "counts")
+
+    rank: int
+    share: Fraction
+    counts: dict[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyBranch(Result):
+    """A stretch of meshes that a family of candidates has in common.
+
+    Attributes
+    ----------
+    parent : int or None
+        Place in the tree of the branch from which it goes on; None for the stem.
+    meshes : tuple of str
+        The driving wheel first; in brackets the pointers of the arbor that is driven.
+    weight : float
+        Share of the weight of all in the tree.
+    mechanisms : int
+        How many candidates it holds.
+    trains : tuple of FamilyTrain
+        Candidates that end here, the best first.
+    """
+
+    KEYS = ("parent", "meshes", Key("weight", "share", float), "mechanisms", "trains")
+
+    parent: int | None
+    meshes: tuple[str, ...]
+    share: Fraction
+    mechanisms: int
+    trains: tuple[FamilyTrain, ...]
+
+
+def grow_family_tree(weighed: WeighedTrains, doubtful: Collection[str] = ()) -> tuple[FamilyBranch, ...]:
+    """The tree, each branch before those that go on from it, and heavy ones before light ones.
+
+    doubtful   names of surviving wheels whose count is in doubt
+    """
+    root = _Node()
+    for rank, (train, share) in enumerate(zip(weighed.trains, weighed.shares, strict=True), 1):
+        root.add(train, FamilyTrain(rank, share, _counts(train, doubtful)))
+    return tuple(_flat(root)) if weighed.trains else ()
+
+
+@dataclass
+class _Node:
+    """A mesh of the trie, with all that goes on from it."""
+
+    share: Fraction = Fraction(0)
+    mechanisms: int = 0
+    below: dict[str, _Node] = field(default_factory=dict)
+    ends: list[FamilyTrain] = field(default_factory=list)
+
+    def add(self, train: NamedArbor, end: FamilyTrain) -> None:
+        node = self
+        node._count(end)
+        for step in _steps(train):
+            node = node.below.setdefault(step, _Node())
+            node._count(end)
+        node.ends.append(end)
+
+    def _count(self, end: FamilyTrain) -> None:
+        self.share += end.share
+        self.mechanisms += 1
+
+
+def _flat(root: _Node) -> Iterator[FamilyBranch]:
+    """Branches in their order; meshes that all of a family share are one."""
+    waiting: list[tuple[int | None, list[str], _Node]] = [(None, [], root)]
+    number = 0
+    while waiting:
+        parent, meshes, node = waiting.pop()
+        while len(node.below) == 1 and not node.ends:
+            ((mesh, node),) = node.below.items()
+            meshes.append(mesh)
+        yield FamilyBranch(parent, tuple(meshes), node.share, node.mechanisms, tuple(node.ends))
+        heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].share)
+        waiting += [(number, [mesh], below) for mesh, below in reversed(heaviest_first)]
+        number += 1
+
+
+def _steps(train: NamedArbor) -> Iterator[str]:
+    if train.dials:
+        yield _shown(train)
+    for _, wheel, arbor in train.meshes():
+        assert arbor.driven is not None
+        yield f"{wheel.name} > {arbor.driven.name}{_shown(arbor) and f' {_shown(arbor)}'}"
+
+
+def _shown(arbor: NamedArbor) -> str:
+    """The pointers of an arbor, in brackets."""
+    return f"({', '.join(arbor.dials)})" if arbor.dials else ""
+
+
+def _counts(train: NamedArbor, doubtful: Collection[str]) -> dict[str, int]:
+    wheels = (wheel for arbor in train.arbors() for wheel in arbor.wheels())
+    return {wheel.name: wheel.teeth for wheel in wheels if wheel.added or wheel.name in doubtful}

@@ -8,25 +8,46 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, STANDARD, VERDICT, Force, Json, as_json, emit, plural, show, tell
+from geartrain.cli.common import (
+    GOOD,
+    INTERRUPTED,
+    STANDARD,
+    VERDICT,
+    Force,
+    Json,
+    Names,
+    as_json,
+    emit,
+    plural,
+    show,
+    tell,
+)
 from geartrain.cli.option_values import MOST_COUNT
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import RankedTrain
+    from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
     from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
     from geartrain.train import Train
 
 Evidence = Annotated[
     str,
     typer.Argument(
-        help="A YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`).",
+        help="A YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`); "
+        "with --without a train.",
         metavar="FILE",
     ),
 ]
 
 
+_EVIDENCE = "evidence.yaml"
+
+
 def run(
     evidence: Evidence,
+    without: Annotated[
+        Names, typer.Option("--without", help="Ask of a train as if this arbor were lost; several may be.")
+    ] = None,
     most: Annotated[
         int | None,
         typer.Option("-k", min=0, max=1000, help="The most wheels that may be added; default what the evidence says."),
@@ -45,12 +66,13 @@ def run(
     from geartrain.numerics.files import check_folder
     from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
     from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+    from geartrain.synthesis.reconstruction.lost_arbors import rank_of
     from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
     from geartrain.train.declaration_files import read_evidence
 
     if count and folder is not None:
         raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
-    declared = read_evidence(evidence)
+    declared, original = _of_train(evidence, without) if without else (read_evidence(evidence), None)
     question = evidence_question(declared, most, idlers)
     if folder is not None:
         check_folder(folder, [_file(1)], force)
@@ -63,9 +85,10 @@ def run(
         found.complete,
         question.unused,
         tuple(_ranked(declared, listed)),
+        None if original is None else rank_of(original, found.candidates),
     )
     if folder is not None and listed:
-        _write(declared, listed, folder, force)
+        _write(declared, listed, folder, force, bool(without))
     if json:
         emit(as_json(report))
     else:
@@ -73,6 +96,16 @@ def run(
     if not found.complete:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if report.total else VERDICT)
+
+
+def _of_train(file: str, lost: Sequence[str]) -> tuple[Train, Arbor]:
+    """Evidence of a train whose arbors are lost, and the train itself as a candidate."""
+    from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence
+    from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
+    from geartrain.train.declaration_files import read_declaration
+
+    tree = find_spur_tree(read_declaration(file))
+    return lost_evidence(tree, lost), tree.arbor(lost)
 
 
 def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrain]:
@@ -85,17 +118,21 @@ def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrai
         yield RankedTrain(rank, candidate.added, candidate.weight, train.added, meshes)
 
 
-def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool) -> None:
-    """Every listed candidate as a declaration of its own."""
+def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool, with_evidence: bool) -> None:
+    """Every listed candidate as a declaration of its own; with evidence that no file holds yet."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.synthesis.reconstruction.candidate_train import candidate_text
+    from geartrain.train.declaration_files import write_declaration
+
+    own = [_EVIDENCE] if with_evidence else []
 
     def files() -> Iterator[tuple[str, bytes]]:
         for rank, candidate in enumerate(listed, 1):
             name = f"{evidence.name}-{_file(rank).removesuffix('.yaml')}"
             yield _file(rank), candidate_text(evidence, candidate.arbor, name).encode("utf-8")
+        yield from ((file, write_declaration(evidence).encode("utf-8")) for file in own)
 
-    check_folder(folder, [_file(rank) for rank in range(1, len(listed) + 1)], force)
+    check_folder(folder, [*(_file(rank) for rank in range(1, len(listed) + 1)), *own], force)
     tell(f"wrote {plural(write_folder(folder, files(), force), 'file')} to {folder}")
 
 

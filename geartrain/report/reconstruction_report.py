@@ -63,9 +63,11 @@ class ReconstructionReport(Result):
         What is declared and plays no part.
     best : tuple of RankedTrain
         The best, as many as were asked for.
+    original : tuple of int, optional
+        First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
     """
 
-    KEYS = ("name", "counts", "complete", "unused", "best")
+    KEYS = ("name", "counts", "complete", "unused", "best", "original")
 
     name: str
     problem: ReconstructionProblem
@@ -73,6 +75,7 @@ class ReconstructionReport(Result):
     complete: bool
     unused: tuple[str, ...]
     best: tuple[RankedTrain, ...]
+    original: tuple[int, int] | None = None
 
     @property
     def total(self) -> int:
@@ -101,6 +104,10 @@ def _lead(found: ReconstructionReport) -> Iterator[str]:
     else:
         said = "1 train explains it" if found.total == 1 else f"{found.total} trains explain it"
         yield f"{said}; at least {_many(some.added, 'wheel')} must be added."
+    if found.original is not None:
+        first, last = found.original
+        rank = f"ranks {first}" if first == last else f"ranks {first} to {last}, for some weigh the same"
+        yield f"The train of which arbors are left out is one of them; by weight it {rank}."
     if not found.complete:
         yield "Interrupted: the counts are of what had been looked at."
 

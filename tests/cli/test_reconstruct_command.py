@@ -80,6 +80,25 @@ def test_nothing_found_is_a_verdict_and_what_cannot_be_asked_is_none(tmp_path: P
     assert ended("reconstruct", path).returncode == 2
 
 
+def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
+    """1 to 8: four pairs of counts, and two equal wheels of the arbor before."""
+    folder = tmp_path / "found"
+    result = call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot", "--json", "-o", folder)
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    holds("reconstruct", found)
+    assert found["original"] == [1, 8]
+    assert [count["mechanisms"] for count in found["counts"]] == [0, 0, 8]
+    assert "ranks 1 to 8" in call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout
+    assert len(list(folder.iterdir())) == 9
+    again = json.loads(call("reconstruct", folder / "evidence.yaml", "--json").stdout)
+    assert again["counts"] == found["counts"]
+    assert again["best"] == found["best"]
+    assert again["original"] is None
+    assert ended("reconstruct", "isfahan-astrolabe-1221", "--without", "year").returncode == 2
+    assert ended("reconstruct", "back-train", "--without", "m").returncode == 2
+
+
 def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     """The command takes whatever finds reconstructions at its word."""
 

@@ -1,4 +1,4 @@
-"""When two candidates are the same: but for the order of arbors on a path, or but for which wheel drives which."""
+"""When two candidates are the same: altogether, but for the order of arbors on a path, or but for what drives what."""
 
 from __future__ import annotations
 
@@ -11,6 +11,13 @@ _Step = tuple[str, _Wheel, _Wheel]
 """An arbor on a path: its name, the wheel by which it is driven and the one by which the path goes on."""
 
 _NONE: _Wheel = ("", 0)
+
+
+def mechanism(arbor: Arbor) -> tuple[object, ...]:
+    """All of a candidate, in whatever order its parts were found."""
+    passed = tuple(sorted(map(mechanism, arbor.passes)))
+    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(mechanism, below)))) for wheel, below in arbor.drives))
+    return arbor.name or "", _wheel(arbor.driven), arbor.dials, drives, passed
 
 
 def bag(arbor: Arbor) -> tuple[object, ...]:

@@ -1,0 +1,214 @@
+"""Trains of which arbors are lost: the evidence that is left, and that the train itself is always found again."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+from concrete_trees import concrete, explanations
+
+from geartrain import GearTrainError
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_evidence_data, rank_of
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
+from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree
+from geartrain.train.declaration_files import read_declaration
+
+# a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel
+SAMPLE = """\
+name: sample
+title: A sample
+unit: {per: year_tropical_J2000}
+links:
+  frame: {}
+  a: {wheels: {a1: 10, a2: 12, a3: 9, a4: {teeth: 15, kind: contrate}}}
+  b: {wheels: {b1: 20, b2: {teeth: {value: 14, range: [13, 15]}, status: surviving, note: worn}, b3: 40}}
+  c: {wheels: {c1: 7}}
+  s: {wheels: {s1: 24}}
+  d: {wheels: {d1: 18}}
+  e: {wheels: {e1: 30}}
+axes: {E: {direction: [1, 0, 0]}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+  - {pair: [frame, c], axis: C}
+  - {pair: [frame, s], axis: S}
+  - {pair: [frame, d], axis: D}
+  - {pair: [frame, e], axis: E}
+gears:
+  - {pair: [b1, a1]}
+  - {pair: [b2, c1]}
+  - {pair: [a2, s1]}
+  - {pair: [a3, d1]}
+  - {pair: [a4, e1]}
+inputs: {a: 1}
+dials: {zodiac: {}}
+outputs:
+  b:    {expect: -1/2}
+  moon: {of: c, dial: zodiac, expect: 1, targets: [{period: 365 d}]}
+  sun:  {of: s, targets: [{speed: -1/2, tolerance: 1/100}, {period: 700 d}]}
+"""
+
+
+def sample(old: str = "", new: str = "") -> SpurTree:
+    assert not old or SAMPLE.count(old) == 1, old
+    return find_spur_tree(read_declaration(SAMPLE.replace(old, new) if old else SAMPLE))
+
+
+def wheel(teeth: int, name: str | None = None) -> PlacedWheel:
+    return PlacedWheel(name, teeth)
+
+
+def test_evidence_is_what_the_other_arbors_and_all_pointers_tell() -> None:
+    assert lost_evidence_data(sample(), ["b"]) == {
+        "name": "sample-without-b",
+        "title": "A sample, without b",
+        "unit": {"per": "year_tropical_J2000"},
+        "frame": "frame",
+        "links": {
+            "frame": {},
+            "a": {"wheels": {"a1": 10, "a2": 12}},
+            "c": {"wheels": {"c1": 7}},
+            "s": {"wheels": {"s1": 24}},
+        },
+        "inputs": {"a": "1"},
+        "outputs": {
+            "moon": {"of": "c", "expect": {"value": "1"}},
+            "sun": {"of": "s", "targets": [{"speed": "-1/2", "tolerance": "1/100"}]},
+        },
+        "reconstruct": {"add": {"wheels": 2, "teeth": [7, 24]}},
+    }
+    found = lost_evidence_data(sample(), ["s", "c"])
+    assert found["links"] == {
+        "frame": {},
+        "a": {"wheels": {"a1": 10, "a2": 12}},
+        "b": {"wheels": {"b1": 20, "b2": {"teeth": 14, "status": "surviving", "note": "worn"}}},
+    }
+    assert {name: output["of"] for name, output in found["outputs"].items()} == {"moon": "new", "sun": "new"}
+    assert found["reconstruct"]["add"]["wheels"] == 2
+
+
+def test_the_train_as_a_candidate() -> None:
+    tree = sample()
+    sun = Arbor("s", wheel(24, "s1"), ("sun",), ())
+    moon = Arbor("c", wheel(7, "c1"), ("moon",), ())
+    b = Arbor("b", wheel(20, "b1"), (), ((wheel(14, "b2"), (moon,)),))
+    whole = Arbor("a", None, (), ((wheel(10, "a1"), (b,)), (wheel(12, "a2"), (sun,))))
+    assert tree.arbor() == whole
+    lost = Arbor(None, wheel(20), (), ((wheel(14), (moon,)),))
+    assert tree.arbor(["b"]) == Arbor("a", None, (), ((wheel(10, "a1"), (lost,)), (wheel(12, "a2"), (sun,))))
+    assert tree.beside == ("d", "e")
+    assert not tree.has_idlers
+
+
+def test_the_last_arbor_whose_speed_is_known_is_a_pointer() -> None:
+    """c then has no target, and so its speed is not taken: but nothing follows it."""
+    tree = sample(", targets: [{period: 365 d}]", "")
+    assert dict(tree.pointers) == {"sun": "s", "moon": "c"}
+    tree = sample("of: c, dial: zodiac, expect: 1, targets: [{period: 365 d}]", "of: e")
+    assert dict(tree.pointers) == {"sun": "s", "b": "b"}
+    assert tree.wheels_of("b") == ("b1",)
+    assert tree.beside == ("c", "d", "e")
+
+
+def test_a_wheel_that_is_driven_and_drives_is_an_idler() -> None:
+    tree = sample("[b2, c1]", "[b1, c1]")
+    moon = Arbor("c", wheel(7, "c1"), ("moon",), ())
+    drives, _ = tree.arbor().drives
+    assert drives == (wheel(10, "a1"), (Arbor("b", wheel(20, "b1"), (), (), (moon,)),))
+    assert lost_evidence(tree, ["s"]).reconstruct.idlers
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("inputs: {a: 1}", "inputs: {a: 1, b: 2}", "has 2 inputs that turn"),
+        ("[b2, c1]}", "[b2, c1]}\n  - {pair: [b3, s1]}", "close a loop at 'b3~s1'"),
+        ("c1: 7", "c1: {teeth: 7, internal: true}", None),
+        ("inputs: {a: 1}", "inputs: {a: 1}\nfixed: [c]", None),
+    ],
+)
+def test_only_trees_of_spur_wheels_are_taken(old: str, new: str, why: str | None) -> None:
+    if why is None:
+        assert "moon" not in sample(old, new).pointers
+    else:
+        with pytest.raises(GearTrainError, match=why):
+            sample(old, new)
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("four-gear-loop", "close a loop"),
+        ("gm-4t60", "in each of its states"),
+        ("wolfrom-175", "it has arbors on a moving arbor, rings and arbors that are held"),
+        ("lantern-mill", "it has contrate wheels"),
+    ],
+)
+def test_a_train_that_is_not_taken_says_why(name: str, why: str) -> None:
+    with pytest.raises(GearTrainError, match=why):
+        find_spur_tree(read_declaration(name))
+
+
+@pytest.mark.parametrize(
+    ("lost", "why"),
+    [
+        (["a"], "'a' carries the input"),
+        (["d"], "'d' cannot be left out"),
+        (["frame"], "'frame' cannot be left out"),
+        (["x"], "'x' cannot be left out"),
+        (["b", "b"], "'b' is left out twice"),
+    ],
+)
+def test_only_arbors_of_the_tree_can_be_lost(lost: list[str], why: str) -> None:
+    with pytest.raises(GearTrainError, match=why):
+        lost_evidence(sample(), lost)
+
+
+def test_equal_weights_share_ranks() -> None:
+    moons = [Arbor("a", None, (), ((wheel(teeth, "a1"), ()),)) for teeth in (5, 6, 7, 8)]
+    listed = [Candidate(arbor, 0, weight) for arbor, weight in zip(moons, (0.4, 0.25, 0.25, 0.1), strict=True)]
+    assert [rank_of(arbor, listed) for arbor in moons] == [(1, 1), (2, 3), (2, 3), (4, 4)]
+    assert rank_of(moons[0], listed[1:]) is None
+
+
+def test_a_rank_does_not_depend_on_the_order_of_branches() -> None:
+    first, second = (Arbor(name, wheel(9, f"{name}1"), (name,), ()) for name in "pq")
+    one = Arbor("a", None, (), ((wheel(5, "a1"), (first, second)),))
+    other = Arbor("a", None, (), ((wheel(5, "a1"), (second, first)),))
+    assert rank_of(one, [Candidate(other, 0, 1.0)]) == (1, 1)
+
+
+QUICK = {
+    "vitruvius-hodometer": 1,
+    "watch-going-train": 2,
+    "isfahan-astrolabe-1221": 1,
+    "al-biruni-box-of-the-moon": 2,
+    "moon-triangular": 1,
+    "longcase-clock": 1,
+}
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_train_is_found_again_whatever_is_lost(name: str) -> None:
+    tree = find_spur_tree(read_declaration(name))
+    for many in range(1, QUICK[name] + 1):
+        for lost in combinations(tree.driven, many):
+            problem = evidence_question(lost_evidence(tree, lost)).problem
+            if problem.additions.wheels > 2:
+                continue
+            found = find_reconstructions(problem)
+            assert rank_of(tree.arbor(lost), found.candidates) is not None, lost
+
+
+@pytest.mark.parametrize("lost", [["b"], ["c"], ["s"], ["c", "s"]])
+def test_plain_growth_finds_the_train_and_as_many_others(lost: list[str]) -> None:
+    tree = sample("targets: [{speed: -1/2, tolerance: 1/100}, {period: 700 d}]", "expect: -1/2")
+    problem = evidence_question(lost_evidence(tree, lost)).problem
+    right = explanations(problem)
+    assert concrete(tree.arbor(lost)) in right[-1].mechanisms
+    assert [count.mechanisms for count in find_reconstructions(problem).counts] == [
+        each.counts.mechanisms for each in right
+    ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import multiprocessing
+import resource
 import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -89,6 +90,48 @@ def measure(task: Task, error_of: Callable[[Any], float | None] = lambda _: None
     finally:
         process.kill()
         process.join()
+
+
+class Gathered(NamedTuple):
+    """What came in time, and why there is no more; "" where all came."""
+
+    found: list[Any]
+    note: str
+
+
+def gathered(items: Callable[[], Iterable[Any]], limit: float, gigabytes: float) -> Gathered:
+    """What an iterator yields in a forked process with so many seconds and so much memory (GB), as far as it comes."""
+    context = multiprocessing.get_context("fork")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=_gather, args=(there, items, gigabytes))
+    process.start()
+    there.close()
+    found: list[Any] = []
+    end = time.monotonic() + limit
+    try:
+        while here.poll(max(0.0, end - time.monotonic())):
+            ended, item = here.recv()
+            if ended:
+                return Gathered(found, item)
+            found.append(item)
+        return Gathered(found, f"not within {limit:g} s")
+    except EOFError:
+        return Gathered(found, f"more than {gigabytes:g} GB")
+    finally:
+        process.kill()
+        process.join()
+
+
+def _gather(pipe: Connection, items: Callable[[], Iterable[Any]], gigabytes: float) -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (int(gigabytes * 1e9),) * 2)
+    try:
+        for item in items():
+            pipe.send((False, item))
+        pipe.send((True, ""))
+    except MemoryError:
+        pipe.send((True, f"more than {gigabytes:g} GB"))
+    except Exception as error:  # what cannot be asked is a row of the table, not the end of the run
+        pipe.send((True, (str(error).strip() or type(error).__name__).splitlines()[0]))
 
 
 def _child(pipe: Connection, task: Task, error_of: Callable[[Any], float | None]) -> None:

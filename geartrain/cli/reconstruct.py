@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -20,9 +20,11 @@ from geartrain.cli.common import (
     emit,
     plural,
     show,
+    sink,
     tell,
 )
 from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.reconstruction_findings import FAMILY, MOST_TURNING, family_text, look_into, write_page
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import RankedTrain
@@ -59,6 +61,15 @@ def run(
     folder: Annotated[
         Path | None, typer.Option("-o", "--write", help="Write what is listed into this folder, a declaration a file.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option("--page", help="Write a page of HTML with the family tree and the trains turning.")
+    ] = None,
+    turning: Annotated[
+        int, typer.Option("--turning", min=1, max=MOST_TURNING, help="How many trains turn on the page.")
+    ] = 12,
+    assumptions: Annotated[
+        bool, typer.Option("--assumptions", help="Drop each hard fact in turn and count again; asks once for each.")
+    ] = False,
     json: Json = False,
     force: Force = False,
 ) -> None:
@@ -68,10 +79,13 @@ def run(
     from geartrain.synthesis.reconstruction.evidence_question import evidence_question
     from geartrain.synthesis.reconstruction.lost_arbors import rank_of
     from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-    from geartrain.train.declaration_files import read_evidence
+    from geartrain.train.declaration_files import read_evidence, write_declaration
 
     if count and folder is not None:
         raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
+    if count and page is not None:
+        raise typer.BadParameter("with --count there is nothing to show", param_hint="--page")
+    to = sink(page, force, (".html",), "--page")
     declared, original = _of_train(evidence, without) if without else (read_evidence(evidence), None)
     question = evidence_question(declared, most, idlers)
     if folder is not None:
@@ -86,9 +100,15 @@ def run(
         question.unused,
         tuple(_ranked(declared, listed)),
         None if original is None else rank_of(original, found.candidates),
+        look_into(declared, question.problem, found, assumptions, counts_only=count),
     )
     if folder is not None and listed:
-        _write(declared, listed, folder, force, bool(without))
+        extra = {FAMILY: family_text(report, question.problem)}
+        if without:
+            extra[_EVIDENCE] = write_declaration(declared)
+        _write(declared, listed, folder, force, extra)
+    if page is not None:
+        write_page(to, report, declared, listed[:turning])
     if json:
         emit(as_json(report))
     else:
@@ -118,21 +138,18 @@ def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrai
         yield RankedTrain(rank, candidate.added, candidate.weight, train.added, meshes)
 
 
-def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool, with_evidence: bool) -> None:
-    """Every listed candidate as a declaration of its own; with evidence that no file holds yet."""
+def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool, extra: Mapping[str, str]) -> None:
+    """Every listed candidate as a declaration of its own, and what else there is, by the name of its file."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.synthesis.reconstruction.candidate_train import candidate_text
-    from geartrain.train.declaration_files import write_declaration
-
-    own = [_EVIDENCE] if with_evidence else []
 
     def files() -> Iterator[tuple[str, bytes]]:
         for rank, candidate in enumerate(listed, 1):
             name = f"{evidence.name}-{_file(rank).removesuffix('.yaml')}"
             yield _file(rank), candidate_text(evidence, candidate.arbor, name).encode("utf-8")
-        yield from ((file, write_declaration(evidence).encode("utf-8")) for file in own)
+        yield from ((file, text.encode("utf-8")) for file, text in extra.items())
 
-    check_folder(folder, [*(_file(rank) for rank in range(1, len(listed) + 1)), *own], force)
+    check_folder(folder, [*(_file(rank) for rank in range(1, len(listed) + 1)), *extra], force)
     tell(f"wrote {plural(write_folder(folder, files(), force), 'file')} to {folder}")
 
 

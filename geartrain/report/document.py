@@ -35,6 +35,25 @@ class CitedText(str):
     __slots__ = ()
 
 
+class SceneText(str):
+    """A text that belongs to a scene of the page's viewer, by its number from 1 on; a page shows it when asked."""
+
+    __slots__ = ("_scene",)
+
+    _scene: int
+
+    def __new__(cls, text: str, scene: int) -> SceneText:
+        """`text` of the scene of this number."""
+        made = super().__new__(cls, text)
+        made._scene = scene
+        return made
+
+    @property
+    def scene(self) -> int:
+        """Its number in the viewer, from 1 on."""
+        return self._scene
+
+
 @dataclass(frozen=True, slots=True)
 class Table:
     """Rows of text under a header; the first column names the row.
@@ -68,8 +87,24 @@ def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: i
 
 
 @dataclass(frozen=True, slots=True)
+class Branch:
+    """A line of a tree, with all that goes on from it.
+
+    Attributes
+    ----------
+    text : str
+        The line.
+    below : sequence of Branch
+        Lines that stand below it.
+    """
+
+    text: str
+    below: Sequence[Branch] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
-    """A heading with paragraphs, then tables.
+    """A heading with paragraphs, a tree, then tables.
 
     Attributes
     ----------
@@ -79,6 +114,8 @@ class Section:
         Plain text; no markup in it is obeyed.
     tables : sequence of Table
         After the paragraphs.
+    branches : sequence of Branch
+        A tree between paragraphs and tables.
 
     Examples
     --------
@@ -89,6 +126,7 @@ class Section:
     title: str
     paragraphs: Sequence[str] = ()
     tables: Sequence[Table] = field(default_factory=tuple)
+    branches: Sequence[Branch] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,6 +81,24 @@
     setTimeout(() => said.classList.remove("shown"), 2000);
   };
 
+  // the viewer begins with its first scene: the one that is wanted is put before the others, and the frame made anew
+  const turn = (frame, number) => {
+    frame.dataset.given ??= frame.srcdoc;
+    const inner = new DOMParser().parseFromString(frame.dataset.given, "text/html");
+    const held = inner.getElementById("scenes");
+    const data = JSON.parse(held.textContent);
+    const [wanted] = data.scenes.splice(number - 1, 1);
+    data.scenes.unshift(wanted);
+    held.textContent = JSON.stringify(data).replace(/[<>&\u2028\u2029]/g, (sign) => `\\u${sign.charCodeAt(0).toString(16).padStart(4, "0")}`);
+    frame.srcdoc = `<!DOCTYPE html>${inner.documentElement.outerHTML}`;
+    frame.scrollIntoView({ block: "nearest" });
+  };
+
+  for (const text of document.querySelectorAll("[data-scene]")) {
+    const frame = text.closest("article").querySelector("section.viewer iframe");
+    if (frame) button(text, "Show it turning", () => turn(frame, Number(text.dataset.scene)));
+  }
+
   for (const cell of document.querySelectorAll("[data-exact]")) {
     button(cell, "Copy the exact value", () => copy(cell.dataset.exact));
   }

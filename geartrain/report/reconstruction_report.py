@@ -8,7 +8,17 @@ from fractions import Fraction
 
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.report.document import Document, Section, Table, figure
+from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, figure
+from geartrain.report.family_tree_report import family_section
+from geartrain.report.reconstruction_facts import (
+    assumptions_section,
+    many,
+    missing_sections,
+    next_section,
+    share_text,
+    shared_sections,
+)
+from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_problem import Dial as SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
@@ -18,6 +28,9 @@ _USE = {
     "arbors": "every surviving arbor is in the train",
     "some": "surviving arbors need not be in the train",
 }
+
+
+_TURNING = "A rank or an end of the family tree that is underlined shows its train turning."
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +78,11 @@ class ReconstructionReport(Result):
         The best, as many as were asked for.
     original : tuple of int, optional
         First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
+    findings : CandidateFindings
+        What is told beyond counts.
     """
 
-    KEYS = ("name", "counts", "complete", "unused", "best", "original")
+    KEYS = ("name", "counts", "complete", "unused", "best", "original", Key("", "findings"))
 
     name: str
     problem: ReconstructionProblem
@@ -76,6 +91,7 @@ class ReconstructionReport(Result):
     unused: tuple[str, ...]
     best: tuple[RankedTrain, ...]
     original: tuple[int, int] | None = None
+    findings: CandidateFindings = NO_FINDINGS
 
     @property
     def total(self) -> int:
@@ -83,36 +99,55 @@ class ReconstructionReport(Result):
         return sum(count.mechanisms for count in self.counts)
 
 
-def describe_reconstruction(found: ReconstructionReport) -> Document:
-    """The page of a reconstruction."""
-    return Document(f"Trains that explain {found.name}", list(_lead(found)), list(_sections(found)))
+def describe_reconstruction(found: ReconstructionReport, viewer: str = "", turning: int = 0) -> Document:
+    """The page of a reconstruction; the viewer, a whole page of HTML, shows the first so many trains turning."""
+    aside = PageExtras(viewer=viewer, notes=[_TURNING] if viewer else [])
+    return Document(f"Trains that explain {found.name}", list(_lead(found)), list(_sections(found, turning)), aside)
 
 
 def _lead(found: ReconstructionReport) -> Iterator[str]:
     problem, limits = found.problem, found.problem.additions
     where = "on any arbor" if limits.on == "any" else "on new arbors"
-    arbors = "" if limits.arbors is None else f" and {_many(limits.arbors, 'arbor')}"
+    arbors = "" if limits.arbors is None else f" and {many(limits.arbors, 'arbor')}"
     idlers = "a driven wheel may drive" if problem.idlers else "a driven wheel drives nothing"
-    wheels = f"{_many(limits.wheels, 'wheel')} of {limits.least} to {limits.greatest} teeth"
+    wheels = f"{many(limits.wheels, 'wheel')} of {limits.least} to {limits.greatest} teeth"
     added = f"at most {wheels}{arbors} may be added {where}"
     if not limits.wheels:
         added = "nothing may be added"
     yield f"Rules: {added}; {_USE[problem.use]}; {idlers}; every arbor at an end carries a pointer."
     some = next((count for count in found.counts if count.mechanisms), None)
     if some is None:
-        yield f"No train explains it with {_many(limits.wheels, 'added wheel')} or fewer."
+        yield f"No train explains it with {many(limits.wheels, 'added wheel')} or fewer."
     else:
         said = "1 train explains it" if found.total == 1 else f"{found.total} trains explain it"
-        yield f"{said}; at least {_many(some.added, 'wheel')} must be added."
+        yield f"{said}; at least {many(some.added, 'wheel')} must be added."
     if found.original is not None:
         first, last = found.original
         rank = f"ranks {first}" if first == last else f"ranks {first} to {last}, for some weigh the same"
         yield f"The train of which arbors are left out is one of them; by weight it {rank}."
     if not found.complete:
         yield "Interrupted: the counts are of what had been looked at."
+    if 0 < found.findings.listed < found.total:
+        yield f"Shares of the weight are of the {found.findings.listed} trains of greatest weight, not of all."
 
 
-def _sections(found: ReconstructionReport) -> Iterator[Section]:
+def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
+    yield from _given(found)
+    findings = found.findings
+    line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
+    counted = [tuple(map(str, (each.added, each.mechanisms, each.bags, each.classes))) for each in found.counts]
+    yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
+    yield from missing_sections(findings.missing, found.problem.additions.wheels)
+    if found.best:
+        yield _best(found, turning)
+    yield from family_section(findings.family, turning)
+    yield from shared_sections(findings.marginals)
+    yield from next_section(findings.next_facts)
+    yield from assumptions_section([each.mechanisms for each in found.counts], findings.assumptions)
+
+
+def _given(found: ReconstructionReport) -> Iterator[Section]:
+    """What was taken as known."""
     problem = found.problem
     rows = [
         (each.name, ", ".join(f"{wheel.name} {_counts(wheel.counts)}" for wheel in each.wheels) or "no wheels")
@@ -127,24 +162,16 @@ def _sections(found: ReconstructionReport) -> Iterator[Section]:
         yield Section("Meshes that are known", known)
     if found.unused:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
-    counted = [tuple(map(str, (each.added, each.mechanisms, each.bags, each.classes))) for each in found.counts]
-    line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
-    yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
-    if found.best:
-        yield _best(found)
 
 
-def _best(found: ReconstructionReport) -> Section:
+def _best(found: ReconstructionReport, turning: int) -> Section:
     rows = []
     for one in found.best:
         wheels = ", ".join(f"{name} {teeth}" for name, teeth in one.wheels.items())
-        rows.append((str(one.rank), f"{100 * one.weight:.3g} %", wheels or "none", ", ".join(one.meshes)))
+        rank = SceneText(str(one.rank), one.rank) if one.rank <= turning else str(one.rank)
+        rows.append((rank, share_text(one.weight), wheels or "none", ", ".join(one.meshes)))
     more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
     return Section("The best", more, [Table(("rank", "weight", "added wheels", "meshes"), rows)])
-
-
-def _many(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def _counts(counts: tuple[tuple[int, Fraction], ...]) -> str:

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from geartrain.errors import printable
-from geartrain.report.document import Document, Table
+from geartrain.report.document import Branch, Document, Table
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
     from rich.text import Text
+    from rich.tree import Tree
 
 
 def to_markdown(documents: Sequence[Document]) -> str:
@@ -60,9 +61,18 @@ def _markdown(document: Document) -> Iterator[str]:
         yield from (f"## {_line(section.title)}", "")
         for paragraph in section.paragraphs:
             yield from (_plain(paragraph), "")
+        if section.branches:
+            yield from (*_list(section.branches), "")
         for table in section.tables:
             yield from _pipes(table)
             yield ""
+
+
+def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
+    """A tree as a list of lists."""
+    for branch in branches:
+        yield f"{'  ' * depth}- {_line(branch.text)}"
+        yield from _list(branch.below, depth + 1)
 
 
 def _pipes(table: Table) -> Iterator[str]:
@@ -87,6 +97,8 @@ def to_terminal(documents: Sequence[Document], console: Console) -> None:
             console.print(_shown(section.title, style="bold cyan"))
             for paragraph in section.paragraphs:
                 console.print(_shown(paragraph))
+            for branch in section.branches:
+                console.print(_rich_tree(branch))
             strips = [strip for table in section.tables for strip in _strips(table, console.width)]
             for at, strip in enumerate(strips):
                 if at:
@@ -100,6 +112,16 @@ def _shown(text: str, style: str = "") -> Text:
     from rich.text import Text
 
     return Text(printable(text), style=style)
+
+
+def _rich_tree(branch: Branch) -> Tree:
+    """A line with those below it, joined by strokes."""
+    from rich.tree import Tree
+
+    shown = Tree(_shown(branch.text))
+    for below in branch.below:
+        shown.add(_rich_tree(below))
+    return shown
 
 
 def _rich_table(table: Table) -> RenderableType:

@@ -8,10 +8,13 @@ from pathlib import Path
 
 import pytest
 import shipped
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Locator, Page
 
 from geartrain import load
-from geartrain.report import Picture, collect_report, describe_shared_page, to_html
+from geartrain.report import Document, Picture, Section, Table, collect_report, describe_shared_page, to_html
+from geartrain.report.document import Branch, PageExtras, SceneText
+from geartrain.scene import make_scene
+from geartrain.viewer import page as viewer_page
 
 EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (
@@ -201,4 +204,28 @@ def test_the_train_turns_in_its_frame_within_the_policy_of_the_page(open_report:
             break
         page.wait_for_timeout(20)
     assert frame.evaluate("Boolean(globalThis.geartrain?.ready)")
+    assert wrong == []
+
+
+def test_a_click_on_a_rank_shows_its_train_turning(open_report: Opened) -> None:
+    trains = [shipped.train(name) for name in ("planetary-24-18-60", "worm", "bevel-differential")]
+    viewer = viewer_page([make_scene(train) for train in trains])
+    cells = [[SceneText(str(rank), rank), EVIL] for rank in (1, 2, 3)]
+    sections = [Section("The best", (), [Table(("rank", "name"), cells)], [Branch(SceneText("the third", 3))])]
+    page, wrong = open_report(to_html([Document("Trains", (), sections, PageExtras(viewer=viewer))]))
+
+    def shown(number: int, by: Locator) -> None:
+        by.click()
+        name = trains[number - 1].name
+        for _ in range(600):
+            page.wait_for_timeout(100)
+            (frame,) = [each for each in page.frames if each.parent_frame]
+            if frame.evaluate("globalThis.geartrain?.ready && geartrain.scenes[0].name") == name:
+                break
+        assert frame.evaluate("geartrain.scenes[0].name") == name
+        assert frame.evaluate("geartrain.scenes.length") == 3, "the others can still be chosen"
+
+    shown(2, page.locator("th[data-scene='2'] button"))
+    shown(3, page.locator(".tree button"))
+    shown(1, page.locator("th[data-scene='1'] button"))
     assert wrong == []

@@ -12,8 +12,11 @@ from concrete_trees import explanations, package_arbor
 
 from geartrain import load
 from geartrain.synthesis.reconstruction import reconstruction_search
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+from geartrain.synthesis.reconstruction.question_digest import question_digest
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+from geartrain.train.declaration_files import read_evidence
 
 COUNTS = [
     ("metonic-l-m", [(0, 0, 0, 0), (1, 2, 1, 1)]),
@@ -51,8 +54,8 @@ def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert "24" in result.stdout
     files = sorted(folder.iterdir())
-    assert [path.name for path in files] == ["rank-0001.yaml", "rank-0002.yaml"]
-    for path in files:
+    assert [path.name for path in files] == ["family.json", "rank-0001.yaml", "rank-0002.yaml"]
+    for path in files[1:]:
         assert load(path).solve()
         assert call("check", path).exit_code == 0
     before = [path.read_bytes() for path in files]
@@ -90,13 +93,92 @@ def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
     assert found["original"] == [1, 8]
     assert [count["mechanisms"] for count in found["counts"]] == [0, 0, 8]
     assert "ranks 1 to 8" in call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout
-    assert len(list(folder.iterdir())) == 9
+    assert len(list(folder.iterdir())) == 10
     again = json.loads(call("reconstruct", folder / "evidence.yaml", "--json").stdout)
     assert again["counts"] == found["counts"]
     assert again["best"] == found["best"]
     assert again["original"] is None
     assert ended("reconstruct", "isfahan-astrolabe-1221", "--without", "year").returncode == 2
     assert ended("reconstruct", "back-train", "--without", "m").returncode == 2
+
+
+def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
+    call("reconstruct", "back-train", "--best", "1", "-o", tmp_path / "one")
+    found = json.loads((tmp_path / "one" / "family.json").read_text(encoding="utf-8"))
+    assert [branch["mechanisms"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
+    assert [branch["parent"] for branch in found["family"]] == [None, 0, 1, 1, 0, 4, 4]
+    assert found["family"][0]["meshes"] == ["b2 > l1"]
+    assert found["family"][0]["weight"] == 1
+    assert found["family"][2]["trains"] == [{"rank": 1, "weight": 0.25, "counts": {"m3": 27, "metonic1": 53}}]
+    assert found["counts"][2]["mechanisms"] == 4
+    assert len(found["question"]) == 64
+
+
+def test_the_question_has_a_mark_of_its_own() -> None:
+    asked = {
+        question_digest(evidence_question(read_evidence("back-train"), wheels, idlers).problem)
+        for wheels, idlers in ((1, False), (2, False), (2, True), (2, False))
+    }
+    assert len(asked) == 3
+
+
+def test_what_is_told_beyond_counts() -> None:
+    """`e4 meshes f1` leaves the train of 2006 alone, and a wheel of 53 is in two of the four."""
+    found = json.loads(call("reconstruct", "back-train", "--json").stdout)
+    holds("reconstruct", found)
+    told = {(one["kind"], one["subject"]): one for one in found["marginals"]}
+    yes = {answer["answer"]: answer for answer in told["mesh", "e4 > f1"]["answers"]}["yes"]
+    assert yes == {"answer": "yes", "weight": 0.25, "mechanisms": 1}
+    assert told["needed", "53"]["answers"][0]["mechanisms"] == 2
+    assert told["mesh", "b2 > l1"]["answers"] == [{"answer": "yes", "weight": 1, "mechanisms": 4}]
+    assert found["next_facts"][0]["bits"] == 1.5
+    assert (found["assumptions"], found["missing"], found["listed"]) == ([], None, 4)
+    alone = json.loads(call("reconstruct", "metonic-l-m", "--json").stdout)
+    (one,) = alone["next_facts"]
+    assert (one["bits"], len(one["same"])) == (1, 5)
+    page = call("reconstruct", "metonic-l-m").stdout
+    assert "A wheel of 53 is needed in all." in page
+    assert "- the input: 100 %, 2 trains" in page
+    assert "  - b2 > l1, l2 > m1, m2 > metonic1 (metonic): 50 %, rank 1 with metonic1 53" in page
+
+
+def test_assumptions_are_dropped_where_that_is_asked() -> None:
+    found = json.loads(call("reconstruct", "back-train", "--assumptions", "--count", "--json").stdout)
+    holds("reconstruct", found)
+    assert {one["change"]: one["mechanisms"] for one in found["assumptions"]}["without any sense"] == [0, 0, 29]
+    assert found["marginals"] == []
+    assert "| without any sense " in call("reconstruct", "back-train", "--assumptions").stdout
+
+
+def test_why_nothing_fits(tmp_path: Path) -> None:
+    """-1/3 is 20 > 60, beyond the bound of 40 teeth."""
+    path = tmp_path / "evidence.yaml"
+    path.write_text(NONE.replace("[10, 20]", "[10, 40]").replace("1/3", "-1/3"), encoding="utf-8")
+    found = json.loads(call("reconstruct", path, "--json").stdout)
+    holds("reconstruct", found)
+    assert found["missing"]["dials"] == [{"dial": "sun", "fewest": None, "refused": None}]
+    assert [one["change"] for one in found["missing"]["doubts"]] == ["if added wheels may have 10 to 80 teeth"]
+    page = call("reconstruct", path).stdout
+    assert "fails: no train with 1 added wheel or fewer" in page
+    assert "The cheapest evidence to doubt" in page
+    assert "Why nothing fits" not in call("reconstruct", path, "--count").stdout
+
+
+def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
+    page = tmp_path / "found.html"
+    result = call("reconstruct", "moon-c-e", "--page", page, "--turning", "1")
+    assert result.exit_code == 0
+    text = page.read_text(encoding="utf-8")
+    assert "The family tree" in text
+    assert "<iframe" in text
+    assert text.count('data-scene="1"') == 2
+    assert 'data-scene="2"' not in text
+    assert ended("reconstruct", "moon-c-e", "--page", tmp_path / "x.md").returncode == 2
+    assert ended("reconstruct", "moon-c-e", "--page", tmp_path / "y.html", "--count").returncode == 2
+    path = tmp_path / "evidence.yaml"
+    path.write_text(NONE, encoding="utf-8")
+    assert call("reconstruct", path, "--page", tmp_path / "none.html").exit_code == 1
+    assert "<iframe" not in (tmp_path / "none.html").read_text(encoding="utf-8")
 
 
 def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -20,6 +20,11 @@ ADDED_NOTE = "added by reconstruct"
 _LEFT_OUT = {"name", "title", "extends", "remove", "reconstruct", "links", "axes", "revolutes", "gears", "outputs"}
 
 
+def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
+    """A candidate with the names that its declaration gives to arbors and wheels."""
+    return name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels)
+
+
 def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
     """A candidate as a checked declaration.
 
@@ -73,7 +78,7 @@ class TrainConstruction:
     def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
         """All of a candidate."""
         made = cls(evidence, evidence.model_dump(mode="json", exclude_unset=True, by_alias=True))
-        made._add(name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels))
+        made._add(named_candidate(evidence, arbor))
         return made
 
     def _add(self, source: NamedArbor) -> None:

@@ -142,9 +142,10 @@ class ExplainedFacts:
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem) -> None:
         self._weighed = weighed
         self._found: dict[Fact, dict[str, list[int]]] = {}
+        lost = {dial.name for dial in problem.dials if dial.place is None}
         doubtful = {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
         for index, train in enumerate(weighed.trains):
-            for fact, answer in _facts(train, doubtful):
+            for fact, answer in _facts(train, doubtful, lost):
                 self._found.setdefault(fact, {}).setdefault(answer, []).append(index)
         self._all_used(problem)
 
@@ -195,11 +196,11 @@ class ExplainedFacts:
         return frozenset([*parts, *([rest] if rest else [])])
 
 
-def _facts(train: NamedArbor, doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
-    """All that a candidate says; no fact twice."""
+def _facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
+    """All that a candidate says, no fact twice; of the counts in doubt, and of pointers whose place is not known."""
     wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
     for arbor in train.arbors():
-        for dial in arbor.dials:
+        for dial in lost.intersection(arbor.dials):
             yield Fact("pointer", dial), "an added arbor" if arbor.added else arbor.name
     for wheel in wheels:
         if wheel.added:

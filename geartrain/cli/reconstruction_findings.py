@@ -1,0 +1,74 @@
+"""What `geartrain reconstruct` tells beyond counts: facts, assumptions, why nothing fits, files and a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from geartrain.cli.common import Sink, as_json, plural
+from geartrain.cli.long_runs import progress
+
+if TYPE_CHECKING:
+    from geartrain.report.reconstruction_report import ReconstructionReport
+    from geartrain.synthesis.reconstruction.candidate_findings import CandidateFindings
+    from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
+    from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+    from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, Reconstructions
+    from geartrain.train import Train
+
+FAMILY = "family.json"
+MOST_TURNING = 200
+_PATIENCE = 2.0  # seconds before a progress bar is shown
+
+
+def look_into(
+    evidence: Train,
+    problem: ReconstructionProblem,
+    found: Reconstructions,
+    assumptions: bool,
+    counts_only: bool = False,
+) -> CandidateFindings:
+    """What is told of the candidates, or why there are none; with `counts_only` no more than assumptions."""
+    from geartrain.numerics.work import Execution
+    from geartrain.synthesis.reconstruction.candidate_findings import CandidateFindings, find_facts
+    from geartrain.synthesis.reconstruction.dropped_facts import count_changed, without_each_fact
+    from geartrain.synthesis.reconstruction.missing_explanation import explain_missing
+
+    dropped: tuple[ChangedCount, ...] = ()
+    if assumptions:
+        with progress("assumptions", patience=_PATIENCE) as bar:
+            dropped = count_changed(without_each_fact(problem), Execution(tell=bar.reach))
+    if counts_only or not found.complete:
+        return CandidateFindings(assumptions=dropped)
+    if not any(count.mechanisms for count in found.counts):
+        with progress("why nothing fits", patience=_PATIENCE) as bar:
+            missing = explain_missing(problem, Execution(tell=bar.reach))
+        return CandidateFindings(assumptions=dropped, missing=missing)
+    return find_facts(evidence, problem, found.candidates, dropped)
+
+
+def family_text(report: ReconstructionReport, problem: ReconstructionProblem) -> str:
+    """The family tree as JSON, with what was asked."""
+    from geartrain.synthesis.reconstruction.question_digest import question_digest
+
+    asked = {"name": report.name, "question": question_digest(problem), "counts": report.counts}
+    return as_json({**asked, "family": report.findings.family}) + "\n"
+
+
+def write_page(to: Sink, report: ReconstructionReport, evidence: Train, turning: Sequence[Candidate]) -> None:
+    """The page, in which so many of the candidates turn."""
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.report.html_page import to_html
+    from geartrain.report.reconstruction_report import describe_reconstruction
+    from geartrain.scene import make_scene
+    from geartrain.synthesis.reconstruction.candidate_train import candidate_train
+    from geartrain.viewer import page
+
+    with progress("scenes", len(turning), patience=_PATIENCE) as bar:
+        scenes = []
+        for rank, candidate in enumerate(turning, 1):
+            scenes.append(make_scene(GearTrain(candidate_train(evidence, candidate.arbor, f"rank {rank}"))))
+            bar.advance()
+    viewer = page(scenes) if scenes else ""
+    data = to_html([describe_reconstruction(report, viewer, len(scenes))]).encode("utf-8")
+    to.write(data, f": {plural(len(scenes), 'train')} turning, {len(data) / 1000:,.0f} kB")

@@ -1,0 +1,65 @@
+"""What is told of candidates beyond their counts, in one result."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from geartrain.numerics.plain_data import Result
+from geartrain.synthesis.reconstruction.candidate_train import named_candidate
+from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
+from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, FactMarginal, NextFact, WeighedTrains
+from geartrain.synthesis.reconstruction.family_tree import FamilyBranch, grow_family_tree
+from geartrain.synthesis.reconstruction.missing_explanation import MissingExplanation
+from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
+from geartrain.train import Train
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateFindings(Result):
+    """What is told beyond counts; shares are of the weight of the candidates that are looked at.
+
+    Attributes
+    ----------
+    listed : int
+        How many candidates are looked at.
+    marginals : tuple of FactMarginal
+        What they say of every fact.
+    next_facts : tuple of NextFact
+        What to look for, the most telling first.
+    family : tuple of FamilyBranch
+        Their tree.
+    assumptions : tuple of ChangedCount
+        The counts without each hard fact, where that was asked.
+    missing : MissingExplanation or None
+        Why there is none.
+    """
+
+    listed: int = 0
+    marginals: tuple[FactMarginal, ...] = ()
+    next_facts: tuple[NextFact, ...] = ()
+    family: tuple[FamilyBranch, ...] = ()
+    assumptions: tuple[ChangedCount, ...] = ()
+    missing: MissingExplanation | None = None
+
+
+NO_FINDINGS = CandidateFindings()
+
+
+def find_facts(
+    evidence: Train,
+    problem: ReconstructionProblem,
+    candidates: Sequence[Candidate],
+    assumptions: tuple[ChangedCount, ...] = (),
+) -> CandidateFindings:
+    """Marginals, facts to look for and the family tree of candidates, the best first."""
+    if not candidates:
+        return CandidateFindings(assumptions=assumptions)
+    trains = (named_candidate(evidence, one.arbor) for one in candidates)
+    weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
+    facts = ExplainedFacts(weighed, problem)
+    arbors = (problem.input, *problem.arbors)
+    doubtful = {wheel.name for arbor in arbors for wheel in arbor.wheels if not wheel.is_sure}
+    tree = grow_family_tree(weighed, doubtful)
+    return CandidateFindings(len(candidates), facts.marginals(), facts.next_facts(), tree, assumptions)

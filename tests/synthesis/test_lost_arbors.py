@@ -5,16 +5,16 @@ from __future__ import annotations
 from itertools import combinations
 
 import pytest
-from concrete_trees import concrete, explanations
+from concrete_trees import concrete, explanations, nodes, speeds
 
-from geartrain import GearTrainError
+from geartrain import GearTrainError, load
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_evidence_data, rank_of
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree
-from geartrain.train.declaration_files import read_declaration
+from geartrain.train.declaration_files import read_declaration, shipped
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel
 SAMPLE = """\
@@ -165,6 +165,21 @@ def test_a_train_that_is_not_taken_says_why(name: str, why: str) -> None:
 def test_only_arbors_of_the_tree_can_be_lost(lost: list[str], why: str) -> None:
     with pytest.raises(GearTrainError, match=why):
         lost_evidence(sample(), lost)
+
+
+@pytest.mark.parametrize("name", sorted(shipped()))
+def test_pointers_of_the_tree_turn_as_the_whole_train_turns_them(name: str) -> None:
+    """Also where a tree is a part alone, and the rest has moving arbors and pins."""
+    try:
+        tree = find_spur_tree(read_declaration(name))
+    except GearTrainError:
+        return
+    solved = load(name).solve().outputs
+    source = concrete(tree.arbor())
+    turning = zip(nodes(source), speeds(source, tree.train.case(None).inputs[tree.source]), strict=True)
+    shown = {dial: speed for node, speed in turning for dial in node[2]}
+    assert shown == {pointer: solved[pointer].speed for pointer in tree.pointers}
+    assert all(node[2] for node in nodes(source) if not node[3])
 
 
 def test_equal_weights_share_ranks() -> None:

@@ -38,13 +38,10 @@ def look_into(
     if assumptions:
         with progress("assumptions", patience=_PATIENCE) as bar:
             dropped = count_changed(without_each_fact(problem), Execution(tell=bar.reach))
-    if counts_only or not found.complete:
-        return CandidateFindings(assumptions=dropped)
-    if not any(count.mechanisms for count in found.counts):
+    if found.complete and not counts_only and not any(count.mechanisms for count in found.counts):
         with progress("why nothing fits", patience=_PATIENCE) as bar:
-            missing = explain_missing(problem, Execution(tell=bar.reach))
-        return CandidateFindings(assumptions=dropped, missing=missing)
-    return find_facts(evidence, problem, found.candidates, dropped)
+            return CandidateFindings(assumptions=dropped, missing=explain_missing(problem, Execution(tell=bar.reach)))
+    return find_facts(evidence, problem, () if counts_only else found.candidates, dropped)
 
 
 def family_text(report: ReconstructionReport, problem: ReconstructionProblem) -> str:

@@ -18,6 +18,7 @@ from geartrain.synthesis.reconstruction.missing_explanation import MISREAD, Lone
 
 _MOST_ANSWERS = 4
 _MOST_ALIKE = 2
+_MOST_MESHES = 40
 _MOST_NEXT = 12
 _MOST_DOUBTS = 30
 
@@ -50,7 +51,7 @@ def many(count: int, noun: str) -> str:
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
     """What all candidates agree in, and the weight of each answer where they do not."""
-    if not marginals:
+    if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
     yield Section("What all of them share", agreed or ["Nothing: there is no fact in which all of them agree."])
@@ -70,7 +71,7 @@ def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
     yield from (f"A wheel of {count} is needed in all." for count in needed)
     others = [_AGREED[fact.kind](fact) for fact in sure if fact.kind not in ("mesh", "needed", "driver")]
     if others:
-        yield f"Besides: {'; '.join(others)}."
+        yield f"{'Besides' if meshes or needed else 'In all of them'}: {'; '.join(others)}."
 
 
 def _meshes(facts: Sequence[FactMarginal]) -> Table:
@@ -88,7 +89,7 @@ def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
         for answer in fact.answers
         if answer.answer == YES
     ]
-    return Table((title, "weight", "trains"), cut(rows) if rows else rows)
+    return Table((title, "weight", "trains"), _first(rows, _MOST_MESHES))
 
 
 def _answers(facts: Sequence[FactMarginal]) -> Table:

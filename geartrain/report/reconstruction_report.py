@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, figure
+from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, figure, filled_table
 from geartrain.report.family_tree_report import family_section
 from geartrain.report.reconstruction_facts import (
     assumptions_section,
@@ -47,16 +47,19 @@ class RankedTrain(Result):
         Share of the weight of all explanations.
     wheels : dict of str to int
         Added wheels with their counts.
+    doubtful : dict of str to int
+        Surviving wheels that have a range of counts, with the one that they have here.
     meshes : tuple of str
         Every mesh, the driving wheel first.
     """
 
-    KEYS = ("rank", "added", Key("weight", to=float), "wheels", "meshes")
+    KEYS = ("rank", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
 
     rank: int
     added: int
     weight: float
     wheels: dict[str, int]
+    doubtful: dict[str, int]
     meshes: tuple[str, ...]
 
 
@@ -128,7 +131,9 @@ def _lead(found: ReconstructionReport) -> Iterator[str]:
     if not found.complete:
         yield "Interrupted: the counts are of what had been looked at."
     if 0 < found.findings.listed < found.total:
-        yield f"Shares of the weight are of the {found.findings.listed} trains of greatest weight, not of all."
+        share = share_text(found.findings.share)
+        listed = f"{found.findings.listed} trains of greatest weight, which have {share} of the weight of all"
+        yield f"The family tree, what trains share and the next fact are told of the {listed}; shares are of theirs."
 
 
 def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
@@ -167,11 +172,16 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
 def _best(found: ReconstructionReport, turning: int) -> Section:
     rows = []
     for one in found.best:
-        wheels = ", ".join(f"{name} {teeth}" for name, teeth in one.wheels.items())
         rank = SceneText(str(one.rank), one.rank) if one.rank <= turning else str(one.rank)
-        rows.append((rank, share_text(one.weight), wheels or "none", ", ".join(one.meshes)))
+        added = _teeth(one.wheels) or "none"
+        rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), _teeth(one.doubtful)))
     more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
-    return Section("The best", more, [Table(("rank", "weight", "added wheels", "meshes"), rows)])
+    header = ("rank", "weight", "added wheels", "meshes", "counts in doubt")
+    return Section("The best", more, [filled_table(header, rows, 4)])
+
+
+def _teeth(wheels: dict[str, int]) -> str:
+    return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
 
 
 def _counts(counts: tuple[tuple[int, Fraction], ...]) -> str:

@@ -67,6 +67,9 @@ def test_where_they_part_each_answer_has_its_share() -> None:
     ]
     assert list(needed.rows) == [("53", "25 %", "1")]
     assert list(shared_sections([])) == []
+    assert list(shared_sections([marginal("needed", "53", ("yes", Fraction(1), 1))])) == []
+    (section,) = shared_sections([sure("count", "e3", "223")])
+    assert list(section.paragraphs) == ["In all of them: e3 has 223 teeth."]
 
 
 def test_the_next_fact_says_what_each_answer_leaves() -> None:

@@ -20,8 +20,6 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SurvivingWheel,
 )
 
-HALF, QUARTER = Fraction(1, 2), Fraction(1, 4)
-
 
 def survivor(name: str, **counts: tuple[int, ...]) -> SurvivingArbor:
     wheels = (
@@ -69,8 +67,10 @@ WEIGHED = WeighedTrains.of(
 """Weights 1/2, 1/4, 1/8, 1/8: in > a > c twice, in > c > a, and in > a the other way round without c."""
 
 
-def test_shares_sum_to_1() -> None:
-    assert WEIGHED.shares == (HALF, QUARTER, Fraction(1, 8), Fraction(1, 8))
+def test_weights_are_brought_to_whole_numbers() -> None:
+    assert (WEIGHED.weights, WEIGHED.whole) == ((4, 2, 1, 1), 8)
+    halves = WeighedTrains.of(WEIGHED.trains, [0.5, Fraction(1, 4), 0.125, Fraction(1, 8)])
+    assert (halves.weights, halves.whole) == ((4, 2, 1, 1), 8)
 
 
 @pytest.mark.parametrize(
@@ -152,12 +152,12 @@ def test_the_family_tree() -> None:
         (0, ("i > c1", "c2 > a1", "a2 > sun1 (sun)"), Fraction(1, 8), 1),
         (0, ("i > a2", "a1 > sun1 (sun)"), Fraction(1, 8), 1),
     ]
-    ends = [[(train.rank, train.counts) for train in one.trains] for one in tree]
+    ends = [[(train.rank, list(train.counts.items())) for train in one.trains] for one in tree]
     assert ends == [
         [],
-        [(1, {"c1": 40, "sun1": 53}), (2, {"c1": 41, "sun1": 53})],
-        [(3, {"c1": 40, "sun1": 53})],
-        [(4, {"sun1": 50})],
+        [(1, [("sun1", 53), ("c1", 40)]), (2, [("sun1", 53), ("c1", 41)])],
+        [(3, [("sun1", 53), ("c1", 40)])],
+        [(4, [("sun1", 50)])],
     ]
 
 

@@ -24,6 +24,8 @@ class CandidateFindings(Result):
     ----------
     listed : int
         How many candidates are looked at.
+    share : float
+        Their share of the weight of all explanations, as far as that is known.
     marginals : tuple of FactMarginal
         What they say of every fact.
     next_facts : tuple of NextFact
@@ -37,6 +39,7 @@ class CandidateFindings(Result):
     """
 
     listed: int = 0
+    share: float = 0.0
     marginals: tuple[FactMarginal, ...] = ()
     next_facts: tuple[NextFact, ...] = ()
     family: tuple[FamilyBranch, ...] = ()
@@ -59,7 +62,13 @@ def find_facts(
     trains = (named_candidate(evidence, one.arbor) for one in candidates)
     weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
     facts = ExplainedFacts(weighed, problem)
-    arbors = (problem.input, *problem.arbors)
-    doubtful = {wheel.name for arbor in arbors for wheel in arbor.wheels if not wheel.is_sure}
-    tree = grow_family_tree(weighed, doubtful)
-    return CandidateFindings(len(candidates), facts.marginals(), facts.next_facts(), tree, assumptions)
+    marginals = facts.marginals()
+    differing = [fact.subject for fact in marginals if fact.kind == "count" and len(fact.answers) > 1]
+    return CandidateFindings(
+        len(candidates),
+        float(min(1, sum(one.weight for one in candidates))),
+        marginals,
+        facts.next_facts(),
+        grow_family_tree(weighed, differing),
+        assumptions,
+    )

@@ -63,6 +63,7 @@ class TrainConstruction:
     shown    link and speed of every pointer
     meshes   ids of wheels, the driving one first
     added    ids of added wheels with their counts
+    doubtful ids of surviving wheels that may have several counts, with the one that they have here
     """
 
     evidence: Train
@@ -73,6 +74,7 @@ class TrainConstruction:
     shown: dict[str, tuple[str, Fraction]] = field(default_factory=dict)
     meshes: list[tuple[str, str]] = field(default_factory=list)
     added: dict[str, int] = field(default_factory=dict)
+    doubtful: dict[str, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
@@ -127,6 +129,9 @@ class TrainConstruction:
             self.added[wheel.name] = wheel.teeth
             wheels[wheel.name] = {"teeth": wheel.teeth, "status": "hypothetical", "note": ADDED_NOTE}
         else:
+            declared = wheels[wheel.name]["teeth"]
+            if isinstance(declared, Mapping) and {"range", "choices", "search"} & set(declared):
+                self.doubtful[wheel.name] = wheel.teeth
             wheels[wheel.name] = wheels[wheel.name] | {"teeth": _with_count(wheels[wheel.name]["teeth"], wheel.teeth)}
         self.links[link]["wheels"] = wheels
 

@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from math import lcm
 from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.information import entropy
@@ -98,6 +100,11 @@ class FactMarginal(Result):
         """What an answer is expected to tell [bit]."""
         return entropy(float(answer.share) for answer in self.answers)
 
+    @property
+    def trains(self) -> int:
+        """How many candidates there are."""
+        return sum(answer.mechanisms for answer in self.answers)
+
     def share(self, answer: str) -> Fraction:
         """The weight of an answer."""
         return next((one.share for one in self.answers if one.answer == answer), Fraction(0))
@@ -123,17 +130,22 @@ class NextFact(Result):
 
 @dataclass(frozen=True)
 class WeighedTrains:
-    """Candidates, the best first, with their shares of the weight of all of them, which sum to 1."""
+    """Candidates, the best first, with weights as whole numbers, which add up exactly and fast."""
 
     trains: tuple[NamedArbor, ...]
-    shares: tuple[Fraction, ...]
+    weights: tuple[int, ...]
 
     @classmethod
     def of(cls, trains: Iterable[NamedArbor], weights: Iterable[Fraction | float]) -> WeighedTrains:
         """Candidates with weights of any sum."""
         exact = [Fraction(weight) for weight in weights]
-        whole = sum(exact)
-        return cls(tuple(trains), tuple(weight / whole for weight in exact))
+        common = lcm(*(weight.denominator for weight in exact))
+        return cls(tuple(trains), tuple(int(weight * common) for weight in exact))
+
+    @cached_property
+    def whole(self) -> int:
+        """The weight of all."""
+        return sum(self.weights)
 
 
 class ExplainedFacts:
@@ -177,12 +189,12 @@ class ExplainedFacts:
                     del self._found[Fact("used", wheel.name)]
 
     def _marginal(self, fact: Fact) -> FactMarginal:
-        shares = self._weighed.shares
+        weights, whole = self._weighed.weights, self._weighed.whole
         answers = [
-            FactAnswer(answer, sum((shares[index] for index in indexes), Fraction(0)), len(indexes))
+            FactAnswer(answer, Fraction(sum(weights[index] for index in indexes), whole), len(indexes))
             for answer, indexes in self._found[fact].items()
         ]
-        left = len(shares) - sum(answer.mechanisms for answer in answers)
+        left = len(weights) - sum(answer.mechanisms for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
             answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))

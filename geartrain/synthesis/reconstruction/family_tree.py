@@ -25,7 +25,7 @@ class FamilyTrain(Result):
     weight : float
         Share of the weight of all in the tree.
     counts : dict of str to int
-        Of added wheels, and of surviving ones whose count is in doubt.
+        Of added wheels, then of surviving ones in whose count the candidates differ.
     """
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
@@ -65,11 +65,11 @@ class FamilyBranch(Result):
 def grow_family_tree(weighed: WeighedTrains, doubtful: Collection[str] = ()) -> tuple[FamilyBranch, ...]:
     """The tree, each branch before those that go on from it, and heavy ones before light ones.
 
-    doubtful   names of surviving wheels whose count is in doubt
+    doubtful   names of surviving wheels whose counts are told too
     """
     root = _Node()
-    for rank, (train, share) in enumerate(zip(weighed.trains, weighed.shares, strict=True), 1):
-        root.add(train, FamilyTrain(rank, share, _counts(train, doubtful)))
+    for rank, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True), 1):
+        root.add(train, weight, FamilyTrain(rank, Fraction(weight, weighed.whole), _counts(train, doubtful)))
     return tuple(_flat(root)) if weighed.trains else ()
 
 
@@ -77,21 +77,21 @@ def grow_family_tree(weighed: WeighedTrains, doubtful: Collection[str] = ()) -> 
 class _Node:
     """A mesh of the trie, with all that goes on from it."""
 
-    share: Fraction = Fraction(0)
+    weight: int = 0
     mechanisms: int = 0
     below: dict[str, _Node] = field(default_factory=dict)
     ends: list[FamilyTrain] = field(default_factory=list)
 
-    def add(self, train: NamedArbor, end: FamilyTrain) -> None:
+    def add(self, train: NamedArbor, weight: int, end: FamilyTrain) -> None:
         node = self
-        node._count(end)
+        node._count(weight)
         for step in _steps(train):
             node = node.below.setdefault(step, _Node())
-            node._count(end)
+            node._count(weight)
         node.ends.append(end)
 
-    def _count(self, end: FamilyTrain) -> None:
-        self.share += end.share
+    def _count(self, weight: int) -> None:
+        self.weight += weight
         self.mechanisms += 1
 
 
@@ -104,8 +104,9 @@ def _flat(root: _Node) -> Iterator[FamilyBranch]:
         while len(node.below) == 1 and not node.ends:
             ((mesh, node),) = node.below.items()
             meshes.append(mesh)
-        yield FamilyBranch(parent, tuple(meshes), node.share, node.mechanisms, tuple(node.ends))
-        heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].share)
+        share = Fraction(node.weight, root.weight)
+        yield FamilyBranch(parent, tuple(meshes), share, node.mechanisms, tuple(node.ends))
+        heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].weight)
         waiting += [(number, [mesh], below) for mesh, below in reversed(heaviest_first)]
         number += 1
 
@@ -124,5 +125,5 @@ def _shown(arbor: NamedArbor) -> str:
 
 
 def _counts(train: NamedArbor, doubtful: Collection[str]) -> dict[str, int]:
-    wheels = (wheel for arbor in train.arbors() for wheel in arbor.wheels())
-    return {wheel.name: wheel.teeth for wheel in wheels if wheel.added or wheel.name in doubtful}
+    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added or wheel.name in doubtful]
+    return {wheel.name: wheel.teeth for wheel in sorted(wheels, key=lambda wheel: not wheel.added)}

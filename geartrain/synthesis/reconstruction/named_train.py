@@ -45,8 +45,8 @@ class NamedArbor:
 
     def wheels(self) -> tuple[NamedWheel, ...]:
         """Those of this arbor that mesh, each once, the driven one first."""
-        own = (self.driven,) if self.driven is not None else ()
-        return tuple(dict.fromkeys((*own, *(wheel for wheel, _ in self.drives))))
+        own = {self.driven.name: self.driven} if self.driven is not None else {}
+        return tuple((own | {wheel.name: wheel for wheel, _ in self.drives}).values())
 
     def meshes(self) -> Iterator[tuple[NamedArbor, NamedWheel, NamedArbor]]:
         """Every mesh: the arbor that drives, its wheel, and the arbor that is driven, in the order of `arbors`."""

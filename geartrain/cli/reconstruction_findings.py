@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from geartrain.cli.common import Sink, as_json, plural
-from geartrain.cli.long_runs import progress
+from geartrain.cli.common import Sink, as_json, plural, tell
+from geartrain.cli.long_runs import ProgressBar, progress
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import ReconstructionReport
@@ -36,12 +37,24 @@ def look_into(
 
     dropped: tuple[ChangedCount, ...] = ()
     if assumptions:
-        with progress("assumptions", patience=_PATIENCE) as bar:
+        with stoppable("assumptions") as bar:
             dropped = count_changed(without_each_fact(problem), Execution(tell=bar.reach))
     if found.complete and not counts_only and not any(count.mechanisms for count in found.counts):
-        with progress("why nothing fits", patience=_PATIENCE) as bar:
-            return CandidateFindings(assumptions=dropped, missing=explain_missing(problem, Execution(tell=bar.reach)))
+        missing = None
+        with stoppable("why nothing fits") as bar:
+            missing = explain_missing(problem, Execution(tell=bar.reach))
+        return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, () if counts_only else found.candidates, dropped)
+
+
+@contextmanager
+def stoppable(what: str) -> Iterator[ProgressBar]:
+    """A progress bar for what is told besides; if it is stopped, the answer is told without it."""
+    try:
+        with progress(what, patience=_PATIENCE) as bar:
+            yield bar
+    except KeyboardInterrupt:
+        tell(f"stopped: {what} is left out")
 
 
 def family_text(report: ReconstructionReport, problem: ReconstructionProblem) -> str:

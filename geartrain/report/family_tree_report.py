@@ -45,7 +45,7 @@ def _branch(branch: FamilyBranch, turning: int, below: Sequence[Branch]) -> Bran
     if len(trains) == 1 and not below:
         return Branch(_scene(f"{meshes}: {share}, {_train(trains[0])}", trains[0].rank, turning))
     ends = [
-        Branch(_scene(f"{_train(train)}: {share_text(float(train.share))}", train.rank, turning))
+        Branch(_scene(f"{share_text(float(train.share))}, {_train(train)}", train.rank, turning))
         for train in trains[:_MOST_TRAINS]
     ]
     if len(trains) > _MOST_TRAINS:

@@ -11,7 +11,7 @@ from commands import call, ended
 from concrete_trees import explanations, package_arbor
 
 from geartrain import load
-from geartrain.synthesis.reconstruction import reconstruction_search
+from geartrain.synthesis.reconstruction import dropped_facts, reconstruction_search
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.question_digest import question_digest
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
@@ -162,6 +162,25 @@ def test_why_nothing_fits(tmp_path: Path) -> None:
     assert "fails: no train with 1 added wheel or fewer" in page
     assert "The cheapest evidence to doubt" in page
     assert "Why nothing fits" not in call("reconstruct", path, "--count").stdout
+
+
+@pytest.mark.parametrize("asked", [("back-train", "--assumptions"), ("none",)])
+def test_what_is_told_besides_may_be_stopped(
+    asked: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(dropped_facts, "_count", stopped)
+    path = tmp_path / "none"
+    path.write_text(NONE, encoding="utf-8")
+    file, *options = asked
+    result = call("reconstruct", path if file == "none" else file, *options, "--json")
+    assert result.exit_code == (1 if file == "none" else 0)
+    assert "is left out" in result.stderr
+    found = json.loads(result.stdout)
+    assert (found["assumptions"], found["missing"]) == ([], None)
+    assert len(found["best"]) == (0 if file == "none" else 4)
 
 
 def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:

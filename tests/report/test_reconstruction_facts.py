@@ -132,8 +132,8 @@ def test_the_family_tree_is_told_in_lines() -> None:
     assert shown.splitlines()[6:11] == [
         "- b2 > l1: 100 %, 3 trains",
         "  - l2 > x1 (sun): 75 %, 2 trains",
-        "    - rank 1 with x1 1: 37.5 %",
-        "    - rank 2 with x1 2: 37.5 %",
+        "    - 37.5 %, rank 1 with x1 1",
+        "    - 37.5 %, rank 2 with x1 2",
         "  - l1 > x1 (sun): 25 %, rank 3",
     ]
     ends = section.branches[0].below[0].below

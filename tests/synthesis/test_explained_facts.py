@@ -144,7 +144,7 @@ def test_one_fact_is_certain() -> None:
 
 
 def test_the_family_tree() -> None:
-    tree = grow_family_tree(WEIGHED, {"c1"})
+    tree = grow_family_tree(WEIGHED, ["c1"])
     told = [(one.parent, one.meshes, one.share, one.mechanisms) for one in tree]
     assert told == [
         (None, (), 1, 4),

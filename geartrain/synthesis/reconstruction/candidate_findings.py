@@ -63,12 +63,12 @@ def find_facts(
     weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
     facts = ExplainedFacts(weighed, problem)
     marginals = facts.marginals()
-    differing = [fact.subject for fact in marginals if fact.kind == "count" and len(fact.answers) > 1]
+    differ = {fact.subject for fact in marginals if fact.kind == "count" and len(fact.answers) > 1}
     return CandidateFindings(
         len(candidates),
         float(min(1, sum(one.weight for one in candidates))),
         marginals,
         facts.next_facts(),
-        grow_family_tree(weighed, differing),
+        grow_family_tree(weighed, [name for name in evidence.wheels if name in differ]),
         assumptions,
     )

@@ -81,6 +81,7 @@ class TrainConstruction:
         """All of a candidate."""
         made = cls(evidence, evidence.model_dump(mode="json", exclude_unset=True, by_alias=True))
         made._add(named_candidate(evidence, arbor))
+        made.doubtful = {name: made.doubtful[name] for name in evidence.wheels if name in made.doubtful}
         return made
 
     def _add(self, source: NamedArbor) -> None:

@@ -5,7 +5,7 @@ Counts part candidates last: a branch is a structure, and the trains at its end 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -62,7 +62,7 @@ class FamilyBranch(Result):
     trains: tuple[FamilyTrain, ...]
 
 
-def grow_family_tree(weighed: WeighedTrains, doubtful: Collection[str] = ()) -> tuple[FamilyBranch, ...]:
+def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tuple[FamilyBranch, ...]:
     """The tree, each branch before those that go on from it, and heavy ones before light ones.
 
     doubtful   names of surviving wheels whose counts are told too
@@ -124,6 +124,8 @@ def _shown(arbor: NamedArbor) -> str:
     return f"({', '.join(arbor.dials)})" if arbor.dials else ""
 
 
-def _counts(train: NamedArbor, doubtful: Collection[str]) -> dict[str, int]:
-    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added or wheel.name in doubtful]
-    return {wheel.name: wheel.teeth for wheel in sorted(wheels, key=lambda wheel: not wheel.added)}
+def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
+    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
+    counts = {wheel.name: wheel.teeth for wheel in wheels}
+    names = (*(wheel.name for wheel in wheels if wheel.added), *(name for name in doubtful if name in counts))
+    return {name: counts[name] for name in names}

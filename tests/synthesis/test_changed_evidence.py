@@ -12,7 +12,12 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.synthesis.reconstruction.dropped_facts import count_changed, without_each_dial, without_each_fact
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.missing_explanation import LoneDial, explain_missing
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Additions, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_problem import (
+    NEW,
+    Additions,
+    ReconstructionProblem,
+    SurvivingWheel,
+)
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount, Reconstructions
 from geartrain.train.declaration_files import read_evidence
 
@@ -114,6 +119,19 @@ def test_the_cheapest_doubt_is_first() -> None:
     found = explain_missing(easy).doubts
     assert [one.fewest for one in found] == sorted(one.fewest or 0 for one in found)
     assert found[0].change == "if a1 has 30 teeth"
+
+
+def test_a_misread_count_of_the_back_train_is_found() -> None:
+    """With 224 for the wheel of 223 nothing fits; of 72 changes one alone mends it, and gives the four trains."""
+    problem = evidence_question(read_evidence("back-train")).problem
+    e3 = SurvivingWheel("e3", ((224, Fraction(1)),))
+    arbors = tuple(
+        replace(arbor, wheels=tuple(e3 if wheel.name == "e3" else wheel for wheel in arbor.wheels))
+        for arbor in problem.arbors
+    )
+    found = explain_missing(replace(problem, arbors=arbors))
+    assert [(one.change, one.mechanisms) for one in found.doubts] == [("if e3 has 223 teeth", (0, 0, 4))]
+    assert found.dials == (LoneDial("metonic", 1), LoneDial("saros", 2))
 
 
 def test_a_search_that_refuses_is_told() -> None:

@@ -16,6 +16,7 @@ import make_errata
 import make_extremes
 import make_gallery
 import make_images
+import make_left_out
 import make_mesh_accuracy
 import make_missing
 import make_motion_accuracy
@@ -54,6 +55,7 @@ def main() -> None:
         make_extremes,
         make_gallery,
         make_images,
+        make_left_out,
         make_missing,
         make_outputs,
         make_sources,

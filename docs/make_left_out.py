@@ -50,9 +50,10 @@ wheels and arbors weigh the same, so that a rank mostly is a range. Classes do n
 """
 
 FOUND = """
-Of {asked} questions {whole} were finished{limits}. The train itself was found in {found} of them{lost}. In {first} it
-has none of more weight above it, and in {alone} it is the only one of the greatest weight. {more} have explanations
-with fewer wheels than were lost, which then weigh more.
+There are {possible} such questions. {asked} were asked and {whole} finished in the time that each had; two arbors are
+not left out where one of them alone was not finished. The train itself was found in {found} of the finished ones{lost}.
+In {first} it has none of more weight above it, and in {alone} it is the only one of the greatest weight. {more} have
+explanations with fewer wheels than were lost, which then weigh more.
 """
 
 
@@ -69,9 +70,9 @@ def page(records: LeftOutRecords) -> list[str]:
     lost = "; not: " + ", ".join(f"{row.train} without {' and '.join(row.lost)}" for row in records.lost)
     found = paragraphs(
         FOUND,
+        possible=f"{records.possible:,}",
         asked=f"{len(records.rows):,}",
         whole=f"{len(records.whole):,}",
-        limits=" (the others say why not)" if len(records.whole) < len(records.rows) else "",
         found="all" if not records.lost else f"{len(ranks):,}",
         lost=lost if records.lost else "",
         first=f"{sum(rank[0] == 1 for rank in ranks):,}",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import comb
 
 from studies.records import StudyRecords, seconds_text, table
 
@@ -27,6 +28,11 @@ class TreeRecord:
     pointers: Sequence[str]
     beside: Sequence[str]
     teeth: Sequence[int]
+
+    @property
+    def questions(self) -> int:
+        """How many arbors, and pairs of arbors, there are to be left out."""
+        return comb(len(self.arbors) + 1, 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +90,11 @@ class LeftOutRecords(StudyRecords):
         return [row for row in self.rows if row.is_whole]
 
     @property
+    def possible(self) -> int:
+        """All questions that there are, with one arbor or two left out."""
+        return sum(tree.questions for tree in self.trees)
+
+    @property
     def lost(self) -> list[LeftOutRecord]:
         """Finished questions whose answer lacks the train itself: there must be none."""
         return [row for row in self.whole if row.rank is None]
@@ -92,7 +103,8 @@ class LeftOutRecords(StudyRecords):
         """A summary, every question, and the trains that are not asked."""
         lines = ["## By train", "", *table(_SUMMARY, [_TreeRows(tree, self._of(tree)) for tree in self.trees])]
         for tree in self.trees:
-            lines += [f"## {tree.train}", "", _about(tree), "", *table(_COLUMNS, self._of(tree))]
+            own = self._of(tree)
+            lines += [f"## {tree.train}", "", _about(tree, tree.questions - len(own)), "", *table(_COLUMNS, own)]
         return [*lines, "## Not asked", "", *table(_NOT_ASKED, self.not_asked)]
 
     def _of(self, tree: TreeRecord) -> list[LeftOutRecord]:
@@ -109,10 +121,11 @@ class _TreeRows:
         return [row for row in self.rows if row.is_whole]
 
 
-def _about(tree: TreeRecord) -> str:
+def _about(tree: TreeRecord, unasked: int) -> str:
     beside = f" Not in the tree: {', '.join(tree.beside)}." if tree.beside else ""
+    left = f" Pairs not asked, for one of the two alone was not finished: {unasked}." if unasked else ""
     pointers = ", ".join(tree.pointers)
-    return f"From {tree.source} on; pointers: {pointers}; {tree.teeth[0]} to {tree.teeth[1]} teeth.{beside}"
+    return f"From {tree.source} on; pointers: {pointers}; {tree.teeth[0]} to {tree.teeth[1]} teeth.{beside}{left}"
 
 
 def rank_text(rank: Sequence[int] | None) -> str:
@@ -146,6 +159,7 @@ _SUMMARY: dict[str, Callable[[_TreeRows], str]] = {
     "arbors": lambda one: str(len(one.tree.arbors)),
     "wheels": lambda one: str(one.tree.wheels),
     "pointers": lambda one: str(len(one.tree.pointers)),
+    "questions": lambda one: str(one.tree.questions),
     "asked": lambda one: str(len(one.rows)),
     "finished": lambda one: str(len(one.whole)),
     "train found": lambda one: str(sum(row.rank is not None for row in one.whole)),

@@ -7,7 +7,7 @@ that a run that is stopped is taken up where it was. Two arbors are left out whe
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import combinations
 from pathlib import Path
@@ -45,11 +45,10 @@ def left_out(
     trees, not_asked = find_trees(names or tuple(shipped()))
     one = [(name, (link,), limit) for name, tree in trees.items() for link in tree.driven]
     singles = _asked(one, workers, _part(journal, 1))
-    short = {(row.train, row.lost[0]): row.note for row in singles if not row.is_whole}
+    short = {(row.train, row.lost[0]) for row in singles if not row.is_whole}
     pairs = [(name, lost, limit) for name, tree in trees.items() for lost in combinations(tree.driven, 2)]
-    able = [(name, lost, seconds) for name, lost, seconds in pairs if not _cause(name, lost, short)]
-    left = [_unasked(trees[name], lost, why) for name, lost, _ in pairs if (why := _cause(name, lost, short))]
-    rows = [*singles, *_asked(able, workers, _part(journal, 2)), *left]
+    able = [(name, lost, seconds) for name, lost, seconds in pairs if not any((name, link) in short for link in lost)]
+    rows = [*singles, *_asked(able, workers, _part(journal, 2))]
     return LeftOutRecords(TITLE, [_tree_record(tree) for tree in trees.values()], rows, not_asked)
 
 
@@ -117,15 +116,6 @@ def forget(journal: Path) -> None:
     """Remove what a finished run kept."""
     for many in (1, 2):
         journal.with_name(f"{journal.name}-{many}").unlink(missing_ok=True)
-
-
-def _cause(name: str, lost: tuple[str, ...], short: Mapping[tuple[str, str], str]) -> str:
-    """Why two arbors are not left out together; "" where they are."""
-    return next((f"{link} alone: {short[name, link]}" for link in lost if (name, link) in short), "")
-
-
-def _unasked(tree: SpurTree, lost: tuple[str, ...], why: str) -> LeftOutRecord:
-    return LeftOutRecord(tree.train.name, lost, _wheels(tree, lost), [], [], None, None, why)
 
 
 def _wheels(tree: SpurTree, lost: Iterable[str]) -> int:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cache, cached_property
 from math import prod
 
 import numpy as np
@@ -21,7 +21,6 @@ from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
 
 Rows = NDArray[np.int64]
-_ENDED = 1 << 62
 
 
 @dataclass(frozen=True)
@@ -40,35 +39,43 @@ class AddedArbors:
 class PathList:
     """Paths to a dial, one a row.
 
-    codes      by row and arbor, the input first: which of `passes` is taken, from 1 on; 0 where the path is elsewhere
-    arbors     by row: bit i - 1 for each surviving arbor i on the path
-    owing      by row: the same for those where surviving wheels are passed by, if all must mesh; -1 for the input's
-    ends_new   by row: whether the dial's arbor is added
-    wheels     by row: number of wheels that are added beside surviving ones or at the end
-    possible   by row: bit j where `plans[j]` may be the added arbors on the path
+    codes                by row and arbor, the input first: which of `passes` is taken, from 1 on; 0 where none is
+    arbors               by row: bit i - 1 for each surviving arbor i on the path
+    idle                 by row: the same for those where surviving wheels are passed by that must mesh
+    ends_new             by row: whether the dial's arbor is added
+    compounds, idlers    by row: number of added arbors before the last
+    wheels, new          by row: number of added wheels and of added arbors
     """
+
+    COLUMNS = ("codes", "arbors", "idle", "ends_new", "compounds", "idlers", "wheels", "new")
 
     def __init__(self, dial: Dial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
         self.dial, self.problem, self.keys = dial, problem, keys
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
-        self.plans = tuple(_plans(problem.additions.wheels, problem.idlers))
         growth = self._grown()
-        self.codes = growth.codes
-        self.ends_new = ~growth.ended
-        self.wheels = growth.added + self.ends_new
-        self.drivers, self.driven = growth.drivers, growth.driven + self.ends_new
-        bits = (np.int64(1) << np.arange(len(every) - 1, dtype=np.int64)) if len(every) > 1 else np.zeros(0, np.int64)
+        plans = tuple(_plans(problem.additions.wheels, problem.idlers))
+        possible = self._possible(growth, plans)
+        rows, taken = np.nonzero(possible)
+        bits = np.int64(1) << np.arange(len(every) - 1, dtype=np.int64)
+        self.codes = growth.codes[rows]
         self.arbors = (self.codes[:, 1:] > 0) @ bits
-        idle = np.zeros(self.codes.shape, dtype=bool)
-        if problem.use == "wheels":
+        self.idle = self._passed_by()[:, 1:] @ bits
+        self.ends_new = ~growth.ended[rows]
+        self.compounds = np.array([plan.compounds for plan in plans], dtype=np.int64)[taken]
+        self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
+        self.wheels = growth.added[rows] + self.ends_new + 2 * self.compounds + self.idlers
+        self.new = self.compounds + self.idlers + self.ends_new
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    def _passed_by(self) -> NDArray[np.bool_]:
+        found = np.zeros(self.codes.shape, dtype=bool)
+        if self.problem.use == "wheels":
             for at, passes in enumerate(self.passes):
-                table = np.array([False, *(each.idle > 0 for each in passes)])
-                idle[:, at] = table[self.codes[:, at]]
-        self.owing = idle[:, 1:] @ bits
-        self.root_owing = idle[:, 0]
-        self.possible = self._possible(growth)
-        self._keep(self.possible > 0)
+                found[:, at] = np.array([False, *(each.idle > 0 for each in passes)])[self.codes[:, at]]
+        return found
 
     def _passes(self, at: int) -> Iterator[ArborPass]:
         problem = self.problem
@@ -123,7 +130,7 @@ class PathList:
         }
         return tuple(sorted(prime for prime in found if prime * prime > least))
 
-    @lru_cache(maxsize=None)  # noqa: B019 -- lives as long as the list
+    @cache  # noqa: B019 -- lives as long as the list
     def _primes_of(self, at: int) -> frozenset[int]:
         counts = {_sure(wheel) for each in self.passes[at] for wheel in (each.driven, each.driver)}
         return frozenset(prime for count in counts for prime, _ in prime_powers(count))
@@ -153,17 +160,18 @@ class PathList:
 
     # which added arbors may be on a path
 
-    def _possible(self, growth: _Growth) -> Rows:
-        limits = self.problem.additions
-        found = np.zeros(len(self.codes), dtype=np.int64)
-        meshes = (self.codes[:, 1:] > 0).sum(axis=1) + self.ends_new
-        for bit, plan in enumerate(self.plans):
-            fits = self.wheels + plan.wheels <= limits.wheels
+    def _possible(self, growth: _Growth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
+        """By path and plan, whether the plan may be the added arbors on the path."""
+        new = ~growth.ended
+        meshes = (growth.codes[:, 1:] > 0).sum(axis=1) + new
+        found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
+        for at, plan in enumerate(plans):
+            fits = growth.added + new + plan.wheels <= self.problem.additions.wheels
             turned = (meshes + plan.compounds + plan.idlers) % 2 == 1
             fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
             if self.dial.is_exact:
-                fits &= self._may_be_quotient(growth.keys, plan.compounds, fits)
-            found |= fits.astype(np.int64) << bit
+                fits &= self._may_be_quotient(growth, plan.compounds, fits)
+            found[:, at] = fits
         return found
 
     def _may_turn(self, turned: bool) -> bool:
@@ -177,18 +185,14 @@ class PathList:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
 
-    def _may_be_quotient(self, keys: NDArray[np.uint64], compounds: int, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def _may_be_quotient(self, growth: _Growth, compounds: int, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
         found = asked.copy()
-        kinds = self.drivers.astype(np.int64) * 64 + self.driven
+        kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
         for kind in np.unique(kinds[asked]):
             rows = np.flatnonzero(asked & (kinds == kind))
             drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
-            found[rows] = self.keys.may_be_quotients(keys[rows], drivers, driven)
+            found[rows] = self.keys.may_be_quotients(growth.keys[rows], drivers, driven)
         return found
-
-    def _keep(self, rows: NDArray[np.bool_]) -> None:
-        for name in ("codes", "arbors", "owing", "root_owing", "ends_new", "wheels", "drivers", "driven", "possible"):
-            setattr(self, name, getattr(self, name)[rows])
 
     # a path's speed
 
@@ -198,10 +202,14 @@ class PathList:
         taken = [each for each in taken if not each.idler]
         return Fraction(prod(_sure(each.driver) for each in taken), prod(_sure(each.driven) for each in taken))
 
-    def wanted_quotients(self, row: int, turned: bool) -> tuple[Fraction, Fraction]:
-        """Least and greatest quotient that the added wheels on a path may have if it ends turning the other way."""
+    def turns(self, row: int) -> bool:
+        """Whether a path's dial turns the other way than the input."""
+        return (int(self.arbors[row]).bit_count() + int(self.new[row])) % 2 == 1
+
+    def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
+        """Least and greatest quotient that the added wheels on a path may have."""
         known = abs(self.known_ratio(row) * self.problem.input_speed)
-        low, high = self._magnitudes(turned)
+        low, high = self._magnitudes(self.turns(row))
         return low / known, high / known
 
 

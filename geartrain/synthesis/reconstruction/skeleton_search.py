@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
-from geartrain.synthesis.reconstruction.path_lists import AddedArbors, PathList, Rows
+from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, PlacedWheel, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWheel, ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
 _ENDLESS = 1 << 20
@@ -29,27 +29,32 @@ class _Left(NamedTuple):
     arbors   surviving ones, a bit each
     wheels   added wheels
     new      added arbors, at most
-    shown    by dial that is shown: its row in the list of its paths, and whether it turns the other way
+    shown    by dial that is shown: its row in the list of its paths
     """
 
     arbors: int
     wheels: int
     new: int
-    shown: tuple[tuple[str, int, bool], ...] = ()
+    shown: tuple[tuple[str, int], ...] = ()
 
 
 class _Above(NamedTuple):
     """The part of the paths that the dials below share.
 
     arbors               surviving ones, a bit each
-    wheels               added wheels beside surviving ones
+    beside               added wheels beside surviving ones
     compounds, idlers    added arbors
     """
 
     arbors: int = 0
-    wheels: int = 0
+    beside: int = 0
     compounds: int = 0
     idlers: int = 0
+
+    @property
+    def wheels(self) -> int:
+        """Added wheels."""
+        return self.beside + 2 * self.compounds + self.idlers
 
 
 _Lists = Mapping[str, Rows]
@@ -66,128 +71,138 @@ class SkeletonSearch:
         self._cover = problem.use != "some"
         first = next(iter(self.lists.values()))
         self._plain = [[each for each in passes if each.driver is not None] for passes in first.passes]
+        at = {arbor.name: number for number, arbor in enumerate(self.every)}
+        self._places = {dial.name: _bit(at.get(dial.place or "", 0)) for dial in problem.dials}
 
     def skeletons(self, added: int) -> Iterator[Skeleton]:
         """All skeletons with just so many added wheels."""
-        lists: dict[str, Rows] = {}
-        for name, paths in self.lists.items():
-            lists[name] = self._affordable(name, np.arange(len(paths.codes)), _Above(), added)
-            if not len(lists[name]):
-                return
+        dials = tuple(sorted(self.lists))
         new = self.problem.additions.arbors
         left = _Left((1 << len(self.problem.arbors)) - 1, added, _ENDLESS if new is None else new)
-        for root, after in self._survivor_joint(0, tuple(sorted(lists)), lists, _Above(), left, True):
+        lists = self._viable(dials, {name: np.arange(len(self.lists[name])) for name in dials}, _Above(), left)
+        if lists is None:
+            return
+        for root, after in self._survivor_joint(0, dials, lists, _Above(), left, None):
             if not after.wheels and not (self._cover and after.arbors):
-                wanted = tuple(
-                    (name, self.lists[name].wanted_quotients(row, turned)) for name, row, turned in sorted(after.shown)
-                )
+                wanted = tuple((name, self.lists[name].wanted_quotients(row)) for name, row in sorted(after.shown))
                 yield Skeleton(root, wanted)
 
     # what hangs from a driving wheel
 
     def _forest(
-        self, dials: Dials, lists: _Lists, above: _Above, left: _Left, last: bool, least: int = 1
+        self, dials: Dials, lists: _Lists, above: _Above, left: _Left, later: int | None, least: int = 1
     ) -> Iterator[tuple[tuple[Limb, ...], _Left]]:
         """Limbs that share out some dials."""
         for blocks in _partitions(dials):
             if len(blocks) >= least:
-                yield from self._limbs(blocks, lists, above, left, last)
+                known = [self._viable(block, lists, above, left) for block in blocks]
+                found = [lists for lists in known if lists is not None]
+                if len(found) == len(blocks):
+                    found.sort(key=lambda some: min(map(len, some.values())))
+                    yield from self._limbs(found, above, left, later)
 
     def _limbs(
-        self, blocks: Sequence[Dials], lists: _Lists, above: _Above, left: _Left, last: bool
+        self, blocks: Sequence[_Lists], above: _Above, left: _Left, later: int | None
     ) -> Iterator[tuple[tuple[Limb, ...], _Left]]:
+        """Limbs to the dials of each block; what the later ones need at least is kept for them."""
         if not blocks:
             yield (), left
             return
-        for limb, after in self._limb(blocks[0], lists, above, left, last and len(blocks) == 1):
-            for others, end in self._limbs(blocks[1:], lists, above, after, last):
+        kept = sum(self._least(some, above) for some in blocks[1:])
+        if kept > left.wheels:
+            return
+        after_it = self._later(blocks[1:], later)
+        for limb, after in self._limb(blocks[0], above, left._replace(wheels=left.wheels - kept), after_it):
+            for others, end in self._limbs(blocks[1:], above, after._replace(wheels=after.wheels + kept), later):
                 yield (limb, *others), end
 
-    def _limb(
-        self, dials: Dials, lists: _Lists, above: _Above, left: _Left, last: bool
-    ) -> Iterator[tuple[Limb, _Left]]:
+    def _later(self, blocks: Sequence[_Lists], later: int | None) -> int | None:
+        """The arbors that some blocks, and those after them, may use; None if there are none of them."""
+        found = later
+        for lists in blocks:
+            for dial, rows in lists.items():
+                found = (found or 0) | int(np.bitwise_or.reduce(self.lists[dial].arbors[rows]))
+        return found
+
+    def _least(self, lists: _Lists, above: _Above) -> int:
+        """So many added wheels at least are needed to some dials."""
+        return max(int(self.lists[dial].wheels[rows].min()) for dial, rows in lists.items()) - above.wheels
+
+    def _limb(self, lists: _Lists, above: _Above, left: _Left, later: int | None) -> Iterator[tuple[Limb, _Left]]:
+        dials = tuple(sorted(lists))
         kept = self._viable(dials, lists, above, left)
-        if kept is None:
+        if kept is None or not self._covers(kept, left, later):
             return
         if len(dials) == 1:
-            yield from self._leg(dials[0], kept[dials[0]], above, left, last)
+            yield from self._leg(dials[0], kept[dials[0]], above, left, later)
             return
-        for through, some, there, after in self._stretches(1, dials, kept, above, left):
+        for through, some, there, after in self._stretches(1, dials, kept, above, left, later):
             for compounds in range(after.wheels // 2 + 1):
                 for idlers in range(after.wheels - 2 * compounds + 1 if self.problem.idlers else 1):
                     if compounds + idlers <= after.new:
                         limb = Limb(dials, through, compounds, idlers, ())
-                        yield from self._ends(limb, some, there, after, last)
+                        yield from self._ends(limb, some, there, after, later)
 
-    def _ends(self, limb: Limb, lists: _Lists, above: _Above, left: _Left, last: bool) -> Iterator[tuple[Limb, _Left]]:
+    def _ends(
+        self, limb: Limb, lists: _Lists, above: _Above, left: _Left, later: int | None
+    ) -> Iterator[tuple[Limb, _Left]]:
         """What a limb with several dials may end with."""
         above = above._replace(compounds=above.compounds + limb.compounds, idlers=above.idlers + limb.idlers)
         wheels = left.wheels - 2 * limb.compounds - limb.idlers
         left = left._replace(wheels=wheels, new=left.new - limb.compounds - limb.idlers)
         kept = self._viable(limb.dials, lists, above, left)
-        if kept is None:
+        if kept is None or not self._covers(kept, left, later):
             return
         ends: Iterator[tuple[Joint | tuple[Limb, ...], _Left]] = chain(
-            self._forest(limb.dials, kept, above, left, last, 2) if limb.arbors else (),
+            self._forest(limb.dials, kept, above, left, later, 2) if limb.arbors else (),
             *(
-                self._survivor_joint(at, limb.dials, kept, above, left, last)
+                self._survivor_joint(at, limb.dials, kept, above, left, later)
                 for at in range(1, len(self.every))
-                if left.arbors >> (at - 1) & 1
+                if left.arbors & _bit(at)
             ),
-            self._new_joint(limb.dials, kept, above, left, last),
+            self._new_joint(limb.dials, kept, above, left, later),
         )
         for end, after in ends:
             yield Limb(limb.dials, limb.through, limb.compounds, limb.idlers, end), after
 
     # one dial: its list says all
 
-    def _leg(self, dial: str, rows: Rows, above: _Above, left: _Left, last: bool) -> Iterator[tuple[Limb, _Left]]:
+    def _leg(self, dial: str, rows: Rows, above: _Above, left: _Left, later: int | None) -> Iterator[tuple[Limb, _Left]]:
         paths = self.lists[dial]
-        own = paths.arbors[rows] & ~above.arbors
-        fits = paths.owing[rows] & ~above.arbors == 0
-        if last and self._cover:
-            fits &= own == left.arbors
+        fits = paths.new[rows] - above.compounds - above.idlers <= left.new
+        if later is None:
+            fits &= paths.wheels[rows] - above.wheels == left.wheels
+            if self._cover:
+                fits &= paths.arbors[rows] & ~above.arbors == left.arbors
         for row in map(int, rows[fits]):
-            for bit, plan in enumerate(paths.plans):
-                more = AddedArbors(plan.compounds - above.compounds, plan.idlers - above.idlers)
-                cost = int(paths.wheels[row]) - above.wheels + more.wheels
-                new = more.compounds + more.idlers + int(paths.ends_new[row])
-                if not paths.possible[row] >> bit & 1 or min(more.compounds, more.idlers) < 0:
-                    continue
-                if cost > left.wheels or (last and cost < left.wheels) or new > left.new:
-                    continue
-                arbors = int(paths.arbors[row]) & ~above.arbors
-                shown = (*left.shown, (dial, row, self._turns(dial, row, plan)))
-                after = _Left(left.arbors & ~arbors, left.wheels - cost, left.new - new, shown)
-                yield self._as_limb(dial, row, arbors, more), after
+            arbors = int(paths.arbors[row]) & ~above.arbors
+            limb = self._as_limb(dial, row, arbors, above)
+            wheels = left.wheels - int(paths.wheels[row]) + above.wheels
+            new = left.new - int(paths.new[row]) + above.compounds + above.idlers
+            yield limb, _Left(left.arbors & ~arbors, wheels, new, (*left.shown, (dial, row)))
 
-    def _as_limb(self, dial: str, row: int, arbors: int, more: AddedArbors) -> Limb:
+    def _as_limb(self, dial: str, row: int, arbors: int, above: _Above) -> Limb:
         paths = self.lists[dial]
         end = Joint(None, ADDED, (dial,))
         through = []
         for at in range(1, len(self.every)):
-            if arbors >> (at - 1) & 1:
+            if arbors & _bit(at):
                 each = paths.passes[at][paths.codes[row, at] - 1]
                 if each.driver is None:
                     end = Joint(self.every[at].name, each.driven, (dial,))
                 else:
                     through.append((self.every[at].name, each))
-        return Limb((dial,), tuple(through), more.compounds, more.idlers, end)
-
-    def _turns(self, dial: str, row: int, plan: AddedArbors) -> bool:
-        """Whether a dial turns the other way than the input."""
-        paths = self.lists[dial]
-        meshes = int(paths.arbors[row]).bit_count() + int(paths.ends_new[row]) + plan.compounds + plan.idlers
-        return meshes % 2 == 1
+        compounds, idlers = int(paths.compounds[row]), int(paths.idlers[row])
+        return Limb((dial,), tuple(through), compounds - above.compounds, idlers - above.idlers, end)
 
     # several dials: surviving arbors in a row, in the order of their numbers
 
     def _stretches(
-        self, start: int, dials: Dials, lists: _Lists, above: _Above, left: _Left
+        self, start: int, dials: Dials, lists: _Lists, above: _Above, left: _Left, later: int | None
     ) -> Iterator[tuple[tuple[tuple[str, ArborPass], ...], _Lists, _Above, _Left]]:
         yield (), lists, above, left
         for at in range(start, len(self.every)):
-            bit = 1 << (at - 1)
+            bit = _bit(at)
             if not left.arbors & bit:
                 continue
             for code in self._codes(at, dials, lists):
@@ -196,11 +211,11 @@ class SkeletonSearch:
                 each = self._plain[at][code - 1]
                 if (each.idle and self.problem.use == "wheels") or each.added > left.wheels:
                     continue
-                there = above._replace(arbors=above.arbors | bit, wheels=above.wheels + each.added)
+                there = above._replace(arbors=above.arbors | bit, beside=above.beside + each.added)
                 after = left._replace(arbors=left.arbors & ~bit, wheels=left.wheels - each.added)
                 kept = self._viable(dials, self._through(at, code, dials, lists), there, after)
-                if kept is not None:
-                    for through, *rest in self._stretches(at + 1, dials, kept, there, after):
+                if kept is not None and self._covers(kept, after, later):
+                    for through, *rest in self._stretches(at + 1, dials, kept, there, after, later):
                         yield ((self.every[at].name, each), *through), *rest
 
     def _codes(self, at: int, dials: Dials, lists: _Lists) -> list[int]:
@@ -214,7 +229,7 @@ class SkeletonSearch:
     # arbors at which paths end or part
 
     def _survivor_joint(
-        self, at: int, dials: Dials, lists: _Lists, above: _Above, left: _Left, last: bool
+        self, at: int, dials: Dials, lists: _Lists, above: _Above, left: _Left, later: int | None
     ) -> Iterator[tuple[Joint, _Left]]:
         """A surviving arbor that shows some of the dials, or leads to them by several wheels; or the input arbor."""
         arbor, bit = self.every[at], _bit(at)
@@ -234,11 +249,11 @@ class SkeletonSearch:
                 for blocks in self._shared_out(rest, wheels, beside=self.problem.additions.on == "any", idler=at > 0):
                     if not at or here or len(blocks) > 1:
                         place = _Place(at, arbor.name, driven)
-                        for drives, end in self._drives(place, blocks, lists, there, done, last):
+                        for drives, end in self._drives(place, blocks, lists, there, done, later):
                             yield _joint(place, here, drives), end
 
     def _new_joint(
-        self, dials: Dials, lists: _Lists, above: _Above, left: _Left, last: bool
+        self, dials: Dials, lists: _Lists, above: _Above, left: _Left, later: int | None
     ) -> Iterator[tuple[Joint, _Left]]:
         """An added arbor that shows some of the dials, or leads to them by several wheels."""
         if not left.wheels or not left.new:
@@ -253,12 +268,12 @@ class SkeletonSearch:
             done = after._replace(shown=(*after.shown, *shown))
             for blocks in self._shared_out(rest, (), beside=True, idler=True):
                 if here or len(blocks) > 1:
-                    for drives, end in self._drives(place, blocks, lists, above, done, last):
+                    for drives, end in self._drives(place, blocks, lists, above, done, later):
                         yield _joint(place, here, drives), end
 
     def _ending(
         self, at: int, driven: PlacedWheel | None, here: Dials, lists: _Lists, above: _Above
-    ) -> list[tuple[str, int, bool]] | None:
+    ) -> list[tuple[str, int]] | None:
         """Rows of the dials that a surviving arbor shows; None where it does not show them."""
         found = []
         for dial in here:
@@ -272,7 +287,7 @@ class SkeletonSearch:
             found.append(shown)
         return found
 
-    def _ending_new(self, here: Dials, lists: _Lists, above: _Above) -> list[tuple[str, int, bool]] | None:
+    def _ending_new(self, here: Dials, lists: _Lists, above: _Above) -> list[tuple[str, int]] | None:
         """Rows of the dials that an added arbor shows; None where it does not show them."""
         found = []
         for dial in here:
@@ -282,17 +297,12 @@ class SkeletonSearch:
             found.append(shown)
         return found
 
-    def _shown(self, dial: str, rows: Rows, above: _Above) -> tuple[str, int, bool] | None:
+    def _shown(self, dial: str, rows: Rows, above: _Above) -> tuple[str, int] | None:
         """The row that ends just here, if one does."""
-        paths, plan = self.lists[dial], AddedArbors(above.compounds, above.idlers)
-        if plan not in paths.plans:
-            return None
-        fits = paths.arbors[rows] == above.arbors
-        fits &= paths.possible[rows] >> paths.plans.index(plan) & 1 == 1
-        if not fits.any():
-            return None
-        (row,) = map(int, rows[fits])
-        return dial, row, self._turns(dial, row, plan)
+        paths = self.lists[dial]
+        fits = (paths.arbors[rows] == above.arbors) & (paths.compounds[rows] == above.compounds)
+        found = rows[fits & (paths.idlers[rows] == above.idlers)]
+        return (dial, int(found[0])) if len(found) else None
 
     def _shared_out(
         self, dials: Dials, wheels: Sequence[str], *, beside: bool, idler: bool
@@ -318,20 +328,24 @@ class SkeletonSearch:
         lists: _Lists,
         above: _Above,
         left: _Left,
-        last: bool,
+        later: int | None,
     ) -> Iterator[tuple[tuple[_Drive, ...], _Left]]:
         """What hangs from the driving wheels of an arbor."""
         if not blocks:
             yield (), left
             return
         (wheel, dials), others = blocks[0], blocks[1:]
+        rest = [{dial: lists[dial] for dial in block} for _, block in others]
+        after_it = self._later(rest, later)
+        kept = sum(max(0, self._least(some, above)) for some in rest)
+        cost = int(wheel is None)
+        if cost + kept > left.wheels:
+            return
+        own = left._replace(wheels=left.wheels - cost - kept)
         for driver, some, there in self._by_wheel(place, wheel, dials, lists, above):
-            cost = int(wheel is None)
-            if cost > left.wheels:
-                continue
-            final = last and not others
-            for limbs, after in self._forest(dials, some, there, left._replace(wheels=left.wheels - cost), final):
-                for drives, end in self._drives(place, others, lists, above, after, last):
+            for limbs, after in self._forest(dials, some, there, own, after_it):
+                after = after._replace(wheels=after.wheels + kept)
+                for drives, end in self._drives(place, others, lists, above, after, later):
                     yield ((driver, limbs), *drives), end
 
     def _by_wheel(
@@ -349,31 +363,44 @@ class SkeletonSearch:
             named = "" if each.idler else each.driver.name if each.driver is not None else None
             if each.driven == place.driven and named == wheel:
                 some = self._through(place.at, code, dials, lists)
-                there = above._replace(wheels=above.wheels + each.added)
+                there = above._replace(beside=above.beside + each.added)
                 yield None if each.idler else each.driver, some, there
 
     # what no list knows is not tried
 
     def _viable(self, dials: Dials, lists: _Lists, above: _Above, left: _Left) -> dict[str, Rows] | None:
-        """The paths that still can be completed; None where a dial has none."""
+        """The paths that still can be completed; None where a dial has none.
+
+        An arbor that other dials have their place on is not for these; and each surviving wheel that a path passes by
+        needs a dial of its own.
+        """
+        free = above.arbors | (left.arbors & ~self._taken(dials))
         found = {}
         for dial in dials:
             paths, rows = self.lists[dial], lists[dial]
-            rows = rows[paths.arbors[rows] & ~(above.arbors | left.arbors) == 0]
-            found[dial] = self._affordable(dial, rows, above, left.wheels)
+            fits = (paths.arbors[rows] & ~free == 0) & (paths.wheels[rows] <= above.wheels + left.wheels)
+            fits &= (paths.compounds[rows] >= above.compounds) & (paths.idlers[rows] >= above.idlers)
+            idle = paths.idle[rows] & ~above.arbors
+            fits &= np.bitwise_count(idle) < len(dials)
+            found[dial] = rows[fits]
             if not len(found[dial]):
                 return None
         return found
 
-    def _affordable(self, dial: str, rows: Rows, above: _Above, wheels: int) -> Rows:
-        paths = self.lists[dial]
-        fits = np.zeros(len(rows), dtype=bool)
-        cost = paths.wheels[rows] - above.wheels
-        for bit, plan in enumerate(paths.plans):
-            more = AddedArbors(plan.compounds - above.compounds, plan.idlers - above.idlers)
-            if min(more.compounds, more.idlers) >= 0:
-                fits |= (paths.possible[rows] >> bit & 1 == 1) & (cost + more.wheels <= wheels)
-        return rows[fits]
+
+    def _covers(self, lists: _Lists, left: _Left, later: int | None) -> bool:
+        """Whether every surviving arbor that must be used may be."""
+        return not self._cover or not left.arbors & ~(self._later([lists], later) or 0)
+
+    def _taken(self, dials: Dials) -> int:
+        """Arbors on which other dials have their place, and none of these."""
+        others = own = 0
+        for dial, bit in self._places.items():
+            if dial in dials:
+                own |= bit
+            else:
+                others |= bit
+        return others & ~own
 
 
 class _Place(NamedTuple):

@@ -45,9 +45,8 @@ class PathList:
     ends_new             by row: whether the dial's arbor is added
     compounds, idlers    by row: number of added arbors before the last
     wheels, new          by row: number of added wheels and of added arbors
+    wanted               by row: key of the quotient that the added wheels must have, where it must be exact
     """
-
-    COLUMNS = ("codes", "arbors", "idle", "ends_new", "compounds", "idlers", "wheels", "new")
 
     def __init__(self, dial: Dial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
         self.dial, self.problem, self.keys = dial, problem, keys
@@ -65,6 +64,7 @@ class PathList:
         self.compounds = np.array([plan.compounds for plan in plans], dtype=np.int64)[taken]
         self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
         self.wheels = growth.added[rows] + self.ends_new + 2 * self.compounds + self.idlers
+        self.wanted = growth.keys[rows]
         self.new = self.compounds + self.idlers + self.ends_new
 
     def __len__(self) -> int:

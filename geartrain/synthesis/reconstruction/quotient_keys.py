@@ -20,6 +20,10 @@ _LONGEST = 3_000_000
 """Quotients in a table; where there would be more, every number is taken for one."""
 
 
+_FEW = 2
+"""Added wheels whose quotients are all listed."""
+
+
 class QuotientKeys:
     """Keys of numbers, and of all quotients of products of added wheels' counts.
 
@@ -30,6 +34,7 @@ class QuotientKeys:
         self.least, self.greatest = least, greatest
         self._words: dict[int, int] = {}
         self._random = np.random.default_rng(0x6EA7)
+        self._fewer: dict[int, Keys] = {}
         self._tables: dict[tuple[int, int], Keys | None] = {(0, 0): np.zeros(1, dtype=np.uint64)}
 
     def key(self, number: Fraction | int) -> int:
@@ -48,11 +53,19 @@ class QuotientKeys:
     def may_be_quotients(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
         """Which keys are those of quotients of so many drivers over so many driven wheels; never wrongly False."""
         table = self._table(drivers, driven)
-        if table is None:
-            return np.ones(len(keys), dtype=bool)
-        at = np.searchsorted(table, keys)
-        at[at == len(table)] = 0
-        return np.asarray(table[at] == keys)
+        return np.ones(keys.shape, dtype=bool) if table is None else _are_in(table, keys)
+
+    def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
+        """Which keys are those of quotients that so many added wheels or fewer make; never wrongly False."""
+        if wheels > _FEW:
+            return np.ones(keys.shape, dtype=bool)
+        return _are_in(self._few(wheels), keys)
+
+    def _few(self, wheels: int) -> Keys:
+        if wheels not in self._fewer:
+            tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
+            self._fewer[wheels] = np.unique(np.concatenate([table for table in tables if table is not None]))
+        return self._fewer[wheels]
 
     def _table(self, drivers: int, driven: int) -> Keys | None:
         key = drivers, driven
@@ -70,6 +83,12 @@ class QuotientKeys:
     @cached_property
     def _counts(self) -> Keys:
         return np.array([self.key(count) for count in range(self.least, self.greatest + 1)], dtype=np.uint64)
+
+
+def _are_in(table: Keys, keys: Keys) -> NDArray[np.bool_]:
+    at = np.searchsorted(table, keys)
+    at[at == len(table)] = 0
+    return np.asarray(table[at] == keys)
 
 
 @lru_cache(maxsize=1 << 16)

@@ -9,7 +9,7 @@ branchings the arbors are a set; the search takes each such choice once.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain, combinations
+from itertools import chain, combinations, product
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +21,8 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWhee
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
 _ENDLESS = 1 << 20
+_MOST_PAIRS = 1 << 22
+"""Pairs of paths that are looked at to keep those that go together."""
 
 
 class _Left(NamedTuple):
@@ -66,7 +68,7 @@ class SkeletonSearch:
     def __init__(self, problem: ReconstructionProblem) -> None:
         self.problem = problem
         self.every = (problem.input, *problem.arbors)
-        keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
+        self.keys = keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
         self.lists = {dial.name: PathList(dial, problem, keys) for dial in problem.dials}
         self._cover = problem.use != "some"
         first = next(iter(self.lists.values()))
@@ -97,7 +99,7 @@ class SkeletonSearch:
             if len(blocks) >= least:
                 known = [self._viable(block, lists, above, left) for block in blocks]
                 found = [lists for lists in known if lists is not None]
-                if len(found) == len(blocks):
+                if len(found) == len(blocks) and self._matched(found, above, left):
                     found.sort(key=lambda some: min(map(len, some.values())))
                     yield from self._limbs(found, above, left, later)
 
@@ -123,6 +125,15 @@ class SkeletonSearch:
             for dial, rows in lists.items():
                 found = (found or 0) | int(np.bitwise_or.reduce(self.lists[dial].arbors[rows]))
         return found
+
+    def _matched(self, blocks: Sequence[dict[str, Rows]], above: _Above, left: _Left) -> bool:
+        """Keep the paths of parted dials that go together; whether any are left."""
+        for some, more in combinations(blocks, 2):
+            for one, other in product(sorted(some), sorted(more)):
+                self._match(some, more, one, other, above, left.wheels, True)
+                if not len(some[one]):
+                    return False
+        return True
 
     def _least(self, lists: _Lists, above: _Above) -> int:
         """So many added wheels at least are needed to some dials."""
@@ -385,7 +396,38 @@ class SkeletonSearch:
             found[dial] = rows[fits]
             if not len(found[dial]):
                 return None
+        if left.wheels <= 2:
+            for one, other in combinations(dials, 2):
+                self._match(found, found, one, other, above, left.wheels, False)
+                if not len(found[one]):
+                    return None
         return found
+
+    def _match(
+        self, some: dict[str, Rows], more: dict[str, Rows], one: str, other: str, above: _Above, wheels: int, parted: bool
+    ) -> None:
+        """Keep the paths to two dials that have a partner: what is not shared needs no more than some added wheels.
+
+        parted   whether they share nothing but what is above
+        """
+        first, second = self.lists[one], self.lists[other]
+        rows, others = some[one], more[other]
+        if len(rows) * len(others) > _MOST_PAIRS:
+            return
+        if parted:
+            need = (first.wheels[rows] - above.wheels)[:, None] + (second.wheels[others] - above.wheels)
+            fits = (need <= wheels) & (first.arbors[rows][:, None] & second.arbors[others] & ~above.arbors == 0)
+        else:
+            need = np.full((len(rows), len(others)), wheels)
+            fits = np.ones(need.shape, dtype=bool)
+        if first.dial.is_exact and second.dial.is_exact:
+            quotients = first.wanted[rows][:, None] - second.wanted[others]
+            for number in range(min(wheels, 2) + 1):
+                asked = fits & (need == number)
+                if asked.any():
+                    fits[asked] = self.keys.need_few(quotients[asked], number)
+        some[one] = rows[fits.any(axis=1)]
+        more[other] = others[fits.any(axis=0)]
 
 
     def _covers(self, lists: _Lists, left: _Left, later: int | None) -> bool:

@@ -67,6 +67,16 @@ class PathList:
         self.wanted = growth.keys[rows]
         self.new = self.compounds + self.idlers + self.ends_new
 
+        self._driven = [np.array([-1, *_numbered_wheels(passes)]) for passes in self.passes]
+
+    def driven_at(self, rows: Rows) -> NDArray[np.int64]:
+        """By row and arbor, a number of the wheel that is driven, with its count; -1 where the path is elsewhere."""
+        codes = self.codes[rows]
+        found = np.empty(codes.shape, dtype=np.int64)
+        for at, driven in enumerate(self._driven):
+            found[:, at] = driven[codes[:, at]]
+        return found
+
     def __len__(self) -> int:
         return len(self.codes)
 
@@ -217,6 +227,14 @@ def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
     for compounds in range(wheels // 2 + 1):
         for single in range(wheels - 2 * compounds + 1 if idlers else 1):
             yield AddedArbors(compounds, single)
+
+
+def _numbered_wheels(passes: tuple[ArborPass, ...]) -> Iterator[int]:
+    """By pass, a number of its driven wheel that is the same in the lists of all dials."""
+    numbers = dict.fromkeys(each.driven for each in passes)
+    known = {wheel: number for number, wheel in enumerate(sorted(numbers, key=repr))}
+    for each in passes:
+        yield known[each.driven]
 
 
 def _sure(wheel: object) -> int:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.numerics.quantity import Figure
+from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share
 from geartrain.numerics.quantity_bounds import above_zero
 from geartrain.train.fields import Boolean, Count, Declared, Id
 
@@ -38,6 +39,8 @@ def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
 
 PartNumber = Annotated[int, BeforeValidator(_number)]
 Factor = Annotated[Figure, above_zero("give a factor above 0, such as 10")]
+Spread = Annotated[Share, above_zero("give a spread above 0, such as 4 %")]
+Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 0.5 mm")]
 
 
 class AddedParts(Declared):
@@ -91,6 +94,37 @@ class PriorCost(Declared):
     unused: Factor = Field(Figure.parse(100), description="Each surviving wheel that is not used")
 
 
+class MeasuredGeometry(Declared):
+    """How measured modules, pitch radii and positions of axes are weighed. Without this block they play no part.
+
+    A misfit weighs exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the twelve
+    pairs of the Antikythera mechanism of 2006 whose wheels are both measured; that of distances is what the same
+    errors make where one wheel alone is measured.
+
+    See Also
+    --------
+    Reconstruction : holds it as `geometry`
+    """
+
+    module: Spread = Field(
+        Quantity.parse("4.3 %", "fraction", True),
+        description="Spread of modules of wheels in mesh: the logarithm of their quotient, which is the difference "
+        "over the mean",
+    )
+    distance: Spread = Field(
+        Quantity.parse("3 %", "fraction", True),
+        description="Spread of the sum of pitch radii about the distance of the axes: the logarithm of their quotient",
+    )
+    reach: Distance | None = Field(
+        None,
+        description="By how much the sum of pitch radii may miss the distance of the axes at most; "
+        "default anything, at its weight",
+    )
+    radii: Mapping[Id, Distance] = Field(
+        {}, description="Measured pitch radii of surviving wheels, where that and not the module was measured"
+    )
+
+
 class Reconstruction(Declared):
     """How the evidence is to be explained. A declaration that has it is evidence, not a train.
 
@@ -115,3 +149,6 @@ class Reconstruction(Declared):
     apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels known not to mesh")
     given: tuple[GivenCoupling, ...] = Field((), description="Couplings that are taken as they are")
     cost: PriorCost = Field(PriorCost(), description="Factors of the prior")
+    geometry: MeasuredGeometry | None = Field(
+        None, description="How modules, radii and positions of axes are weighed; default not at all"
+    )

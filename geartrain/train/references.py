@@ -304,3 +304,12 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
         for link in coupling.pair:
             if link not in train.links:
                 yield _unknown(train, "link", link, train.links, "reconstruct", "given", at, "pair")
+    for wheel in asked.geometry.radii if asked.geometry is not None else ():
+        place = ("reconstruct", "geometry", "radii", wheel)
+        if wheel not in train.wheels:
+            yield _unknown(train, "wheel", wheel, train.wheels, *place)
+        elif train.wheels[wheel][1].module is not None:
+            why = "one follows from the other and the count of teeth"
+            yield Problem(
+                f"'{wheel}' has a module and a pitch radius", why, "give what was measured", train.place(*place)
+            )

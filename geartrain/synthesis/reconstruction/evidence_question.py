@@ -8,6 +8,11 @@ from fractions import Fraction
 from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem, first_problems
+from geartrain.synthesis.reconstruction.geometry_evidence import (
+    read_geometry_evidence,
+    refuse_unreachable,
+    unweighed_geometry,
+)
 from geartrain.synthesis.reconstruction.pointer_bounds import find_bounds
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
@@ -18,6 +23,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SurvivingArbor,
     SurvivingWheel,
 )
+from geartrain.synthesis.reconstruction.surviving_geometry import SurvivingGeometry
 from geartrain.train import Teeth, Train, Wheel
 from geartrain.train.reconstruction import NEW_ARBOR, AddedParts, Reconstruction
 
@@ -67,18 +73,23 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         raise DeclarationError(first_problems(found))
     source = next(link for link, speed in evidence.case(None).inputs.items() if speed)
     places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
+    arbors = tuple(_arbor(evidence, link) for link in evidence.links if link not in (source, evidence.frame))
+    geometry = read_geometry_evidence(evidence)
+    unreachable = frozenset(geometry.unreachable((_arbor(evidence, source), *arbors)))
+    refuse_unreachable(evidence, unreachable)
     problem = ReconstructionProblem(
         input=_arbor(evidence, source),
-        arbors=tuple(_arbor(evidence, link) for link in evidence.links if link not in (source, evidence.frame)),
+        arbors=arbors,
         dials=tuple(Dial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
         additions=_additions(asked.add, wheels),
         input_speed=evidence.case(None).inputs[source],
         meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
-        apart=frozenset(frozenset(pair) for pair in asked.apart),
-        coaxial=frozenset(_coaxial(evidence)),
+        apart=frozenset(frozenset(pair) for pair in asked.apart) | unreachable,
+        coaxial=frozenset(_coaxial(evidence, geometry)),
         use=asked.use,
         idlers=asked.idlers or idlers,
         factors=PriorFactors(asked.cost.wheel.value, asked.cost.arbor.value, asked.cost.unused.value),
+        geometry=geometry,
     )
     unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
     return EvidenceQuestion(problem, tuple(unused))
@@ -94,13 +105,16 @@ def _arbor(evidence: Train, link: str) -> SurvivingArbor:
     return SurvivingArbor(link, tuple(SurvivingWheel(name, _counts(wheel)) for name, wheel in wheels.items()))
 
 
-def _coaxial(evidence: Train) -> Iterator[frozenset[str]]:
-    """Arbors that are declared on one axis."""
+def _coaxial(evidence: Train, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
+    """Arbors that are declared on one axis, or on axes of one place."""
     on_axis: dict[str, list[str]] = {}
     for joint in evidence.revolutes:
         on_axis.setdefault(joint.axis, []).extend(link for link in joint.pair if link != evidence.frame)
     for links in on_axis.values():
         yield from map(frozenset, combinations(links, 2))
+    for one, other in combinations(geometry.arbors, 2):
+        if one.place == other.place:
+            yield frozenset((one.name, other.name))
 
 
 def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
@@ -190,12 +204,7 @@ def _inputs(evidence: Train) -> Iterator[Problem]:
 
 def _unused(evidence: Train) -> Iterator[str]:
     """Evidence that is declared and plays no part yet."""
-    for name, (_, wheel) in evidence.wheels.items():
-        if wheel.module is not None:
-            yield f"the module of '{name}', {wheel.module}: geometry is not taken up yet"
-    for label, axis in evidence.axes.items():
-        if axis.position is not None:
-            yield f"the position of axis '{label}': geometry is not taken up yet"
+    yield from unweighed_geometry(evidence)
     for gear in evidence.gears:
         if gear.driver is not None:
             yield f"the driver of '{gear.name}': either wheel may drive"

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
+from geartrain.synthesis.reconstruction.surviving_geometry import NO_GEOMETRY, SurvivingGeometry
+
 NEW = "new"
 """The place of a dial whose arbor does not survive."""
 
@@ -90,6 +92,7 @@ class ReconstructionProblem:
     coaxial  pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included
     use      "wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither
     idlers   whether a driven wheel may drive
+    geometry  what was measured; pairs that it keeps apart are in `apart` and `coaxial` already
     """
 
     input: SurvivingArbor
@@ -103,6 +106,7 @@ class ReconstructionProblem:
     use: Literal["wheels", "arbors", "some"] = "wheels"
     idlers: bool = False
     factors: PriorFactors = PriorFactors()
+    geometry: SurvivingGeometry = NO_GEOMETRY
 
 
 @dataclass(frozen=True)

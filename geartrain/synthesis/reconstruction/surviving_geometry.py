@@ -1,0 +1,131 @@
+"""Modules, pitch radii and places of axes that were measured on what survives, and which wheels they keep apart.
+
+Lengths are millimetres, exact. Axes are parallel, so a place is where an axis crosses the plan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import product
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from geartrain.synthesis.reconstruction.reconstruction_problem import SurvivingArbor
+
+Place = tuple[Fraction, Fraction]
+Bounds = tuple[Fraction, Fraction]
+Size = tuple[str | None, int]
+"""A wheel by its name, None for an added one, and its count of teeth."""
+
+UNMEASURED_SPREADS = 3
+"""A wheel that was not measured has the module of its mate within so many spreads, where impossible is told from
+improbable."""
+
+
+@dataclass(frozen=True)
+class MeasuredWheel:
+    """A wheel whose module was measured, or its pitch radius.
+
+    length   that length
+    """
+
+    name: str
+    is_module: bool
+    length: Fraction
+
+
+@dataclass(frozen=True)
+class PlacedArbor:
+    """A surviving arbor whose axis has a known place."""
+
+    name: str
+    place: Place
+
+
+@dataclass(frozen=True)
+class SurvivingGeometry:
+    """What was measured, and how it is weighed.
+
+    module     spread of the logarithm of the quotient of two modules in mesh
+    distance   spread of the logarithm of the sum of pitch radii over the distance of axes
+    reach      greatest difference of those two that is possible; None if any is
+    """
+
+    wheels: tuple[MeasuredWheel, ...] = ()
+    arbors: tuple[PlacedArbor, ...] = ()
+    module: Fraction = Fraction(43, 1000)
+    distance: Fraction = Fraction(3, 100)
+    reach: Fraction | None = None
+
+    @cached_property
+    def places(self) -> Mapping[str | None, Place]:
+        """Places by arbor."""
+        return {arbor.name: arbor.place for arbor in self.arbors}
+
+    @cached_property
+    def measured(self) -> Mapping[str | None, MeasuredWheel]:
+        """What was measured, by wheel."""
+        return {wheel.name: wheel for wheel in self.wheels}
+
+    def module_of(self, size: Size) -> Fraction | None:
+        """The module of a wheel; None where it was not measured."""
+        wheel = self.measured.get(size[0])
+        if wheel is None:
+            return None
+        return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
+
+    def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
+        """Of two axes; None where a place is not known."""
+        if first not in self.places or second not in self.places:
+            return None
+        (x, y), (u, v) = self.places[first], self.places[second]
+        return (x - u) ** 2 + (y - v) ** 2
+
+    def radii_sum(self, first: Size, second: Size) -> Fraction | None:
+        """Sum of the pitch radii of wheels in mesh, which share a module; None where neither was measured."""
+        module, other = self.module_of(first), self.module_of(second)
+        if module is None and other is None:
+            return None
+        module, other = (other if module is None else module), (module if other is None else other)
+        assert module is not None
+        assert other is not None
+        return (module * first[1] + other * second[1]) / 2
+
+    def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
+        """How far apart axes may be whose wheels mesh; None where that is not bounded."""
+        whole = self.radii_sum(first, second)
+        if whole is None or self.reach is None:
+            return None
+        guessed = Fraction(0)
+        for own, mate in ((first, second), (second, first)):
+            if self.module_of(own) is None:
+                module = self.module_of(mate)
+                assert module is not None
+                guessed += UNMEASURED_SPREADS * self.module * module * own[1] / 2
+        return max(Fraction(0), whole - guessed - self.reach), whole + guessed + self.reach
+
+    def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
+        """Whether the distance of two axes allows that their wheels mesh, as far as both are known."""
+        square, bounds = self.square_distance(arbor, other_arbor), self.distance_bounds(wheel, other)
+        if square is None:
+            return True
+        if not square:
+            return False  # on one axis
+        return bounds is None or bounds[0] ** 2 <= square <= bounds[1] ** 2
+
+    def unreachable(self, arbors: tuple[SurvivingArbor, ...]) -> Iterator[frozenset[str]]:
+        """Pairs of surviving wheels that cannot mesh, whichever of their counts they have."""
+        wheels = [(arbor.name, wheel) for arbor in arbors if arbor.name in self.places for wheel in arbor.wheels]
+        for at, (arbor, wheel) in enumerate(wheels):
+            for other_arbor, other in wheels[:at]:
+                counts = product((count for count, _ in wheel.counts), (count for count, _ in other.counts))
+                if arbor != other_arbor and not any(
+                    self.may_mesh(arbor, (wheel.name, own), other_arbor, (other.name, mate)) for own, mate in counts
+                ):
+                    yield frozenset((wheel.name, other.name))
+
+
+NO_GEOMETRY = SurvivingGeometry()

@@ -243,3 +243,54 @@ def test_all_shipped_evidence_is_a_question() -> None:
         assert question.problem.dials
     dial = evidence_question(read_evidence("back-train")).problem.dials[0]
     assert dial == exact_dial("metonic", "-5/19", place="new")
+
+
+SIZED = """\
+links:
+  frame: {}
+  b: {wheels: {b2: {teeth: 64, module: 0.4 mm}}}
+  c: {wheels: {c1: {teeth: 38, module: 0.9 mm, note: broken}, c2: {teeth: 48, module: 0.123456 mm}}}
+  d: {wheels: {d1: 24, d2: 127}}
+  e: {wheels: {e2: 32}}
+inputs: {b: 1}
+outputs: {moon: {of: e, expect: -254/19}}
+reconstruct:
+  geometry: {radii: {d2: 63.5 mm}}
+"""
+MOON = from_b(
+    chain(
+        [("c", wheel("c1", 38), wheel("c2", 48)), ("d", wheel("d1", 24), wheel("d2", 127))],
+        Arbor("e", wheel("e2", 32), ("moon",), ()),
+    )
+)
+
+
+def wheels_of(text: str) -> dict[str, dict[str, object]]:
+    links = candidate_data(read_evidence(text), MOON, "found")["links"]
+    return {name: of for link in links.values() for name, of in link.get("wheels", {}).items()}
+
+
+def test_wheels_that_mesh_get_one_module() -> None:
+    """The geometric mean of 0.4 and 0.9 is 0.6; a radius of 63.5 mm is module 1 of 127 teeth; a lone module stays."""
+    wheels = wheels_of(SIZED)
+    assert (wheels["b2"]["module"], wheels["b2"]["note"]) == ("0.6 mm", "measured module 0.4 mm")
+    assert "module" not in wheels["c1"]
+    assert wheels["c1"]["note"] == "broken; measured module 0.9 mm"
+    assert (wheels["c2"]["module"], "note" in wheels["c2"]) == ("0.123456 mm", False)
+    assert (wheels["d2"]["module"], wheels["d2"]["note"]) == ("1 mm", "measured pitch radius 63.5 mm")
+    assert "module" not in wheels["e2"]
+    GearTrain(load(candidate_text(read_evidence(SIZED), MOON, "found")))
+
+
+def test_places_of_axes_decide_before_modules() -> None:
+    placed = "axes: {B: {position: [0 mm, 0 mm, 0 mm]}, C: {position: [30 mm, 0 mm, 0 mm]}}\n"
+    joints = "revolutes: [{pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]\n"
+    wheels = wheels_of(SIZED + placed + joints)
+    assert "module" not in wheels["b2"]
+    assert "module" not in wheels["c1"]
+    assert wheels["c2"]["module"] == "0.123456 mm"
+
+
+def test_modules_that_are_not_weighed_stay() -> None:
+    text = SIZED.replace("  geometry: {radii: {d2: 63.5 mm}}", "  add: {}")
+    assert [of["module"] for of in wheels_of(text).values() if "module" in of] == ["0.4 mm", "0.9 mm", "0.123456 mm"]

@@ -19,6 +19,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SurvivingWheel,
 )
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount, Reconstructions
+from geartrain.synthesis.reconstruction.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
 from geartrain.train.declaration_files import read_evidence
 
 
@@ -56,6 +57,19 @@ def test_every_hard_fact_is_dropped_once() -> None:
         "if added wheels may have 5 to 16 teeth",
         "if added wheels may have 10 to 32 teeth",
     ]
+
+
+def test_all_that_distances_keep_apart_is_one_fact() -> None:
+    """Radii 10 and 15 of i and a1 do not reach over 40 mm, 10 and 7.5 of i and a2 neither"""
+    wheels = tuple(MeasuredWheel(name, True, Fraction(1)) for name in ("i", "a1", "a2"))
+    arbors = tuple(PlacedArbor(name, (Fraction(x), Fraction(0))) for name, x in (("in", 0), ("a", 40)))
+    geometry = SurvivingGeometry(wheels, arbors, reach=Fraction(1))
+    apart = frozenset(map(frozenset, (("i", "a1"), ("i", "a2"))))
+    found = without_each_fact(replace(TOY, apart=apart, geometry=geometry))
+    assert found[0].change == "if the distances of axes keep no wheels apart"
+    assert not found[0].problem.apart
+    assert found[0].problem.geometry.reach is None
+    assert "apart" not in found[1].change
 
 
 def test_a_fact_that_is_not_there_is_not_dropped() -> None:

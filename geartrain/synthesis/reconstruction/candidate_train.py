@@ -11,6 +11,8 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.numerics.decimal_text import fraction_text
+from geartrain.synthesis.reconstruction.fitted_modules import fit_modules, with_module
+from geartrain.synthesis.reconstruction.geometry_evidence import read_geometry_evidence
 from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, free_name, name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
 from geartrain.train import Train, declare
@@ -64,6 +66,7 @@ class TrainConstruction:
     meshes   ids of wheels, the driving one first
     added    ids of added wheels with their counts
     doubtful ids of surviving wheels that may have several counts, with the one that they have here
+    modules  ids of measured wheels whose module changes, with the new one (mm); None where it follows from others
     """
 
     evidence: Train
@@ -75,6 +78,7 @@ class TrainConstruction:
     meshes: list[tuple[str, str]] = field(default_factory=list)
     added: dict[str, int] = field(default_factory=dict)
     doubtful: dict[str, int] = field(default_factory=dict)
+    modules: Mapping[str, float | None] = field(default_factory=dict)
 
     @classmethod
     def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
@@ -86,6 +90,7 @@ class TrainConstruction:
 
     def _add(self, source: NamedArbor) -> None:
         """All arbors of a candidate."""
+        self.modules = fit_modules(source, read_geometry_evidence(self.evidence))
         self._put(source, self.evidence.case(None).inputs[source.name])
         speeds = {source.name: self.evidence.case(None).inputs[source.name]}
         for driving, wheel, arbor in source.meshes():
@@ -134,7 +139,17 @@ class TrainConstruction:
             if isinstance(declared, Mapping) and {"range", "choices", "search"} & set(declared):
                 self.doubtful[wheel.name] = wheel.teeth
             wheels[wheel.name] = wheels[wheel.name] | {"teeth": _with_count(wheels[wheel.name]["teeth"], wheel.teeth)}
+            if wheel.name in self.modules:
+                wheels[wheel.name] = self._with_module(wheel.name, wheels[wheel.name])
         self.links[link]["wheels"] = wheels
+
+    def _with_module(self, name: str, wheel: Mapping[str, Any]) -> dict[str, Any]:
+        asked = self.evidence.reconstruct
+        assert asked is not None
+        assert asked.geometry is not None
+        radii = asked.geometry.radii
+        said = f"pitch radius {radii[name]}" if name in radii else f"module {wheel['module']}"
+        return with_module(wheel, said, self.modules[name])
 
     def _gear(self, driving: str, driven: str) -> dict[str, Any]:
         for gear in self.given.get("gears", ()):

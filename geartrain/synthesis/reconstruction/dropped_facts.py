@@ -98,16 +98,21 @@ def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
 
 
 def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
+    left: dict[str, Any]
+    measured = frozenset(problem.geometry.unreachable((problem.input, *problem.arbors)))
     for name, what in (
         ("meshes", "that {} mesh"),
         ("apart", "that {} do not mesh"),
         ("coaxial", "that {} are coaxial"),
     ):
         pairs: frozenset[frozenset[str]] = getattr(problem, name)
-        for pair in sorted(pairs, key=sorted):
+        for pair in sorted(pairs if name == "coaxial" else pairs - measured, key=sorted):
             said = what.format(" and ".join(sorted(pair)))
-            left: dict[str, Any] = {name: pairs - {pair}}
+            left = {name: pairs - {pair}}
             yield f"without the fact {said}", replace(problem, **left)
+    if measured:
+        left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
+        yield "if the distances of axes keep no wheels apart", replace(problem, **left)
     yield from _senses(problem)
     for at, dial in enumerate(problem.dials):
         where = "is lost" if dial.place == NEW else f"is {dial.place}"

@@ -120,6 +120,11 @@ class MeasuredGeometry(Declared):
         description="By how much the sum of pitch radii may miss the distance of the axes at most; "
         "default anything, at its weight",
     )
+    radius: Distance | None = Field(
+        None,
+        description="Error of every measured pitch radius, beside the spread of modules, for small wheels are measured "
+        "worse; default none, so that the spread alone counts",
+    )
     radii: Mapping[Id, Distance] = Field(
         {}, description="Measured pitch radii of surviving wheels, where that and not the module was measured"
     )

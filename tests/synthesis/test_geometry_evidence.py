@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, permutations
 from pathlib import Path
 
 import pytest
@@ -18,6 +18,7 @@ from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_lik
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
+from geartrain.synthesis.reconstruction.wheel_layers import order_exists
 from geartrain.train.declaration_files import read_evidence
 
 P, V, W, X = PlacedWheel("p", 20), PlacedWheel("v", 30), PlacedWheel("w", 40), PlacedWheel("x", 60)
@@ -123,6 +124,29 @@ def test_modules_that_were_not_measured_are_the_best(seed: int) -> None:
     assert found == pytest.approx(math.exp(-misfit / 0.05**2 / 2), rel=1e-6)
 
 
+def test_small_wheels_are_measured_worse() -> None:
+    """Radii 10 and 15.75 with an error of 0.5: e = 0.04879 has the variance 0.05^2 + 0.05^2 + 0.031746^2."""
+    geometry = SurvivingGeometry(modules(p="1", v="1.05"), module=Fraction(1, 20), radius=Fraction(1, 2))
+    assert candidate_likelihood(pair(), geometry) == pytest.approx(
+        math.exp(-(0.04879016**2) / 0.00600781 / 2), rel=1e-5
+    )
+
+
+def test_a_wheel_that_is_measured_badly_takes_the_side_of_its_mates() -> None:
+    """The middle one of 1, 1.05, 1 is measured once and not twice: the least of x^2/v + 2 (d - x)^2/s^2."""
+    radius = Fraction(1, 2)
+    geometry = SurvivingGeometry(modules(p="1.05", v="1", x="1"), module=Fraction(1, 20), radius=radius)
+    found = candidate_likelihood(shared(P, leaf("b", V), leaf("c", X)), geometry)
+    d, errors = math.log(1.05), (0.5 / 10.5, 0.5 / 15, 0.5 / 30)
+
+    def misfit(x: float) -> float:
+        far = [(d - x) ** 2 / (0.05**2 + error**2) for error in errors[1:]]
+        return (x / errors[0]) ** 2 + sum(far)
+
+    least = min(misfit(step * 1e-6) for step in range(50_000))
+    assert found == pytest.approx(math.exp(-least / 2), rel=1e-6)
+
+
 # distances
 
 
@@ -187,6 +211,68 @@ def test_polygons_close_as_plain_trials_say(seed: int) -> None:
             for at in range(abs(before - side), before + side + 1)
         }
     assert can_close(distance, tuple((float(low), float(high)) for low, high in sides)) == (distance in reached)
+
+
+# layers
+
+
+@pytest.mark.parametrize(("branches", "stands"), [(1, True), (2, True), (3, False)])
+def test_no_wheel_goes_through_an_arbor(branches: int, stands: bool) -> None:
+    """An arbor drives others at 50 mm, near each other, by wheels of 10 mm; each drives on by one of 55 mm.
+
+    The wheels of 40 mm on those arbors hold each other's axes, the wheels of 55 mm that of the first arbor, so that
+    none of these lies between its layers. Of three layers one is the middle one, and the arbor that it drives runs out
+    past another: through its wheel of 40 mm. Of two layers each arbor runs out on its own side.
+    """
+    at = [(50, 0), (48, 14), (48, -14)][:branches]
+    beyond = [leaf(f"z{n}", PlacedWheel(f"z{n}1", 10)) for n in range(branches)]
+    near = [
+        Arbor(f"y{n}", PlacedWheel(f"y{n}1", 80), (), ((PlacedWheel(f"y{n}2", 110), (end,)),))
+        for n, end in enumerate(beyond)
+    ]
+    arbor = Arbor("x", None, (), tuple((PlacedWheel(f"x{n}", 20), (one,)) for n, one in enumerate(near)))
+    names = [f"{stem}{n}{end}" for n in range(branches) for stem, end in (("x", ""), ("y", 1), ("y", 2), ("z", 1))]
+    axes = places(
+        x=(0, 0), **{f"y{n}": of for n, of in enumerate(at)}, **{f"z{n}": (x + 60, y) for n, (x, y) in enumerate(at)}
+    )
+    geometry = SurvivingGeometry(modules(**dict.fromkeys(names, "1")), axes, reach=Fraction(1, 10))
+    assert candidate_likelihood(arbor, geometry) == stands
+    assert candidate_likelihood(arbor, SurvivingGeometry(geometry.wheels, axes)) == 1  # nothing is bounded
+
+
+def test_mates_of_one_wheel_do_not_overlap() -> None:
+    """A wheel of 20 drives two of 30 at 25 mm; pitch circles do not overlap if axes are 30 mm apart."""
+    arbor = shared(P, leaf("b", V), leaf("c", PlacedWheel("y", 30)))
+    sized = modules(p="1", v="1", y="1")
+
+    def weight(x: int, y: int) -> float:
+        return candidate_likelihood(
+            arbor, SurvivingGeometry(sized, places(a=(0, 0), b=(25, 0), c=(x, y)), reach=Fraction(1))
+        )
+
+    assert weight(0, 25) > 0  # 35 mm apart
+    assert weight(15, 20) == 0  # 22 mm apart
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_orders_of_layers_against_all_permutations(seed: int) -> None:
+    dice = random.Random(seed)
+    number = dice.randint(2, 6)
+    blocked = []
+    for layer in range(number):
+        rest = [other for other in range(number) if other != layer]
+        sets = [frozenset(dice.sample(rest, dice.randint(1, len(rest)))) for _ in range(dice.randint(0, 3))]
+        blocked.append(tuple(sets))
+
+    def stands(order: tuple[int, ...]) -> bool:
+        at = {layer: place for place, layer in enumerate(order)}
+        return not any(
+            min(at[other] for other in others) < at[layer] < max(at[other] for other in others)
+            for layer, sets in enumerate(blocked)
+            for others in sets
+        )
+
+    assert order_exists(blocked) == any(map(stands, permutations(range(number))))
 
 
 # from evidence
@@ -272,6 +358,26 @@ def test_modules_do_not_single_out_the_train_of_2006() -> None:
 
 PLACES = {"b": 0, "l": 24, "m": 61, "E": 119, "f": 182, "g": 204}
 """Along a line (mm), rounded, as the train of 2006 would have them with the measured modules."""
+
+
+@pytest.mark.parametrize(
+    ("spreads", "shares"),
+    [
+        ("module: 3 %, radius: 0.15 mm", [0.293, 0.006, 0.546, 0.155]),
+        ("module: 1/10000, radius: 0.3 mm", [0.159, 0.016, 0.018, 0.807]),
+    ],
+)
+def test_which_train_modules_prefer_hangs_on_how_their_errors_are_spread(spreads: str, shares: list[float]) -> None:
+    """If radii alone are off, the last of the four is the best; shares by a calculator, from the modules by hand."""
+    text = (Path(__file__).parents[2] / "evidence" / "back-train-modules.yaml").read_text(encoding="utf-8")
+    evidence = read_evidence(text.replace("module: 4.4 %", spreads))
+    problem = evidence_question(evidence).problem
+    weights = {}
+    for candidate in find_reconstructions(problem).candidates:
+        pairs = {pair[::-1] for pair in TrainConstruction.of(evidence, candidate.arbor).meshes}
+        at = next(at for at, meshes in enumerate(FOUR) if meshes <= pairs)
+        weights[at] = candidate_likelihood(candidate.arbor, problem.geometry)
+    assert [weights[at] / sum(weights.values()) for at in range(4)] == pytest.approx(shares, abs=0.01)
 
 
 def test_places_of_axes_would_single_it_out() -> None:

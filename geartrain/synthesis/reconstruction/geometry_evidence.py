@@ -32,6 +32,7 @@ def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
         asked.module.base,
         asked.distance.base,
         None if asked.reach is None else _millimetres(asked.reach),
+        None if asked.radius is None else _millimetres(asked.radius),
     )
 
 

@@ -2,7 +2,8 @@
 
 Every mesh of two measured wheels weighs exp(-(e/s)^2 / 2), e the logarithm of the quotient of their modules. A wheel
 that was not measured has the module that suits those around it best. So misfits add up like springs: from a wheel whose
-module is known a mesh pulls with stiffness 1, from one that is itself held by stiffness k it pulls with k/(1 + k).
+module is known a mesh pulls with stiffness 1, from one that is itself held by stiffness k it pulls with k/(1 + k). A
+measured radius with an error is such a spring, too: it holds its wheel with stiffness (s*radius/error)^2.
 A mesh of two axes with places weighs exp(-(f/s')^2 / 2), f the logarithm of the sum of pitch radii over their distance.
 Misfits of modules and of distances count as independent.
 """
@@ -12,11 +13,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import NamedTuple
 
 from geartrain.synthesis.reconstruction.arbor_chains import chains_close
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.synthesis.reconstruction.surviving_geometry import SurvivingGeometry
+from geartrain.synthesis.reconstruction.wheel_layers import layers_exist
 
 
 def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
@@ -27,7 +30,9 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
     if not (geometry.wheels or geometry.arbors):
         return 1.0
     meshes = tuple(_meshes(arbor))
-    if not all(geometry.may_mesh(*one.driving, *one.driven) for one in meshes) or not chains_close(arbor, geometry):
+    if not all(geometry.may_mesh(*one.driving, *one.driven) for one in meshes):
+        return 0.0
+    if not (chains_close(arbor, geometry) and layers_exist(arbor, geometry)):
         return 0.0
     modules = _Modules(geometry).misfit(arbor) / float(geometry.module) ** 2
     distances = sum(_distance_misfit(one, geometry) for one in meshes) / float(geometry.distance) ** 2
@@ -93,17 +98,23 @@ class _Modules:
     def _around(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
         """What a wheel is held by: its own measure, else the wheels that it drives."""
         pulls = [self._through_mesh(child) for child in children]
-        misfit = sum(pull.misfit for pull in pulls)
         module = self.geometry.module_of(_size(wheel))
-        stiffness = sum(pull.stiffness for pull in pulls)
-        if module is not None:
-            centre = math.log(module)
-        elif stiffness:
-            centre = sum(pull.stiffness * pull.centre for pull in pulls) / stiffness
+        stiffness = 0.0 if module is None else self._stiffness(module * wheel.teeth / 2)
+        if module is not None and stiffness < math.inf:
+            pulls.append(_Pull(stiffness, math.log(module), 0.0))
+        if stiffness < math.inf:
+            stiffness = sum(pull.stiffness for pull in pulls)
+            centre = sum(pull.stiffness * pull.centre for pull in pulls) / stiffness if stiffness else 0.0
         else:
-            return _Pull(0.0, 0.0, misfit)
-        misfit += sum(pull.stiffness * (centre - pull.centre) ** 2 for pull in pulls)
-        return _Pull(math.inf if module is not None else stiffness, centre, misfit)
+            assert module is not None
+            centre = math.log(module)
+        misfit = sum(pull.misfit + pull.stiffness * (centre - pull.centre) ** 2 for pull in pulls)
+        return _Pull(stiffness, centre, misfit)
+
+    def _stiffness(self, radius: Fraction) -> float:
+        """How a measured pitch radius holds its module, beside a mesh."""
+        error = self.geometry.radius
+        return math.inf if error is None else float(self.geometry.module * radius / error) ** 2
 
     def _through_mesh(self, child: Arbor) -> _Pull:
         """What a wheel is held by through its mesh with a wheel that it drives."""

@@ -52,6 +52,7 @@ class SurvivingGeometry:
     module     spread of the logarithm of the quotient of two modules in mesh
     distance   spread of the logarithm of the sum of pitch radii over the distance of axes
     reach      greatest difference of those two that is possible; None if any is
+    radius     error of every measured pitch radius; None if it is part of the spread of modules
     """
 
     wheels: tuple[MeasuredWheel, ...] = ()
@@ -59,6 +60,7 @@ class SurvivingGeometry:
     module: Fraction = Fraction(43, 1000)
     distance: Fraction = Fraction(3, 100)
     reach: Fraction | None = None
+    radius: Fraction | None = None
 
     @cached_property
     def places(self) -> Mapping[str | None, Place]:
@@ -96,16 +98,22 @@ class SurvivingGeometry:
 
     def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
         """How far apart axes may be whose wheels mesh; None where that is not bounded."""
-        whole = self.radii_sum(first, second)
-        if whole is None or self.reach is None:
+        own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
+        if own is None or mate is None or self.reach is None:
             return None
-        guessed = Fraction(0)
-        for own, mate in ((first, second), (second, first)):
-            if self.module_of(own) is None:
-                module = self.module_of(mate)
-                assert module is not None
-                guessed += UNMEASURED_SPREADS * self.module * module * own[1] / 2
-        return max(Fraction(0), whole - guessed - self.reach), whole + guessed + self.reach
+        least, greatest = ((one * first[1] + other * second[1]) / 2 for one, other in zip(own, mate, strict=True))
+        return max(Fraction(0), least - self.reach), greatest + self.reach
+
+    def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
+        """What the module of a wheel may be beside a mate; None where neither was measured."""
+        module = self.module_of(size)
+        if module is not None:
+            return module, module
+        module = self.module_of(mate)
+        if module is None:
+            return None
+        spread = min(Fraction(1), UNMEASURED_SPREADS * self.module)
+        return module * (1 - spread), module * (1 + spread)
 
     def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
         """Whether the distance of two axes allows that their wheels mesh, as far as both are known."""

@@ -12,6 +12,7 @@ from geartrain.numerics.plain_data import Result
 from geartrain.numerics.work import Execution
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
@@ -99,7 +100,7 @@ def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
 
 def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
     left: dict[str, Any]
-    measured = frozenset(problem.geometry.unreachable((problem.input, *problem.arbors)))
+    measured = frozenset(find_unreachable((problem.input, *problem.arbors), problem.geometry))
     for name, what in (
         ("meshes", "that {} mesh"),
         ("apart", "that {} do not mesh"),

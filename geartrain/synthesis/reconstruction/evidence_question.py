@@ -24,6 +24,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SurvivingWheel,
 )
 from geartrain.synthesis.reconstruction.surviving_geometry import SurvivingGeometry
+from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
 from geartrain.train import Teeth, Train, Wheel
 from geartrain.train.reconstruction import NEW_ARBOR, AddedParts, Reconstruction
 
@@ -75,7 +76,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
     arbors = tuple(_arbor(evidence, link) for link in evidence.links if link not in (source, evidence.frame))
     geometry = read_geometry_evidence(evidence)
-    unreachable = frozenset(geometry.unreachable((_arbor(evidence, source), *arbors)))
+    unreachable = frozenset(find_unreachable((_arbor(evidence, source), *arbors), geometry))
     refuse_unreachable(evidence, unreachable)
     problem = ReconstructionProblem(
         input=_arbor(evidence, source),

@@ -1,19 +1,14 @@
-"""Modules, pitch radii and places of axes that were measured on what survives, and which wheels they keep apart.
+"""Modules, pitch radii and places of axes that were measured on what survives.
 
 Lengths are millimetres, exact. Axes are parallel, so a place is where an axis crosses the plan.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from geartrain.synthesis.reconstruction.reconstruction_problem import SurvivingArbor
 
 Place = tuple[Fraction, Fraction]
 Bounds = tuple[Fraction, Fraction]
@@ -123,17 +118,6 @@ class SurvivingGeometry:
         if not square:
             return False  # on one axis
         return bounds is None or bounds[0] ** 2 <= square <= bounds[1] ** 2
-
-    def unreachable(self, arbors: tuple[SurvivingArbor, ...]) -> Iterator[frozenset[str]]:
-        """Pairs of surviving wheels that cannot mesh, whichever of their counts they have."""
-        wheels = [(arbor.name, wheel) for arbor in arbors if arbor.name in self.places for wheel in arbor.wheels]
-        for at, (arbor, wheel) in enumerate(wheels):
-            for other_arbor, other in wheels[:at]:
-                counts = product((count for count, _ in wheel.counts), (count for count, _ in other.counts))
-                if arbor != other_arbor and not any(
-                    self.may_mesh(arbor, (wheel.name, own), other_arbor, (other.name, mate)) for own, mate in counts
-                ):
-                    yield frozenset((wheel.name, other.name))
 
 
 NO_GEOMETRY = SurvivingGeometry()

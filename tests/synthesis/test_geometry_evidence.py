@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import random
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, permutations
 from pathlib import Path
 
 import pytest
+from concrete_trees import random_problem
 
 from geartrain import GearTrainError
+from geartrain.errors import QuestionError
 from geartrain.synthesis.reconstruction.arbor_chains import can_close
 from geartrain.synthesis.reconstruction.candidate_train import TrainConstruction
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
@@ -18,6 +21,7 @@ from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_lik
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
+from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
 from geartrain.synthesis.reconstruction.wheel_layers import order_exists
 from geartrain.train.declaration_files import read_evidence
 
@@ -273,6 +277,37 @@ def test_orders_of_layers_against_all_permutations(seed: int) -> None:
         )
 
     assert order_exists(blocked) == any(map(stands, permutations(range(number))))
+
+
+# pruning
+
+
+def test_pairs_kept_apart_lose_no_possible_candidate() -> None:
+    """Random questions with random places: what is possible is the same with the pairs and without."""
+    refused = possible = 0
+    for seed in range(70):
+        dice = random.Random(seed)
+        problem = random_problem(seed, idlers=True)
+        arbors = (problem.input, *problem.arbors)
+        placed = [arbor for arbor in arbors if dice.random() < 0.8]
+        sized = [wheel for arbor in arbors for wheel in arbor.wheels if dice.random() < 0.8]
+        geometry = SurvivingGeometry(
+            modules(**{wheel.name: dice.choice(("0.9", "1", "1.1")) for wheel in sized}),
+            places(**{arbor.name: (dice.randint(0, 30), dice.randint(0, 30)) for arbor in placed}),
+            reach=Fraction(dice.randint(2, 10)),
+        )
+        apart = problem.apart | frozenset(find_unreachable(arbors, geometry))
+        try:
+            every = find_reconstructions(problem).candidates
+            fewer = find_reconstructions(replace(problem, apart=apart)).candidates
+        except QuestionError:
+            continue
+        able = [one.arbor for one in every if candidate_likelihood(one.arbor, geometry)]
+        assert {*able} == {one.arbor for one in fewer if candidate_likelihood(one.arbor, geometry)}, seed
+        refused += len(every) - len(able)
+        possible += len(able)
+    assert refused > 40
+    assert possible > 40
 
 
 # from evidence

@@ -12,8 +12,8 @@ from geartrain.numerics.plain_data import Result
 from geartrain.numerics.work import Execution
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
-from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
 """What finds all explanations of a question."""

@@ -272,7 +272,8 @@ class SkeletonSearch:
         (way, dials), others = blocks[0], blocks[1:]
         rest = [{dial: lists[dial] for dial in block} for _, block in others]
         after_it = self.paths.later(rest, later)
-        kept = sum(max(0, self.paths.least(some, above)) for some in rest)
+        paid = int(place.driven == ADDED)  # what is above does not count it, and it is added once
+        kept = sum(max(0, self.paths.least(some, above) - paid) for some in rest)
         cost = int(way == _BESIDE)
         if cost + kept > left.wheels:
             return

@@ -6,7 +6,7 @@ its quotient; else the smallest group is tried with each quotient that it may ha
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
@@ -38,7 +38,7 @@ class AddedCounts:
 
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
         """How many there are; wheels are told apart."""
-        return self._count(added.groups, wanted) * self._choices**added.idle
+        return int(self._count(added.groups, wanted) * self._choices**added.idle)
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
         """The assignments themselves, and the counts of wheels that change no speed."""

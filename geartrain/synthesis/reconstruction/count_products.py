@@ -36,17 +36,16 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """How many choices of counts have prod(drivers) / prod(driven) = quotient, a positive one; wheels are told apart."""
+    """How many choices of counts have prod(drivers) / prod(driven) = quotient; wheels are told apart."""
     least, greatest = counts
     num, den = quotient.numerator, quotient.denominator
     last = min(greatest**drivers // num, greatest**driven // den)
     first = max(-(-(least**drivers) // num), -(-(least**driven) // den))
     if last < first:
         return 0
-    if not drivers or not driven or drivers == driven == 1:
-        if drivers <= 1 and driven <= 1:
-            # 1 is the product of no wheels
-            return (last - first + 1) if drivers and driven else int(first <= 1 <= last)
+    if drivers <= 1 and driven <= 1:
+        # 1 is the only product of no wheels
+        return last - first + 1 if drivers and driven else int(first <= 1 <= last)
     if greatest ** max(drivers, driven) <= _LONGEST:
         above = product_tally(drivers, counts)[first * num : last * num + 1 : num]
         below = product_tally(driven, counts)[first * den : last * den + 1 : den]
@@ -78,7 +77,7 @@ def list_choices(
 
 @dataclass(frozen=True)
 class QuotientTable:
-    """All quotients of products of counts, rising: numerators and denominators in lowest terms, and numbers of choices."""
+    """All quotients of products of counts, rising: in lowest terms, with the number of choices of each."""
 
     tops: NDArray[np.int64]
     bottoms: NDArray[np.int64]

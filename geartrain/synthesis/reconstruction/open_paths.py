@@ -44,12 +44,14 @@ class Above(NamedTuple):
     arbors               surviving ones, a bit each
     beside               added wheels beside surviving ones
     compounds, idlers    added arbors
+    first                whether nothing hangs from the input yet
     """
 
     arbors: int = 0
     beside: int = 0
     compounds: int = 0
     idlers: int = 0
+    first: bool = False
 
     @property
     def wheels(self) -> int:

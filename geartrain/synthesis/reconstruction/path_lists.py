@@ -16,11 +16,15 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass, arbor_passes
+from geartrain.synthesis.reconstruction.path_growth import PathGrowth
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
 
 Rows = NDArray[np.int64]
+_MOST_PATHS = 30_000_000
+"""Paths that are held at once: a few gigabytes."""
 
 
 @dataclass(frozen=True)
@@ -100,9 +104,9 @@ class PathList:
 
     # growth, arbor by arbor
 
-    def _grown(self) -> _Growth:
+    def _grown(self) -> PathGrowth:
         limits, problem = self.problem.additions, self.problem
-        growth = _Growth.start(len(self.passes), self._wanted_key, self._wanted_powers)
+        growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
         order = sorted(range(len(self.passes)), key=lambda at: -len(self.passes[at]))
         debts = len(problem.dials) - 1 if problem.use == "wheels" else None
         for number, at in enumerate(order):
@@ -114,11 +118,16 @@ class PathList:
             growth = growth.kept(growth.ended)
         return growth
 
-    def _with_arbor(self, growth: _Growth, at: int) -> _Growth:
+    def _with_arbor(self, growth: PathGrowth, at: int) -> PathGrowth:
+        number = len(growth.codes) * (len(self.passes[at]) + bool(at))
+        if number > _MOST_PATHS:
+            what = f"{number} paths to '{self.dial.name}' would have to be looked at, and {_MOST_PATHS} can be"
+            fix = "ask with fewer added wheels (-k), narrow counts that are in doubt, or leave out arbors"
+            raise QuestionError(Problem(what, "each count in doubt multiplies them", fix))
         parts = [growth] if at else []
         for code, each in enumerate(self.passes[at], 1):
             parts.append(growth.through(at, code, each, *self._step(each)))
-        return _Growth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
+        return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:
         """By how much a pass changes the key, and the powers of large primes, of what is left to be added."""
@@ -170,7 +179,7 @@ class PathList:
 
     # which added arbors may be on a path
 
-    def _possible(self, growth: _Growth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
+    def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
         """By path and plan, whether the plan may be the added arbors on the path."""
         new = ~growth.ended
         meshes = (growth.codes[:, 1:] > 0).sum(axis=1) + new
@@ -195,7 +204,7 @@ class PathList:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
 
-    def _may_be_quotient(self, growth: _Growth, compounds: int, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def _may_be_quotient(self, growth: PathGrowth, compounds: int, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
         found = asked.copy()
         kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
         for kind in np.unique(kinds[asked]):
@@ -241,66 +250,3 @@ def _sure(wheel: object) -> int:
     """The count of a surviving wheel on a path; 1 for an added one, and for none."""
     teeth = getattr(wheel, "teeth", 1)
     return teeth if wheel is not None and wheel != ADDED else 1
-
-
-@dataclass(frozen=True)
-class _Growth:
-    """Paths through some of the arbors, a row each.
-
-    keys, powers   of what is left to be added: its key, and the powers of large primes in it
-    """
-
-    codes: NDArray[np.uint16]
-    keys: NDArray[np.uint64]
-    powers: NDArray[np.int8]
-    drivers: NDArray[np.int8]
-    driven: NDArray[np.int8]
-    added: NDArray[np.int8]
-    idle: NDArray[np.int8]
-    ended: NDArray[np.bool_]
-
-    @staticmethod
-    def start(arbors: int, key: int, powers: NDArray[np.int8]) -> _Growth:
-        none = np.zeros(1, dtype=np.int8)
-        return _Growth(
-            np.zeros((1, arbors), dtype=np.uint16),
-            np.array([key], dtype=np.uint64),
-            powers[None, :],
-            *(none,) * 4,
-            np.zeros(1, dtype=bool),
-        )
-
-    def _columns(self) -> tuple[NDArray, ...]:
-        return self.codes, self.keys, self.powers, self.drivers, self.driven, self.added, self.idle, self.ended
-
-    @staticmethod
-    def joined(parts: list[_Growth]) -> _Growth:
-        return _Growth(*map(np.concatenate, zip(*(part._columns() for part in parts), strict=True)))
-
-    def kept(self, rows: NDArray[np.bool_]) -> _Growth:
-        return _Growth(*(column[rows] for column in self._columns()))
-
-    def through(self, at: int, code: int, each: ArborPass, key: np.uint64, powers: NDArray[np.int8]) -> _Growth:
-        """The same paths, through one arbor more; one that has ended is not ended again."""
-        found = self.kept(~self.ended) if each.driver is None else self
-        codes = found.codes.copy()
-        codes[:, at] = code
-        return _Growth(
-            codes,
-            found.keys + key,
-            found.powers + powers,
-            found.drivers + np.int8(each.added_drivers),
-            found.driven + np.int8(each.added_driven),
-            found.added + np.int8(each.added),
-            found.idle + np.int8(each.idle),
-            found.ended | (each.driver is None),
-        )
-
-    def may_stand(
-        self, closed: list[int], lost: NDArray[np.bool_], wheels: int, debts: int | None
-    ) -> NDArray[np.bool_]:
-        """Which may become a path: no more is added, and no more wheels are passed by, than may be."""
-        held = self.powers[:, closed]
-        need = np.abs(held).sum(axis=1)
-        found = (need <= wheels) & (self.added <= wheels) & ~(held[:, lost[closed]] != 0).any(axis=1)
-        return found if debts is None else found & (self.idle <= debts)

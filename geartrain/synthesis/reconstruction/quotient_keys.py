@@ -20,6 +20,8 @@ _LONGEST = 3_000_000
 """Quotients in a table; where there would be more, every number is taken for one."""
 
 
+_SCARCE = 20_000
+"""Keys for which a table of quotients of three wheels is not worth being made."""
 _FEW = 2
 """Added wheels whose quotients are all listed."""
 
@@ -52,8 +54,18 @@ class QuotientKeys:
 
     def may_be_quotients(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
         """Which keys are those of quotients of so many drivers over so many driven wheels; never wrongly False."""
+        if drivers + driven == 3 and (drivers, driven) not in self._tables and len(keys) < _SCARCE:
+            return self._one_by_one(keys, drivers, driven)
         table = self._table(drivers, driven)
         return np.ones(keys.shape, dtype=bool) if table is None else _are_in(table, keys)
+
+    def _one_by_one(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
+        """The same, by trying each count of one wheel: quicker for few keys than a long table."""
+        fewer = self._table(drivers - (drivers > driven), driven - (driven >= drivers))
+        if fewer is None:
+            return np.ones(keys.shape, dtype=bool)
+        counts = self._counts if drivers > driven else -self._counts
+        return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 
     def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
         """Which keys are those of quotients that so many added wheels or fewer make; never wrongly False."""

@@ -18,16 +18,16 @@ class ExplanationCount(Result):
         Added wheels.
     mechanisms : int
         Trains, all different.
-    bags : int
-        Trains that differ by more than the order of arbors on the path of a dial.
-    classes : int
-        Trains that differ by more than which wheel drives which on the path of a dial.
+    bags : int or None
+        Trains that differ by more than the order of arbors on the path of a dial; None where they are too many.
+    classes : int or None
+        Trains that differ by more than which wheel drives which on the path of a dial; None likewise.
     """
 
     added: int
     mechanisms: int
-    bags: int
-    classes: int
+    bags: int | None
+    classes: int | None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,53 +1,163 @@
-"""From a question to its counts and candidates: every explanation is listed, weighed and put in order."""
+"""From a question to its counts and candidates: explanations are counted by skeletons, weighed, and the best listed."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from itertools import groupby, islice
+from typing import Literal
 
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.work import Execution
 from geartrain.synthesis.reconstruction.added_counts import AddedCounts
-from geartrain.synthesis.reconstruction.arrangements import MeshFacts, arranged, count_orders
+from geartrain.synthesis.reconstruction.arrangements import MeshFacts, arranged
+from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_likelihood
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
 from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
-from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
+from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton, count_skeletons
+
+_LISTED = 20_000
+"""Candidates that are made at most; of more of one weight, the first that are found."""
+_TOLD_APART = 300_000
+"""Choices of counts up to which bags and classes are counted."""
 
 
-def find_reconstructions(problem: ReconstructionProblem) -> Reconstructions:
-    """All explanations with at most as many added wheels as may be added."""
-    counts: list[ExplanationCount] = []
-    found: list[tuple[Fraction, int, Arbor]] = []
-    search, facts = SkeletonSearch(problem), MeshFacts.of(problem)
-    choices = AddedCounts(problem.additions.least, problem.additions.greatest)
-    for added in range(problem.additions.wheels + 1):
-        arbors = []
-        for skeleton in search.skeletons(added):
-            if not count_orders(skeleton, facts):
-                continue
-            for assigned, idle in choices.assignments(skeleton.added, skeleton.wanted):
-                arbors += arranged(skeleton, assigned, idle, facts)
-        kinds = len({bag(arbor) for arbor in arbors}), len({ratio_class(arbor) for arbor in arbors})
-        counts.append(ExplanationCount(added, len(arbors), *kinds))
-        found += [(prior(arbor, problem), added, arbor) for arbor in arbors]
-    whole = sum(weight for weight, _, _ in found)
-    found.sort(key=lambda one: (-one[0], one[1], sum(_added_teeth(one[2])), repr(one[2])))
-    return Reconstructions(
-        tuple(counts), True, tuple(Candidate(arbor, added, float(weight / whole)) for weight, added, arbor in found)
-    )
+def find_reconstructions(
+    problem: ReconstructionProblem,
+    execution: Execution | None = None,
+    listed: int = 1000,
+    per: Literal["mechanism", "class"] = "mechanism",
+) -> Reconstructions:
+    """Count all explanations with at most as many added wheels as may be added, and list the best.
+
+    Parameters
+    ----------
+    problem : ReconstructionProblem
+    execution : Execution, optional
+        How the parts of the search are done; default one after the other in this process.
+    listed : int
+        How many candidates are listed at least, where there are so many.
+    per : {"mechanism", "class"}
+        What has a weight of its own: every train, or every ratio class, whose trains then share it.
+
+    Raises
+    ------
+    QuestionError
+        If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
+    """
+    found: dict[int, list[CountedSkeleton]] = {added: [] for added in range(problem.additions.wheels + 1)}
+    whole: set[int] = set()
+    try:
+        for added, last, skeletons in count_skeletons(problem, execution):
+            found[added] += skeletons
+            if last:
+                whole.add(added)
+    except KeyboardInterrupt:
+        found = {added: skeletons for added, skeletons in found.items() if added in whole}
+    complete = len(whole) == problem.additions.wheels + 1
+    geometry = problem.geometry
+    if per == "class" or geometry.wheels or geometry.arbors:
+        return _all_weighed(problem, found, complete, per)
+    counts = tuple(_count(added, skeletons, problem) for added, skeletons in found.items())
+    return Reconstructions(counts, complete, tuple(_best(problem, found, listed)))
+
+
+def _count(added: int, skeletons: Sequence[CountedSkeleton], problem: ReconstructionProblem) -> ExplanationCount:
+    mechanisms = sum(each.mechanisms for each in skeletons)
+    if sum(each.choices for each in skeletons) > _TOLD_APART:
+        return ExplanationCount(added, mechanisms, None, None)
+    # the order of arbors changes neither
+    some = [arbor for each in skeletons for arbor in _trains(each, problem, one_order=True)]
+    return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
+
+
+def _trains(each: CountedSkeleton, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
+    """All trains of a skeleton; or with each choice of counts one, its arbors in any order."""
+    limits = problem.additions
+    facts = MeshFacts(frozenset(), frozenset(), frozenset()) if one_order else MeshFacts.of(problem)
+    skeleton = each.skeleton
+    for counts, idle in AddedCounts(limits.least, limits.greatest).assignments(skeleton.added, skeleton.wanted):
+        yield from islice(arranged(skeleton, counts, idle, facts), 1 if one_order else None)
+
+
+# weights
+
+
+def skeleton_prior(each: CountedSkeleton, problem: ReconstructionProblem) -> Fraction:
+    """Weight of each of a skeleton's trains before its dials are looked at, up to a factor that all share."""
+    skeleton = each.skeleton
+    return _prior(problem, skeleton.used, skeleton.added.number, skeleton.added_arbors)
 
 
 def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
     """Weight of a candidate before its dials are looked at, up to a factor that all candidates share."""
+    wheels = list(_wheels(arbor))
+    used = [wheel for wheel in wheels if wheel.name is not None]
+    return _prior(problem, used, len(wheels) - len(used), sum(one.name is None for one in _arbors(arbor)))
+
+
+def _prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel], wheels: int, arbors: int) -> Fraction:
     factors, limits = problem.factors, problem.additions
     counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
-    wheels = list(_wheels(arbor))
-    used = {wheel.name: wheel.teeth for wheel in wheels if wheel.name is not None}
-    weight = Fraction(1)
-    for name, teeth in used.items():
-        weight *= counts[name][teeth]
-    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** sum(wheel.name is None for wheel in wheels)
-    weight /= factors.arbor ** sum(each.name is None for each in _arbors(arbor))
-    return weight / factors.unused ** (len(counts) - len(used))
+    weight, unused = Fraction(1), len(counts)
+    for wheel in used:
+        weight *= counts[wheel.name or ""][wheel.teeth]
+        unused -= 1
+    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** wheels
+    return weight / factors.arbor**arbors / factors.unused**unused
+
+
+# the best
+
+
+def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]], listed: int) -> Iterator[Candidate]:
+    """The heaviest candidates, those of one weight by added wheels and their teeth."""
+    weighed = [(skeleton_prior(each, problem), added, each) for added, some in found.items() for each in some]
+    whole = sum(weight * each.mechanisms for weight, _, each in weighed)
+    weighed.sort(key=lambda one: (-one[0], one[1]))
+    made = 0
+    for (weight, added), equal in groupby(weighed, key=lambda one: one[:2]):
+        if made >= listed:
+            return
+        arbors = list(islice((arbor for _, _, each in equal for arbor in _trains(each, problem)), _LISTED - made))
+        made += len(arbors)
+        arbors.sort(key=_order)
+        yield from (Candidate(arbor, added, float(weight / whole)) for arbor in arbors)
+
+
+def _order(arbor: Arbor) -> tuple[int, str]:
+    return sum(wheel.teeth for wheel in _wheels(arbor) if wheel.name is None), repr(arbor)
+
+
+def _all_weighed(
+    problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]], complete: bool, per: str
+) -> Reconstructions:
+    """Every candidate, weighed by itself: by its misfits, or as a part of its class; impossible ones are dropped."""
+    number = sum(each.mechanisms for some in found.values() for each in some)
+    if number > _LISTED:
+        what = f"{number} trains would have to be weighed one by one, and {_LISTED} can be"
+        fix = "ask with fewer added wheels (-k), or with `--per mechanism` and without measured sizes"
+        raise QuestionError(Problem(what, "weights by class, and of measured sizes, are of whole trains", fix))
+    counts, weighed = [], []
+    for added, skeletons in found.items():
+        own = []
+        for arbor in (arbor for each in skeletons for arbor in _trains(each, problem)):
+            likelihood = candidate_likelihood(arbor, problem.geometry)
+            if likelihood:
+                own.append((float(prior(arbor, problem)) * likelihood, added, arbor))
+        arbors = [arbor for _, _, arbor in own]
+        counts.append(ExplanationCount(added, len(own), len({*map(bag, arbors)}), len({*map(ratio_class, arbors)})))
+        weighed += own
+    if per == "class":
+        classes: dict[object, int] = {}
+        for _, _, arbor in weighed:
+            classes[ratio_class(arbor)] = classes.get(ratio_class(arbor), 0) + 1
+        weighed = [(weight / classes[ratio_class(arbor)], added, arbor) for weight, added, arbor in weighed]
+    weighed.sort(key=lambda one: (-one[0], one[1], _order(one[2])))
+    whole = sum(weight for weight, _, _ in weighed)
+    candidates = tuple(Candidate(arbor, added, weight / whole) for weight, added, arbor in weighed)
+    return Reconstructions(tuple(counts), complete, candidates)
 
 
 def _arbors(arbor: Arbor) -> Iterator[Arbor]:
@@ -68,16 +178,3 @@ def _wheels(arbor: Arbor) -> Iterator[PlacedWheel]:
         if each.driven is not None:
             yield each.driven
         yield from (wheel for wheel, _ in each.drives if wheel.name is None or wheel != each.driven)
-
-
-def _added_teeth(arbor: Arbor) -> list[int]:
-    return [wheel.teeth for wheel in _wheels(arbor) if wheel.name is None]
-
-
-def _meshes(arbor: Arbor) -> Iterator[tuple[str | None, str | None]]:
-    for each in _arbors(arbor):
-        for wheel, children in (*each.drives, (each.driven, each.passes)):
-            for child in children:
-                assert wheel is not None
-                assert child.driven is not None
-                yield wheel.name, child.driven.name

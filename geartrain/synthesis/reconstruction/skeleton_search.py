@@ -8,25 +8,35 @@ branchings the arbors are a set; the search takes each such choice once.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
-from itertools import chain, combinations, product
+from itertools import chain
 from operator import and_
-from typing import NamedTuple
+from typing import TypeVar
 
 import numpy as np
 
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
+from geartrain.synthesis.reconstruction.dial_shares import (
+    BESIDE,
+    HERE,
+    IDLER,
+    Block,
+    JointPlace,
+    codes_by_way,
+    partitions,
+    shared_out,
+)
 from geartrain.synthesis.reconstruction.open_paths import Above, Left, Lists, OpenPaths, bit_of
 from geartrain.synthesis.reconstruction.path_lists import Rows
 from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWheel, ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
+_Choice = TypeVar("_Choice")
 _ENDLESS = 1 << 20
-_HERE = "="
-_IDLER = "~"
-_BESIDE = "+"
-"""Ways on from an arbor, beside the names of its surviving wheels: its own dial, its driven wheel, an added one."""
+
+
+_Drive = tuple[PlacedWheel | None, tuple[Limb, ...]]
 
 
 class SkeletonSearch:
@@ -37,15 +47,18 @@ class SkeletonSearch:
         self.every = (problem.input, *problem.arbors)
         self.paths = OpenPaths(problem)
 
-    def skeletons(self, added: int) -> Iterator[Skeleton]:
-        """All skeletons with just so many added wheels."""
+    def skeletons(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Skeleton]:
+        """All skeletons with just so many added wheels; of several parts one, by what the first limb begins with."""
+        self._part, self._parts = part, parts
         dials = tuple(sorted(self.paths.lists))
         new = self.problem.additions.arbors
         left = Left((1 << len(self.problem.arbors)) - 1, added, _ENDLESS if new is None else new)
         lists = self.paths.viable(dials, self.paths.whole(), Above(), left)
         if lists is None:
             return
-        for root, after in self._survivor_joint(0, dials, lists, Above(), left, None):
+        for root, after in self._survivor_joint(0, dials, lists, Above(first=True), left, None):
+            if part and not root.drives:
+                continue
             if not after.wheels and not (self.paths.must_cover and after.arbors):
                 wanted = tuple((name, self.paths[name].wanted_quotients(row)) for name, row in sorted(after.shown))
                 yield Skeleton(root, wanted)
@@ -56,7 +69,7 @@ class SkeletonSearch:
         self, dials: Dials, lists: Lists, above: Above, left: Left, later: int | None, least: int = 1
     ) -> Iterator[tuple[tuple[Limb, ...], Left]]:
         """Limbs that share out some dials."""
-        for blocks in _partitions(dials):
+        for blocks in partitions(dials):
             if len(blocks) >= least:
                 known = [self.paths.viable(block, lists, above, left) for block in blocks]
                 found = [lists for lists in known if lists is not None]
@@ -76,7 +89,8 @@ class SkeletonSearch:
             return
         after_it = self.paths.later(blocks[1:], later)
         for limb, after in self._limb(blocks[0], above, left._replace(wheels=left.wheels - kept), after_it):
-            for others, end in self._limbs(blocks[1:], above, after._replace(wheels=after.wheels + kept), later):
+            rest = after._replace(wheels=after.wheels + kept)
+            for others, end in self._limbs(blocks[1:], above._replace(first=False), rest, later):
                 yield (limb, *others), end
 
     def _later(self, blocks: Sequence[Lists], later: int | None) -> int | None:
@@ -93,14 +107,22 @@ class SkeletonSearch:
         if kept is None or not self.paths.covers(kept, left, later):
             return
         if len(dials) == 1:
-            yield from self._leg(dials[0], kept[dials[0]], above, left, later)
+            rows = self._own(above, kept[dials[0]])
+            yield from self._leg(dials[0], np.array(list(rows), dtype=np.int64), above, left, later)
             return
-        for through, some, there, after in self._stretches(1, dials, kept, above, left, later):
+        stretches = self._stretches(1, dials, kept, above._replace(first=False), left, later)
+        for through, some, there, after in self._own(above, stretches):
             for compounds in range(after.wheels // 2 + 1):
                 for idlers in range(after.wheels - 2 * compounds + 1 if self.problem.idlers else 1):
                     if compounds + idlers <= after.new:
                         limb = Limb(dials, through, compounds, idlers, ())
                         yield from self._ends(limb, some, there, after, later)
+
+    def _own(self, above: Above, choices: Iterable[_Choice]) -> Iterator[_Choice]:
+        """Of what the first limb may begin with, what belongs to this part; elsewhere all."""
+        for number, choice in enumerate(choices):
+            if not above.first or number % self._parts == self._part:
+                yield choice
 
     def _ends(
         self, limb: Limb, lists: Lists, above: Above, left: Left, later: int | None
@@ -174,8 +196,9 @@ class SkeletonSearch:
                 after = left._replace(arbors=left.arbors & ~bit, wheels=left.wheels - each.added)
                 kept = self.paths.viable(dials, self._through(at, code, dials, lists), there, after)
                 if kept is not None and self.paths.covers(kept, after, later):
-                    for through, *rest in self._stretches(at + 1, dials, kept, there, after, later):
-                        yield ((self.every[at].name, each), *through), *rest
+                    own = (self.every[at].name, each)
+                    for through, some, below, end in self._stretches(at + 1, dials, kept, there, after, later):
+                        yield (own, *through), some, below, end
 
     def _codes(self, at: int, dial: str, lists: Lists) -> list[int]:
         """The ways through an arbor that the list of a dial still knows."""
@@ -198,9 +221,9 @@ class SkeletonSearch:
         for driven in dict.fromkeys(passes[dials[0]][code - 1].driven for code in codes[dials[0]]):
             after = left._replace(wheels=left.wheels - (driven == ADDED))
             own = {dial: [code for code in codes[dial] if passes[dial][code - 1].driven == driven] for dial in dials}
-            place = _Place(at, arbor.name, driven, {dial: _by_way(passes[dial], own[dial]) for dial in dials})
+            place = JointPlace(at, arbor.name, driven, {dial: codes_by_way(passes[dial], own[dial]) for dial in dials})
             must = [wheel.name for wheel in arbor.wheels if driven is None or wheel.name != driven.name]
-            for here, blocks in _shared_out(dials, place.ways, must if self.problem.use == "wheels" else ()):
+            for here, blocks in shared_out(dials, place.ways, must if self.problem.use == "wheels" else ()):
                 if after.wheels >= 0 and (not at or here or len(blocks) > 1):
                     yield from self._joint(place, here, blocks, lists, above, after, later)
 
@@ -215,21 +238,21 @@ class SkeletonSearch:
         for dial in dials:
             paths, rows = self.paths[dial], lists[dial]
             known = {
-                _HERE: paths.ends_new[rows].any(),
-                _BESIDE: (paths.compounds[rows] > above.compounds).any(),
-                _IDLER: (paths.idlers[rows] > above.idlers).any(),
+                HERE: paths.ends_new[rows].any(),
+                BESIDE: (paths.compounds[rows] > above.compounds).any(),
+                IDLER: (paths.idlers[rows] > above.idlers).any(),
             }
             ways[dial] = {way: [] for way, is_known in known.items() if is_known}
-        place = _Place(-1, None, ADDED, ways)
-        for here, blocks in _shared_out(dials, ways, ()):
+        place = JointPlace(-1, None, ADDED, ways)
+        for here, blocks in shared_out(dials, ways, ()):
             if here or len(blocks) > 1:
                 yield from self._joint(place, here, blocks, lists, above, after, later)
 
     def _joint(
         self,
-        place: _Place,
+        place: JointPlace,
         here: Dials,
-        blocks: Sequence[_Block],
+        blocks: Sequence[Block],
         lists: Lists,
         above: Above,
         left: Left,
@@ -245,21 +268,21 @@ class SkeletonSearch:
             passes = tuple(limb for wheel, limbs in drives if wheel is None for limb in limbs)
             yield Joint(place.name, place.driven, here, driving, passes), end
 
-    def _shown(self, place: _Place, dial: str, rows: Rows, above: Above) -> tuple[str, int] | None:
+    def _shown(self, place: JointPlace, dial: str, rows: Rows, above: Above) -> tuple[str, int] | None:
         """The row that ends just here, if one does."""
         paths = self.paths[dial]
         if place.at < 0:
             rows = rows[paths.ends_new[rows]]
         else:
-            rows = rows[paths.codes[rows, place.at] == place.ways[dial][_HERE][0]]
+            rows = rows[paths.codes[rows, place.at] == place.ways[dial][HERE][0]]
         fits = (paths.arbors[rows] == above.arbors) & (paths.compounds[rows] == above.compounds)
         found = rows[fits & (paths.idlers[rows] == above.idlers)]
         return (dial, int(found[0])) if len(found) else None
 
     def _drives(
         self,
-        place: _Place,
-        blocks: Sequence[_Block],
+        place: JointPlace,
+        blocks: Sequence[Block],
         lists: Lists,
         above: Above,
         left: Left,
@@ -274,22 +297,22 @@ class SkeletonSearch:
         after_it = self.paths.later(rest, later)
         paid = int(place.driven == ADDED)  # what is above does not count it, and it is added once
         kept = sum(max(0, self.paths.least(some, above) - paid) for some in rest)
-        cost = int(way == _BESIDE)
+        cost = int(way == BESIDE)
         if cost + kept > left.wheels:
             return
         own = left._replace(wheels=left.wheels - cost - kept)
         for driver, some, there in self._by_way(place, way, dials, lists, above):
             for limbs, after in self._forest(dials, some, there, own, after_it):
                 after = after._replace(wheels=after.wheels + kept)
-                for drives, end in self._drives(place, others, lists, above, after, later):
+                for drives, end in self._drives(place, others, lists, above._replace(first=False), after, later):
                     yield ((driver, limbs), *drives), end
 
-    def _by_way(
-        self, place: _Place, way: str, dials: Dials, lists: Lists, above: Above
+    def codes_by_way(
+        self, place: JointPlace, way: str, dials: Dials, lists: Lists, above: Above
     ) -> Iterator[tuple[PlacedWheel | None, Lists, Above]]:
         """A driving wheel with each of its counts, None for the driven one, and the paths that lead by it."""
         if place.at < 0:
-            if way == _BESIDE:
+            if way == BESIDE:
                 yield ADDED, lists, above._replace(compounds=above.compounds + 1)
             else:
                 yield None, lists, above._replace(idlers=above.idlers + 1)
@@ -299,64 +322,3 @@ class SkeletonSearch:
             each = self.paths[dials[0]].passes[place.at][code - 1]
             some = self._through(place.at, code, dials, lists)
             yield None if each.idler else each.driver, some, above._replace(beside=above.beside + each.added)
-
-
-class _Place(NamedTuple):
-    """An arbor at which paths part: its number, -1 for an added one, its name, and the wheel that is driven.
-
-    ways   by dial and way on, the codes of the paths that take it
-    """
-
-    at: int
-    name: str | None
-    driven: PlacedWheel | None
-    ways: dict[str, dict[str, list[int]]]
-
-
-_Block = tuple[str, Dials]
-"""A way on from an arbor, and the dials to which it leads."""
-_Drive = tuple[PlacedWheel | None, tuple[Limb, ...]]
-
-
-def _by_way(passes: Sequence[ArborPass], codes: Sequence[int]) -> dict[str, list[int]]:
-    found: dict[str, list[int]] = {}
-    for code in codes:
-        each = passes[code - 1]
-        if each.driver is None:
-            way = _HERE
-        elif each.idler:
-            way = _IDLER
-        else:
-            way = _BESIDE if each.driver.name is None else each.driver.name
-        found.setdefault(way, []).append(code)
-    return found
-
-
-def _shared_out(
-    dials: Dials, ways: dict[str, dict[str, list[int]]], must: Sequence[str]
-) -> Iterator[tuple[Dials, tuple[_Block, ...]]]:
-    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them.
-
-    must   surviving wheels each of which leads to some
-    """
-    for chosen in product(*(ways[dial] for dial in dials)):
-        if not set(must) <= set(chosen):
-            continue
-        by_way: dict[str, list[str]] = {}
-        for dial, way in zip(dials, chosen, strict=True):
-            by_way.setdefault(way, []).append(dial)
-        named = tuple((way, tuple(block)) for way, block in by_way.items() if way not in (_HERE, _BESIDE))
-        for blocks in _partitions(tuple(by_way.get(_BESIDE, ()))):
-            yield tuple(by_way.get(_HERE, ())), (*named, *((_BESIDE, block) for block in blocks))
-
-
-def _partitions(dials: Dials) -> Iterator[tuple[Dials, ...]]:
-    """Each way to part dials into blocks, the first of them in the first block."""
-    if not dials:
-        yield ()
-        return
-    for size in range(len(dials)):
-        for others in combinations(dials[1:], size):
-            rest = tuple(dial for dial in dials[1:] if dial not in others)
-            for blocks in _partitions(rest):
-                yield ((dials[0], *others), *blocks)

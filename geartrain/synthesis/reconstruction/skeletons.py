@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import factorial
+from typing import Any
 
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWheel
@@ -177,3 +178,53 @@ def _led_to(limbs: tuple[Limb, ...]) -> Dials:
 
 def _both(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
     return each.driven, each.driver
+
+
+# as plain data, to cross between processes and to be kept
+
+
+def plain_skeleton(skeleton: Skeleton) -> list[Any]:
+    """A skeleton as lists, texts and numbers."""
+    wanted = [[dial, str(low), str(high)] for dial, (low, high) in skeleton.wanted]
+    return [_plain_joint(skeleton.root), wanted]
+
+
+def skeleton_of(plain: list[Any]) -> Skeleton:
+    """The skeleton again."""
+    root, wanted = plain
+    return Skeleton(_joint_of(root), tuple((dial, (Fraction(low), Fraction(high))) for dial, low, high in wanted))
+
+
+def _plain_joint(joint: Joint) -> list[Any]:
+    drives = [[_plain_wheel(wheel), [*map(_plain_limb, limbs)]] for wheel, limbs in joint.drives]
+    return [joint.name, _plain_wheel(joint.driven), [*joint.here], drives, [*map(_plain_limb, joint.passes)]]
+
+
+def _joint_of(plain: list[Any]) -> Joint:
+    name, driven, here, drives, passes = plain
+    driving = tuple((PlacedWheel(*wheel), tuple(map(_limb_of, limbs))) for wheel, limbs in drives)
+    return Joint(name, _wheel_of(driven), tuple(here), driving, tuple(map(_limb_of, passes)))
+
+
+def _plain_limb(limb: Limb) -> list[Any]:
+    through = [[name, *map(_plain_wheel, _both(each)), each.idle, each.idler] for name, each in limb.through]
+    end = [_plain_joint(limb.end)] if isinstance(limb.end, Joint) else [None, [*map(_plain_limb, limb.end)]]
+    return [[*limb.dials], through, limb.compounds, limb.idlers, end]
+
+
+def _limb_of(plain: list[Any]) -> Limb:
+    dials, through, compounds, idlers, end = plain
+    passes = tuple(
+        (name, ArborPass(_wheel_of(driven), _wheel_of(driver), idle, idler))
+        for name, driven, driver, idle, idler in through
+    )
+    ends = _joint_of(end[0]) if end[0] is not None else tuple(map(_limb_of, end[1]))
+    return Limb(tuple(dials), passes, compounds, idlers, ends)
+
+
+def _plain_wheel(wheel: PlacedWheel | None) -> list[Any] | None:
+    return None if wheel is None else [wheel.name, wheel.teeth]
+
+
+def _wheel_of(plain: list[Any] | None) -> PlacedWheel | None:
+    return None if plain is None else PlacedWheel(*plain)

@@ -1,0 +1,99 @@
+"""The search of skeletons in independent parts: each finds and counts some of them, in whichever process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from geartrain.numerics.work import Execution
+from geartrain.synthesis.reconstruction.added_counts import AddedCounts
+from geartrain.synthesis.reconstruction.arrangements import MeshFacts, count_orders
+from geartrain.synthesis.reconstruction.question_digest import question_digest
+from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
+from geartrain.synthesis.reconstruction.skeletons import Skeleton, plain_skeleton, skeleton_of
+
+_QUICK = 2
+"""Added wheels up to which a search is not worth parting."""
+_PARTS = 24
+
+
+@dataclass(frozen=True)
+class CountedSkeleton:
+    """A skeleton with its numbers of orders, and of choices of the added wheels' counts; neither is 0."""
+
+    skeleton: Skeleton
+    orders: int
+    choices: int
+
+    @property
+    def mechanisms(self) -> int:
+        """How many trains it is."""
+        return self.orders * self.choices
+
+
+class SkeletonTask(NamedTuple):
+    """A part of the search with a given number of added wheels."""
+
+    problem: ReconstructionProblem
+    added: int
+    part: int
+    parts: int
+
+
+def skeleton_tasks(problem: ReconstructionProblem) -> list[SkeletonTask]:
+    """All parts, those with few added wheels first."""
+    return [
+        SkeletonTask(problem, added, part, parts)
+        for added in range(problem.additions.wheels + 1)
+        for parts in [1 if added <= _QUICK else _PARTS]
+        for part in range(parts)
+    ]
+
+
+def count_skeletons(
+    problem: ReconstructionProblem, execution: Execution | None = None
+) -> Iterator[tuple[int, bool, list[CountedSkeleton]]]:
+    """By task: number of added wheels, whether it is the last with so many, and the skeletons that it found."""
+    tasks = skeleton_tasks(problem)
+    answers = (execution or Execution()).run(_counted, tasks)
+    for task, answer in zip(tasks, answers, strict=True):
+        found = [CountedSkeleton(skeleton_of(plain), orders, choices) for plain, orders, choices in answer]
+        yield task.added, task.part + 1 == task.parts, found
+
+
+def _counted(task: SkeletonTask) -> list[tuple[Any, int, int]]:
+    search, choices = _search(question_digest(task.problem), task.problem)
+    facts = MeshFacts.of(task.problem)
+    found = []
+    for skeleton in search.skeletons(task.added, task.part, task.parts):
+        number = choices.count(skeleton.added, skeleton.wanted)
+        if number and (orders := count_orders(skeleton, facts)):
+            found.append((plain_skeleton(skeleton), orders, number))
+    return found
+
+
+class _Known:
+    """A question that is told from others by its digest alone, for it need not be hashable."""
+
+    def __init__(self, digest: str, problem: ReconstructionProblem) -> None:
+        self.digest, self.problem = digest, problem
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Known) and other.digest == self.digest
+
+
+def _search(digest: str, problem: ReconstructionProblem) -> tuple[SkeletonSearch, AddedCounts]:
+    return _made_search(_Known(digest, problem))
+
+
+@lru_cache(maxsize=2)
+def _made_search(known: _Known) -> tuple[SkeletonSearch, AddedCounts]:
+    """Lists of paths are made once a process."""
+    limits = known.problem.additions
+    return SkeletonSearch(known.problem), AddedCounts(limits.least, limits.greatest)

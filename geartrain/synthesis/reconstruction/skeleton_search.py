@@ -307,7 +307,7 @@ class SkeletonSearch:
                 for drives, end in self._drives(place, others, lists, above._replace(first=False), after, later):
                     yield ((driver, limbs), *drives), end
 
-    def codes_by_way(
+    def _by_way(
         self, place: JointPlace, way: str, dials: Dials, lists: Lists, above: Above
     ) -> Iterator[tuple[PlacedWheel | None, Lists, Above]]:
         """A driving wheel with each of its counts, None for the driven one, and the paths that lead by it."""

@@ -51,9 +51,9 @@ wheels and arbors weigh the same, so that a rank mostly is a range. Classes do n
 
 FOUND = """
 There are {possible} such questions. {asked} were asked and {whole} finished in the time that each had; two arbors are
-not left out where one of them alone was not finished. The train itself was found in {found} of the finished ones{lost}.
-In {first} it has none of more weight above it, and in {alone} it is the only one of the greatest weight. {more} have
-explanations with fewer wheels than were lost, which then weigh more.
+not left out where one of them alone was not finished. The train itself was found in {found} of the finished ones{lost};
+{many} have too many explanations to list. In {first} it has none of more weight above it, and in {alone} it is the only
+one of the greatest weight. {more} have explanations with fewer wheels than were lost, which then weigh more.
 """
 
 
@@ -73,7 +73,8 @@ def page(records: LeftOutRecords) -> list[str]:
         possible=f"{records.possible:,}",
         asked=f"{len(records.rows):,}",
         whole=f"{len(records.whole):,}",
-        found="all" if not records.lost else f"{len(ranks):,}",
+        found=f"{len(ranks):,}",
+        many=f"{sum(not row.listed and row.rank is None for row in records.whole):,}",
         lost=lost if records.lost else "",
         first=f"{sum(rank[0] == 1 for rank in ranks):,}",
         alone=f"{sum(rank[1] == 1 for rank in ranks):,}",

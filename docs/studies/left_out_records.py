@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import comb
 
-from studies.records import StudyRecords, seconds_text, table
+from studies.records import StudyRecords, number_text, seconds_text, table
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,8 @@ class LeftOutRecord:
     added        their wheels: so many may be added
     mechanisms   explanations with 0, 1, ... added wheels, as far as they were counted
     classes      those that differ by more than what drives what
-    rank         first and last of the train itself by weight, None where not all was listed
+    rank         first and last of the train itself by weight, None where that is not known
+    listed       whether all explanations were listed, so that the train must be among them
     seconds      for all with up to `added` wheels; None where that was not finished
     note         why not
     """
@@ -60,8 +61,9 @@ class LeftOutRecord:
     lost: Sequence[str]
     added: int
     mechanisms: Sequence[int]
-    classes: Sequence[int]
+    classes: Sequence[int | None]
     rank: Sequence[int] | None
+    listed: bool
     seconds: float | None
     note: str = ""
 
@@ -97,7 +99,7 @@ class LeftOutRecords(StudyRecords):
     @property
     def lost(self) -> list[LeftOutRecord]:
         """Finished questions whose answer lacks the train itself: there must be none."""
-        return [row for row in self.whole if row.rank is None]
+        return [row for row in self.whole if row.listed and row.rank is None]
 
     def tables(self) -> list[str]:
         """A summary, every question, and the trains that are not asked."""
@@ -150,8 +152,10 @@ _COLUMNS: dict[str, Callable[[LeftOutRecord], str]] = {
     "left out": lambda row: ", ".join(row.lost),
     "fewest added wheels": _found,
     "as many as lost": _own,
-    "classes": lambda row: f"{row.classes[row.added]:,}" if row.is_whole else "-",
-    "rank of the train": lambda row: rank_text(row.rank),
+    "classes": lambda row: number_text(row.classes[row.added] if row.is_whole else None, ","),
+    "rank of the train": lambda row: (
+        "too many" if row.is_whole and not row.listed and row.rank is None else rank_text(row.rank)
+    ),
     "time": lambda row: row.note or seconds_text(row.seconds),
 }
 _SUMMARY: dict[str, Callable[[_TreeRows], str]] = {

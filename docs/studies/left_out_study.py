@@ -17,7 +17,7 @@ from typing import Any
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, rank_of
+from geartrain.synthesis.reconstruction.lost_arbors import is_all_listed, lost_evidence, rank_of
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
 from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree
@@ -27,6 +27,8 @@ from studies.measurement import gathered
 
 LIMIT = 60.0
 """Seconds for a question."""
+LISTED = 20_000
+"""Explanations among which a train is looked for."""
 TITLE = "Trains found again"
 QUICK = ("vitruvius-hodometer", "watch-going-train", "isfahan-astrolabe-1221", "four-gear-loop")
 _MEMORY = 4.0  # GB for a question
@@ -79,7 +81,9 @@ def ask(task: Sequence[Any]) -> dict[str, Any]:
     tree = find_spur_tree(read_declaration(name))
     found, note = gathered(partial(_answers, tree, tuple(lost)), limit, _MEMORY)
     own = _wheels(tree, lost)
-    last: dict[str, Any] = found[-1] if found else {"mechanisms": [], "classes": [], "rank": None, "seconds": None}
+    last: dict[str, Any] = (
+        found[-1] if found else {"mechanisms": [], "classes": [], "rank": None, "listed": False, "seconds": None}
+    )
     print(f"{name} without {', '.join(lost)}: {last['mechanisms']} {note}", file=sys.stderr, flush=True)
     return {"train": name, "lost": list(lost), "added": own, "note": note, **last}
 
@@ -90,12 +94,13 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
     own = _wheels(tree, lost)
     for wheels in range(own + 1):
         start = perf_counter()
-        found = find_reconstructions(evidence_question(evidence, wheels).problem)
+        found = find_reconstructions(evidence_question(evidence, wheels).problem, listed=LISTED)
         seconds = perf_counter() - start
         yield {
             "mechanisms": [count.mechanisms for count in found.counts],
             "classes": [count.classes for count in found.counts],
-            "rank": rank_of(original, found.candidates) if wheels == own else None,
+            "rank": rank_of(original, found) if wheels == own else None,
+            "listed": is_all_listed(found),
             "seconds": seconds if wheels == own and found.complete else None,
         }
 

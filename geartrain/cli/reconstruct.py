@@ -99,7 +99,7 @@ def run(
         found.complete,
         question.unused,
         tuple(_ranked(declared, listed)),
-        None if original is None else rank_of(original, found.candidates),
+        None if original is None else rank_of(original, found),
         look_into(declared, question.problem, found, assumptions, counts_only=count),
     )
     if folder is not None and listed:

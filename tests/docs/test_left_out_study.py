@@ -117,10 +117,10 @@ def test_the_kept_run_found_every_train_again() -> None:
 
 def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
     rows = [
-        LeftOutRecord("clock", ["a"], 2, [0, 3, 4], [0, 2, 2], [4, 7], 0.25),
-        LeftOutRecord("clock", ["b"], 1, [0, 5], [0, 5], None, 1.5),
-        LeftOutRecord("clock", ["c"], 3, [0, 0], [0, 0], None, None, "not within 60 s"),
-        LeftOutRecord("clock", ["a", "b"], 3, [], [], None, None, "more than 4 GB"),
+        LeftOutRecord("clock", ["a"], 2, [0, 3, 4], [0, 2, 2], [4, 7], True, 0.25),
+        LeftOutRecord("clock", ["b"], 1, [0, 5], [0, 5], None, True, 1.5),
+        LeftOutRecord("clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s"),
+        LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB"),
     ]
     tree = TreeRecord("clock", "x", ["a", "b", "c"], 8, ["hour"], ["crank"], [8, 96])
     text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [NotAskedRecord("worm", "it has worm wheels")])))
@@ -133,5 +133,5 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
     assert "| worm | it has worm wheels |" in text
     said = " ".join(text.split())
     assert "There are 6 such questions. 4 were asked and 2 finished" in said
-    assert "found in 1 of the finished ones; not: clock without b." in said
+    assert "found in 1 of the finished ones; not: clock without b; 0 have too many" in said
     assert "1 have explanations with fewer wheels than were lost" in said

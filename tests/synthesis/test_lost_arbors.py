@@ -11,7 +11,7 @@ from geartrain import GearTrainError, load
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_evidence_data, rank_of
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
+from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree
 from geartrain.train.declaration_files import read_declaration, shipped
@@ -182,18 +182,24 @@ def test_pointers_of_the_tree_turn_as_the_whole_train_turns_them(name: str) -> N
     assert all(node[2] for node in nodes(source) if not node[3])
 
 
+def results(listed: list[Candidate], total: int) -> Reconstructions:
+    return Reconstructions((ExplanationCount(0, total, total, total),), True, tuple(listed))
+
+
 def test_equal_weights_share_ranks() -> None:
     moons = [Arbor("a", None, (), ((wheel(teeth, "a1"), ()),)) for teeth in (5, 6, 7, 8)]
     listed = [Candidate(arbor, 0, weight) for arbor, weight in zip(moons, (0.4, 0.25, 0.25, 0.1), strict=True)]
-    assert [rank_of(arbor, listed) for arbor in moons] == [(1, 1), (2, 3), (2, 3), (4, 4)]
-    assert rank_of(moons[0], listed[1:]) is None
+    assert [rank_of(arbor, results(listed, 4)) for arbor in moons] == [(1, 1), (2, 3), (2, 3), (4, 4)]
+    assert rank_of(moons[0], results(listed[1:], 3)) is None
+    # of five, the last one is not listed: it may weigh as much as the fourth
+    assert [rank_of(arbor, results(listed, 5)) for arbor in moons] == [(1, 1), (2, 3), (2, 3), None]
 
 
 def test_a_rank_does_not_depend_on_the_order_of_branches() -> None:
     first, second = (Arbor(name, wheel(9, f"{name}1"), (name,), ()) for name in "pq")
     one = Arbor("a", None, (), ((wheel(5, "a1"), (first, second)),))
     other = Arbor("a", None, (), ((wheel(5, "a1"), (second, first)),))
-    assert rank_of(one, [Candidate(other, 0, 1.0)]) == (1, 1)
+    assert rank_of(one, results([Candidate(other, 0, 1.0)], 1)) == (1, 1)
 
 
 QUICK = {
@@ -215,7 +221,32 @@ def test_a_train_is_found_again_whatever_is_lost(name: str) -> None:
             if problem.additions.wheels > 2:
                 continue
             found = find_reconstructions(problem)
-            assert rank_of(tree.arbor(lost), found.candidates) is not None, lost
+            assert rank_of(tree.arbor(lost), found) is not None, lost
+
+
+def test_an_added_arbor_may_lead_on_by_two_wheels() -> None:
+    """13 > 22, 18 > 23 and 12 > 29 from 13, 23 and 29 alone; plain growth finds no other."""
+    text = """\
+name: fork
+links:
+  frame: {}
+  a: {wheels: {a1: 13}}
+  b: {wheels: {b1: 22, b2: 18, b3: 12}}
+  c: {wheels: {c1: 23}}
+  d: {wheels: {d1: 29}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+  - {pair: [frame, c], axis: C}
+  - {pair: [frame, d], axis: D}
+gears: [{pair: [a1, b1]}, {pair: [b2, c1]}, {pair: [b3, d1]}]
+inputs: {a: 1}
+outputs: {c: {expect: 117/253}, d: {expect: 78/319}}
+"""
+    tree = find_spur_tree(read_declaration(text))
+    found = find_reconstructions(evidence_question(lost_evidence(tree, ["b"])).problem)
+    assert [count.mechanisms for count in found.counts] == [0, 0, 0, 1]
+    assert rank_of(tree.arbor(["b"]), found) == (1, 1)
 
 
 @pytest.mark.parametrize("lost", [["b"], ["c"], ["s"], ["c", "s"]])

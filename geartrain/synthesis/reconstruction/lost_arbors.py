@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
-from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
 from geartrain.synthesis.reconstruction.spur_tree import SpurTree
 from geartrain.train import Train, declare
@@ -57,14 +57,21 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def rank_of(arbor: Arbor, candidates: Iterable[Candidate]) -> tuple[int, int] | None:
-    """First and last rank by weight that a candidate may have among all, for some weigh the same; None if not there."""
-    listed = list(candidates)
-    wanted = mechanism(arbor)
+def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
+    """First and last rank by weight that a candidate may have among all, for some weigh the same.
+
+    None if it is not there, or weighs no more than candidates that are counted and not listed.
+    """
+    listed, wanted = found.candidates, mechanism(arbor)
     own = next((one.weight for one in listed if mechanism(one.arbor) == wanted), None)
-    if own is None:
+    if own is None or (not is_all_listed(found) and own <= listed[-1].weight):
         return None
     return 1 + sum(one.weight > own for one in listed), sum(one.weight >= own for one in listed)
+
+
+def is_all_listed(found: Reconstructions) -> bool:
+    """Whether every explanation that is counted is listed."""
+    return found.complete and len(found.candidates) == sum(count.mechanisms for count in found.counts)
 
 
 def _check(tree: SpurTree, lost: Sequence[str]) -> None:

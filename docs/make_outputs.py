@@ -40,6 +40,7 @@ NAMES = (
     "drawing",
     "cut-by-hand",
     "counts-in-doubt",
+    "reconstruct",
 )
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 COLUMNS = "100"
@@ -74,7 +75,8 @@ class _Page:
 def refresh(page: Path) -> None:
     """Rewrite one page with fresh outputs."""
     with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "trains").symlink_to(ROOT / "trains")
+        for name in ("trains", "evidence"):
+            (Path(folder) / name).symlink_to(ROOT / name)
         text = _BLOCK.sub(_Page(Path(folder)).block, page.read_text(encoding="utf-8"))
     page.write_text(text, encoding="utf-8")
     print(f"wrote {page.relative_to(ROOT)}")

@@ -110,6 +110,8 @@ LONGEST = 20_000
 """Letters up to which a text is kept as it is; longer ones, and all that is no text, by a hash."""
 TRIALS = 128
 """Trials up to which shipped trains are cut in the pages."""
+_SHIPPED = ("trains", "evidence")
+"""Folders that the pages read."""
 NOT_COMPARED = "a file whose content is not compared"
 SHOWN = 10
 """Differing keys of an answer that are printed."""
@@ -256,7 +258,8 @@ def answers(group: Group, wanted: Callable[[str], bool]) -> list[Answer]:
             folder = Path(made) / ("page" if group.together else str(at))
             if not folder.exists():
                 folder.mkdir()
-                (folder / "trains").symlink_to(ROOT / "trains")
+                for name in _SHIPPED:
+                    (folder / name).symlink_to(ROOT / name)
             if "file" in step:
                 (folder / step["file"]).write_text(step["text"], encoding="utf-8")
                 continue
@@ -291,7 +294,7 @@ def _answer(command: str, folder: Path, in_shell: bool) -> Answer:
 
 
 def _files(folder: Path) -> dict[str, tuple[int, int]]:
-    every = (path for path in folder.rglob("*") if path.is_file() and path.relative_to(folder).parts[0] != "trains")
+    every = (path for path in folder.rglob("*") if path.is_file() and path.relative_to(folder).parts[0] not in _SHIPPED)
     return {str(path.relative_to(folder)): (path.stat().st_size, path.stat().st_mtime_ns) for path in every}
 
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,19 +61,23 @@ def list_choices(
     quotient: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
     """The choices themselves: counts of the drivers, and of the driven wheels."""
-    if not count_choices(quotient, drivers, driven, counts):
-        return
-    tried = range(counts[0], counts[1] + 1)
-    if drivers:
-        for count in tried:
-            for others, below in list_choices(quotient / count, drivers - 1, driven, counts):
-                yield (count, *others), below
-    elif driven:
-        for count in tried:
-            for above, others in list_choices(quotient * count, drivers, driven - 1, counts):
-                yield above, (count, *others)
-    else:
-        yield (), ()
+    num, den = quotient.numerator, quotient.denominator
+    last = min(counts[1] ** drivers // num, counts[1] ** driven // den)
+    for common in range(1, last + 1):
+        if above := factorings(num * common, drivers, counts):
+            yield from product(above, factorings(den * common, driven, counts))
+
+
+@lru_cache(maxsize=1 << 16)
+def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...], ...]:
+    """Counts of so many wheels with a given product, in every order."""
+    least, greatest = counts
+    if not least**wheels <= number <= greatest**wheels:
+        return ()
+    if wheels <= 1:
+        return ((number,),) if wheels else ((),)
+    found = (count for count in range(least, greatest + 1) if number % count == 0)
+    return tuple((count, *rest) for count in found for rest in factorings(number // count, wheels - 1, counts))
 
 
 @dataclass(frozen=True)

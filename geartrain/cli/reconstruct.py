@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -23,6 +23,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
+from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.reconstruction_findings import FAMILY, MOST_TURNING, family_text, look_into, write_page
 
@@ -43,6 +44,9 @@ Evidence = Annotated[
 
 
 _EVIDENCE = "evidence.yaml"
+_ALL = 1_000_000
+_LOOKED_AT = 2000
+"""Candidates whose meshes and counts are compared, also where fewer are listed."""
 
 
 def run(
@@ -67,9 +71,16 @@ def run(
     turning: Annotated[
         int, typer.Option("--turning", min=1, max=MOST_TURNING, help="How many trains turn on the page.")
     ] = 12,
+    per: Annotated[
+        Literal["mechanism", "class"],
+        typer.Option("--per", help="What has a weight of its own: every train, or every class of equal ratios."),
+    ] = "mechanism",
     assumptions: Annotated[
         bool, typer.Option("--assumptions", help="Drop each hard fact in turn and count again; asks once for each.")
     ] = False,
+    workers: SingleWorker = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
     json: Json = False,
     force: Force = False,
 ) -> None:
@@ -78,6 +89,7 @@ def run(
     from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
     from geartrain.synthesis.reconstruction.evidence_question import evidence_question
     from geartrain.synthesis.reconstruction.lost_arbors import rank_of
+    from geartrain.synthesis.reconstruction.question_digest import question_digest
     from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
     from geartrain.train.declaration_files import read_evidence, write_declaration
 
@@ -90,7 +102,11 @@ def run(
     question = evidence_question(declared, most, idlers)
     if folder is not None:
         check_folder(folder, [_file(1)], force)
-    found = find_reconstructions(question.problem)
+    listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
+    asked = {"question": question_digest(question.problem)}  # how much is listed, and per what, changes no task
+    with long_run("reconstruct", asked, folder, RunOptions.alone(workers, scheduler, resume)) as given:
+        found = find_reconstructions(question.problem, given, listing, per)
+        close_journal(given.journal, not found.complete)
     listed = () if count else found.candidates if every else found.candidates[:best]
     report = ReconstructionReport(
         declared.name,

@@ -116,11 +116,11 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]
     weighed = [(skeleton_prior(each, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.mechanisms for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
-    made = 0
+    made, most = 0, max(listed, _LISTED)
     for (weight, added), equal in groupby(weighed, key=lambda one: one[:2]):
         if made >= listed:
             return
-        arbors = list(islice((arbor for _, _, each in equal for arbor in _trains(each, problem)), _LISTED - made))
+        arbors = list(islice((arbor for _, _, each in equal for arbor in _trains(each, problem)), most - made))
         made += len(arbors)
         arbors.sort(key=_order)
         yield from (Candidate(arbor, added, float(weight / whole)) for arbor in arbors)

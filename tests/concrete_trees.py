@@ -21,9 +21,9 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Additions,
     Arbor,
-    Dial,
     PlacedWheel,
     ReconstructionProblem,
+    SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
 )
@@ -218,11 +218,11 @@ def _with_dials(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
             yield _dialled(tree, shown, itertools.count())
 
 
-def _at_place(node: Node, dial: Dial) -> bool:
+def _at_place(node: Node, dial: SearchedDial) -> bool:
     return dial.place is None or node[0] == (ADDED if dial.place == NEW else dial.place)
 
 
-def _fits(speed: Fraction, dial: Dial) -> bool:
+def _fits(speed: Fraction, dial: SearchedDial) -> bool:
     return dial.least <= (speed if dial.signed else abs(speed)) <= dial.greatest
 
 
@@ -295,10 +295,12 @@ def sure_arbor(name: str, **teeth: int) -> SurvivingArbor:
     return SurvivingArbor(name, tuple(wheels))
 
 
-def exact_dial(name: str, speed: Fraction | int | str, *, signed: bool = True, place: str | None = None) -> Dial:
+def exact_dial(
+    name: str, speed: Fraction | int | str, *, signed: bool = True, place: str | None = None
+) -> SearchedDial:
     """A dial of one speed; the magnitude alone is kept where the sense is not known."""
     wanted = Fraction(speed) if signed else abs(Fraction(speed))
-    return Dial(name, wanted, wanted, signed, place)
+    return SearchedDial(name, wanted, wanted, signed, place)
 
 
 def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> ReconstructionProblem:
@@ -402,11 +404,11 @@ def _survivor(arbor: _Grown, chance: random.Random, least: int, greatest: int) -
     return SurvivingArbor(f"A{arbor.number}", tuple(wheels))
 
 
-def _random_dial(chance: random.Random, arbor: _Grown, speed: Fraction) -> Dial:
+def _random_dial(chance: random.Random, arbor: _Grown, speed: Fraction) -> SearchedDial:
     signed = chance.random() < 0.7
     wanted = speed if signed else abs(speed)
     slack = abs(speed) / 50 if chance.random() < 0.2 else Fraction(0)
     place = None
     if chance.random() < 0.4:
         place = f"A{arbor.number}" if arbor.survives else NEW
-    return Dial(f"D{arbor.number}", wanted - slack, wanted + slack, signed, place)
+    return SearchedDial(f"D{arbor.number}", wanted - slack, wanted + slack, signed, place)

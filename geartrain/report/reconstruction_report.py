@@ -19,8 +19,7 @@ from geartrain.report.reconstruction_facts import (
     shared_sections,
 )
 from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_problem import Dial as SearchedDial
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
 
 _USE = {

@@ -116,9 +116,7 @@ class Train(Declared):
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="What the train is asked for, by name"
     )
-    reconstruct: Reconstruction | None = Field(
-        None, description="Makes this evidence of a train that is to be found, not a train"
-    )
+    reconstruct: Reconstruction | None = Field(None, description="Makes this evidence, of a train that is to be found")
 
     _marks: Marks | None = PrivateAttr(None)
 

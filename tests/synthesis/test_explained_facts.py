@@ -13,9 +13,9 @@ from geartrain.synthesis.reconstruction.named_train import NamedArbor, name_trai
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     Additions,
     Arbor,
-    Dial,
     PlacedWheel,
     ReconstructionProblem,
+    SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
 )
@@ -32,7 +32,7 @@ def survivor(name: str, **counts: tuple[int, ...]) -> SurvivingArbor:
 PROBLEM = ReconstructionProblem(
     survivor("in", i=(10,)),
     (survivor("a", a1=(20,), a2=(30,)), survivor("c", c1=(40, 41), c2=(15,))),
-    (Dial("sun", Fraction(1), Fraction(1)),),
+    (SearchedDial("sun", Fraction(1), Fraction(1)),),
     Additions(2, 10, 60),
     use="some",
 )

@@ -10,7 +10,7 @@ from typing import Any
 from geartrain.errors import QuestionError
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.work import Execution
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
@@ -151,16 +151,16 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
         yield "if wheels may be added on surviving arbors", replace(problem, additions=replace(limits, on="any"))
 
 
-def _unsigned(dial: Dial) -> Dial:
+def _unsigned(dial: SearchedDial) -> SearchedDial:
     """The dial in either sense."""
     ends = sorted(map(abs, (dial.least, dial.greatest)))
     least = Fraction(0) if dial.least < 0 < dial.greatest else ends[0]
     return replace(dial, least=least, greatest=ends[1], signed=False)
 
 
-def _with_dial(problem: ReconstructionProblem, at: int, dial: Dial) -> ReconstructionProblem:
+def _with_dial(problem: ReconstructionProblem, at: int, dial: SearchedDial) -> ReconstructionProblem:
     return replace(problem, dials=(*problem.dials[:at], dial, *problem.dials[at + 1 :]))
 
 
-def _but(dials: tuple[Dial, ...], left_out: Dial) -> tuple[Dial, ...]:
+def _but(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[SearchedDial, ...]:
     return tuple(dial for dial in dials if dial != left_out)

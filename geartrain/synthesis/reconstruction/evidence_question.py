@@ -17,9 +17,9 @@ from geartrain.synthesis.reconstruction.pointer_bounds import find_bounds
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Additions,
-    Dial,
     PriorFactors,
     ReconstructionProblem,
+    SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
 )
@@ -81,7 +81,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     problem = ReconstructionProblem(
         input=_arbor(evidence, source),
         arbors=arbors,
-        dials=tuple(Dial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
+        dials=tuple(SearchedDial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
         additions=_additions(asked.add, wheels),
         input_speed=evidence.case(None).inputs[source],
         meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from itertools import combinations, product
 from typing import NamedTuple
 
@@ -78,9 +79,29 @@ class OpenPaths:
     def __getitem__(self, dial: str) -> PathList:
         return self.lists[dial]
 
-    def whole(self) -> dict[str, Rows]:
-        """All rows of all lists."""
-        return {dial: np.arange(len(paths)) for dial, paths in self.lists.items()}
+    @cache  # noqa: B019 -- lives as long as the lists
+    def whole(self, wheels: int) -> Lists:
+        """The rows of all lists that have partners in the others with no more than so many added wheels on both.
+
+        Looked at by their quotients alone, for all paths with one number of added wheels at once: see `_matches`.
+        """
+        found = {dial: np.flatnonzero(paths.wheels <= wheels) for dial, paths in self.lists.items()}
+        for one, other in combinations(sorted(found), 2):
+            first, second = self.lists[one], self.lists[other]
+            if first.dial.is_exact and second.dial.is_exact:
+                pair = self._agreeing_by_number(first, found[one], second, found[other], 2 * wheels + self._idlers)
+                _keep(found, found, one, other, pair)
+        return found
+
+    def _agreeing_by_number(self, first: PathList, rows: Rows, second: PathList, others: Rows, most: int) -> _Partners:
+        some, more = np.zeros(len(rows), dtype=bool), np.zeros(len(others), dtype=bool)
+        for number, another in product(np.unique(first.wheels[rows]), np.unique(second.wheels[others])):
+            at = np.flatnonzero(first.wheels[rows] == number)
+            to = np.flatnonzero(second.wheels[others] == another)
+            keys = first.wanted[rows[at]], second.wanted[others[to]]
+            one, other = self.keys.agreeing(*keys, int(most - number - another))
+            some[at[one]], more[to[other]] = True, True
+        return some, more
 
     # one dial
 
@@ -149,18 +170,16 @@ class OpenPaths:
 
     def _parted_matches(
         self, one: str, rows: Rows, other: str, others: Rows, above: Above, left: Left
-    ) -> NDArray[np.bool_] | None:
+    ) -> _Partners | None:
         """Which paths to two dials go together if they share no more than what is above."""
         if len(rows) * len(others) > _MOST_PAIRS:
             return None
         first, second = self.lists[one], self.lists[other]
         need = (first.wheels[rows] - above.wheels)[:, None] + (second.wheels[others] - above.wheels)
         fits = (need <= left.wheels) & (first.arbors[rows][:, None] & second.arbors[others] & ~above.arbors == 0)
-        return self._agreeing(one, rows, other, others, need, fits)
+        return _partners(self._agreeing(one, rows, other, others, need, fits))
 
-    def _matches(
-        self, one: str, rows: Rows, other: str, others: Rows, above: Above, left: Left
-    ) -> NDArray[np.bool_] | None:
+    def _matches(self, one: str, rows: Rows, other: str, others: Rows, above: Above, left: Left) -> _Partners | None:
         """Which paths to two dials go together, wherever they part.
 
         If both have a and b of at most w added wheels, they share a + b - w of them at least, and at most 2 w - a - b
@@ -181,7 +200,7 @@ class OpenPaths:
             good = both.sum(axis=1) <= 1
             good &= ~(both & (first.driven_at(rows[at]) != second.driven_at(others[to]))).any(axis=1)
             fits[at, to] = good
-        return fits
+        return _partners(fits)
 
     def _agreeing(
         self, one: str, rows: Rows, other: str, others: Rows, own: Rows, fits: NDArray[np.bool_]
@@ -198,8 +217,16 @@ class OpenPaths:
         return fits
 
 
-def _keep(some: dict[str, Rows], more: dict[str, Rows], one: str, other: str, pair: NDArray[np.bool_] | None) -> bool:
+_Partners = tuple[NDArray[np.bool_], NDArray[np.bool_]]
+"""Which of some paths, and of some others, have a partner."""
+
+
+def _partners(fits: NDArray[np.bool_]) -> _Partners:
+    return np.asarray(fits.any(axis=1)), np.asarray(fits.any(axis=0))
+
+
+def _keep(some: dict[str, Rows], more: dict[str, Rows], one: str, other: str, pair: _Partners | None) -> bool:
     """Keep rows that have a partner; whether there are any."""
     if pair is not None:
-        some[one], more[other] = some[one][pair.any(axis=1)], more[other][pair.any(axis=0)]
-    return bool(len(some[one]))
+        some[one], more[other] = some[one][pair[0]], more[other][pair[1]]
+    return bool(len(some[one]) and len(more[other]))

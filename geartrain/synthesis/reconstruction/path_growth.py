@@ -52,7 +52,7 @@ class PathGrowth:
         """All paths of some."""
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
-    def kept(self, rows: NDArray[np.bool_]) -> PathGrowth:
+    def kept(self, rows: NDArray[np.bool_] | np.bool_ | slice) -> PathGrowth:
         """Some of the paths."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 

@@ -20,11 +20,13 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass, arbor_passes
 from geartrain.synthesis.reconstruction.path_growth import PathGrowth
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Dial, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 
 Rows = NDArray[np.int64]
-_MOST_PATHS = 30_000_000
-"""Paths that are held at once: a few gigabytes."""
+_MOST_PATHS = 1_000_000_000
+"""Paths that are looked at on the way to those that are possible: minutes."""
+_PIECE = 1 << 21
+"""Paths that are grown at once."""
 
 
 @dataclass(frozen=True)
@@ -52,13 +54,12 @@ class PathList:
     wanted               by row: key of the quotient that the added wheels must have, where it must be exact
     """
 
-    def __init__(self, dial: Dial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
+    def __init__(self, dial: SearchedDial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
         self.dial, self.problem, self.keys = dial, problem, keys
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
-        growth = self._grown()
         plans = tuple(_plans(problem.additions.wheels, problem.idlers))
-        possible = self._possible(growth, plans)
+        growth, possible = self._possible_paths(plans)
         rows, taken = np.nonzero(possible)
         bits = np.int64(1) << np.arange(len(every) - 1, dtype=np.int64)
         self.codes = growth.codes[rows]
@@ -104,29 +105,45 @@ class PathList:
 
     # growth, arbor by arbor
 
-    def _grown(self) -> PathGrowth:
-        limits, problem = self.problem.additions, self.problem
+    def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
+        """Paths through all arbors for which some plan is possible, and by path and plan whether it is."""
         growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
-        order = sorted(range(len(self.passes)), key=lambda at: -len(self.passes[at]))
-        debts = len(problem.dials) - 1 if problem.use == "wheels" else None
-        for number, at in enumerate(order):
-            growth = self._with_arbor(growth, at)
-            later = {prime for each in order[number + 1 :] for prime in self._primes_of(each)}
-            closed = [column for column, prime in enumerate(self._primes) if prime not in later]
-            growth = growth.kept(growth.may_stand(closed, self._lost, limits.wheels, debts))
-        if self.dial.place not in (None, NEW):
-            growth = growth.kept(growth.ended)
-        return growth
+        order = tuple(sorted(range(len(self.passes)), key=lambda at: -len(self.passes[at])))
+        self._looked_at = 0
+        found = []
+        for piece in self._grown(growth, order):
+            if self.dial.place not in (None, NEW):
+                piece = piece.kept(piece.ended)
+            possible = self._possible(piece, plans)
+            some = possible.any(axis=1)
+            found.append((piece.kept(some), possible[some]))
+        if not found:
+            none = np.zeros(1, dtype=bool)
+            return growth.kept(none), np.zeros((0, len(plans)), dtype=bool)
+        return PathGrowth.joined([piece for piece, _ in found]), np.concatenate([possible for _, possible in found])
+
+    def _grown(self, growth: PathGrowth, order: tuple[int, ...]) -> Iterator[PathGrowth]:
+        """Paths through some more arbors, in pieces that fit into memory."""
+        if not order:
+            yield growth
+            return
+        growth = self._with_arbor(growth, order[0])
+        later = {prime for each in order[1:] for prime in self._primes_of(each)}
+        closed = [column for column, prime in enumerate(self._primes) if prime not in later]
+        debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
+        growth = growth.kept(growth.may_stand(closed, self._lost, self.problem.additions.wheels, debts))
+        for start in range(0, len(growth.codes), _PIECE):
+            yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int) -> PathGrowth:
-        number = len(growth.codes) * (len(self.passes[at]) + bool(at))
-        if number > _MOST_PATHS:
-            what = f"{number} paths to '{self.dial.name}' would have to be looked at, and {_MOST_PATHS} can be"
-            fix = "ask with fewer added wheels (-k), narrow counts that are in doubt, or leave out arbors"
-            raise QuestionError(Problem(what, "each count in doubt multiplies them", fix))
         parts = [growth] if at else []
         for code, each in enumerate(self.passes[at], 1):
             parts.append(growth.through(at, code, each, *self._step(each)))
+        self._looked_at += sum(len(part.codes) for part in parts)
+        if self._looked_at > _MOST_PATHS:
+            what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
+            fix = "ask with fewer added wheels (-k), narrow counts that are in doubt, or leave out arbors"
+            raise QuestionError(Problem(what, "each count in doubt multiplies them", fix))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:

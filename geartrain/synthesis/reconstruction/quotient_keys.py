@@ -20,7 +20,7 @@ _LONGEST = 3_000_000
 """Quotients in a table; where there would be more, every number is taken for one."""
 
 
-_SCARCE = 20_000
+_SCARCE = 500
 """Keys for which a table of quotients of three wheels is not worth being made."""
 _FEW = 2
 """Added wheels whose quotients are all listed."""
@@ -73,6 +73,17 @@ class QuotientKeys:
             return np.ones(keys.shape, dtype=bool)
         return _are_in(self._few(wheels), keys)
 
+    def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Which keys have a partner among others to which their quotient needs so many added wheels or fewer."""
+        short = min(len(keys), len(others))
+        if wheels > _FEW or not short or short * len(self._few(wheels)) > 2 * _LONGEST:
+            return np.full(keys.shape, bool(short)), np.full(others.shape, bool(short))
+        if len(keys) > len(others):
+            more, some = self.agreeing(others, keys, wheels)
+            return some, more
+        reached = np.add.outer(keys, self._few(wheels))  # with a quotient its inverse is one
+        return np.asarray(_are_in(np.unique(others), reached).any(axis=1)), _are_in(np.unique(reached), others)
+
     def _few(self, wheels: int) -> Keys:
         if wheels not in self._fewer:
             tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
@@ -98,6 +109,8 @@ class QuotientKeys:
 
 
 def _are_in(table: Keys, keys: Keys) -> NDArray[np.bool_]:
+    if not len(table):
+        return np.zeros(keys.shape, dtype=bool)
     at = np.searchsorted(table, keys)
     at[at == len(table)] = 0
     return np.asarray(table[at] == keys)

@@ -40,7 +40,7 @@ class SurvivingArbor:
 
 
 @dataclass(frozen=True)
-class Dial:
+class SearchedDial:
     """A pointer and the speed that it must have.
 
     least, greatest   bounds of its speed, equal where it must be exact
@@ -97,7 +97,7 @@ class ReconstructionProblem:
 
     input: SurvivingArbor
     arbors: tuple[SurvivingArbor, ...]
-    dials: tuple[Dial, ...]
+    dials: tuple[SearchedDial, ...]
     additions: Additions
     input_speed: Fraction = Fraction(1)
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)

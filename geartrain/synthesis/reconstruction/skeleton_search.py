@@ -53,7 +53,7 @@ class SkeletonSearch:
         dials = tuple(sorted(self.paths.lists))
         new = self.problem.additions.arbors
         left = Left((1 << len(self.problem.arbors)) - 1, added, _ENDLESS if new is None else new)
-        lists = self.paths.viable(dials, self.paths.whole(), Above(), left)
+        lists = self.paths.viable(dials, self.paths.whole(added), Above(), left)
         if lists is None:
             return
         for root, after in self._survivor_joint(0, dials, lists, Above(first=True), left, None):

@@ -203,7 +203,7 @@ def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
 def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     """The command takes whatever finds reconstructions at its word."""
 
-    def grown(problem: ReconstructionProblem) -> Reconstructions:
+    def grown(problem: ReconstructionProblem, *_: object) -> Reconstructions:
         found = explanations(problem)
         trees = [(each.counts.added, tree) for each in found for tree in sorted(each.mechanisms)]
         listed = tuple(Candidate(package_arbor(tree), added, 1 / len(trees)) for added, tree in trees)

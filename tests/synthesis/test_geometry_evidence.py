@@ -298,8 +298,8 @@ def test_pairs_kept_apart_lose_no_possible_candidate() -> None:
         )
         apart = problem.apart | frozenset(find_unreachable(arbors, geometry))
         try:
-            every = find_reconstructions(problem).candidates
-            fewer = find_reconstructions(replace(problem, apart=apart)).candidates
+            every = find_reconstructions(problem, listed=20_000).candidates
+            fewer = find_reconstructions(replace(problem, apart=apart), listed=20_000).candidates
         except QuestionError:
             continue
         able = [one.arbor for one in every if candidate_likelihood(one.arbor, geometry)]
@@ -376,7 +376,7 @@ def test_modules_do_not_single_out_the_train_of_2006() -> None:
     evidence = read_evidence("back-train-modules")
     problem = evidence_question(evidence).problem
     found = {}
-    for candidate in find_reconstructions(problem).candidates:
+    for candidate in find_reconstructions(problem, listed=20_000).candidates:
         mates = {driven: driver for driver, driven in TrainConstruction.of(evidence, candidate.arbor).meshes}
         surviving = frozenset(pair for pair in mates.items() if set(pair) <= evidence.wheels.keys())
         found[surviving] = candidate_likelihood(candidate.arbor, problem.geometry)
@@ -408,7 +408,7 @@ def test_which_train_modules_prefer_hangs_on_how_their_errors_are_spread(spreads
     evidence = read_evidence(text.replace("module: 4.4 %", spreads))
     problem = evidence_question(evidence).problem
     weights = {}
-    for candidate in find_reconstructions(problem).candidates:
+    for candidate in find_reconstructions(problem, listed=20_000).candidates:
         pairs = {pair[::-1] for pair in TrainConstruction.of(evidence, candidate.arbor).meshes}
         at = next(at for at, meshes in enumerate(FOUR) if meshes <= pairs)
         weights[at] = candidate_likelihood(candidate.arbor, problem.geometry)
@@ -423,7 +423,7 @@ def test_places_of_axes_would_single_it_out() -> None:
     text += f"revolutes: [{', '.join(f'{{pair: [frame, {name}], axis: {name}}}' for name in PLACES)}]\n"
     evidence = read_evidence(text)
     problem = evidence_question(evidence).problem
-    (only,) = find_reconstructions(problem).candidates
+    (only,) = find_reconstructions(problem, listed=20_000).candidates
     assert {pair[::-1] for pair in TrainConstruction.of(evidence, only.arbor).meshes} >= FOUR[0]
     assert candidate_likelihood(only.arbor, problem.geometry) > 0
     teeth = {name: wheel.count for name, (_, wheel) in evidence.wheels.items()}

@@ -122,8 +122,16 @@ def gathered(items: Callable[[], Iterable[Any]], limit: float, gigabytes: float)
         process.join()
 
 
+def _addresses() -> int:
+    """Bytes of addresses that this process has; 0 where that cannot be read."""
+    held = Path("/proc/self/statm")
+    return int(held.read_text().split()[0]) * resource.getpagesize() if held.exists() else 0
+
+
 def _gather(pipe: Connection, items: Callable[[], Iterable[Any]], gigabytes: float) -> None:
-    resource.setrlimit(resource.RLIMIT_AS, (int(gigabytes * 1e9),) * 2)
+    # a forked process begins with the addresses of the one that asks, which may be gigabytes that nobody uses
+    most = _addresses() + int(gigabytes * 1e9)
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
     try:
         for item in items():
             pipe.send((False, item))

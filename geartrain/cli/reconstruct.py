@@ -117,6 +117,7 @@ def run(
         tuple(_ranked(declared, listed)),
         None if original is None else rank_of(original, found),
         look_into(declared, question.problem, found, assumptions, counts_only=count),
+        question.base,
     )
     if folder is not None and listed:
         extra = {FAMILY: family_text(report, question.problem)}

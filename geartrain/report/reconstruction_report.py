@@ -18,6 +18,7 @@ from geartrain.report.reconstruction_facts import (
     share_text,
     shared_sections,
 )
+from geartrain.synthesis.reconstruction.base_link import BaseLink
 from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
@@ -82,6 +83,8 @@ class ReconstructionReport(Result):
         First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
     findings : CandidateFindings
         What is told beyond counts.
+    base : BaseLink, optional
+        What bears the arbors, where that is a carrier.
     """
 
     KEYS = ("name", "counts", "complete", "unused", "best", "original", Key("", "findings"))
@@ -94,6 +97,7 @@ class ReconstructionReport(Result):
     best: tuple[RankedTrain, ...]
     original: tuple[int, int] | None = None
     findings: CandidateFindings = NO_FINDINGS
+    base: BaseLink | None = None
 
     @property
     def total(self) -> int:
@@ -157,15 +161,26 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
         (each.name, ", ".join(f"{wheel.name} {_counts(wheel.counts)}" for wheel in each.wheels) or "no wheels")
         for each in (problem.input, *problem.arbors)
     ]
-    yield Section("Surviving arbors", [f"{problem.input.name} is the input."], [Table(("arbor", "wheels"), rows)])
+    yield Section("Surviving arbors", [_begins(found)], [Table(("arbor", "wheels"), rows)])
     pointers = [(dial.name, _speed(dial), _place(dial)) for dial in problem.dials]
-    yield Section("Pointers", (), [Table(("pointer", "speed", "on arbor"), pointers)])
+    base = found.base
+    speed = f"speed seen from {base.name}" if base is not None and base.is_carrier else "speed"
+    yield Section("Pointers", (), [Table(("pointer", speed, "on arbor"), pointers)])
     known = [f"{' and '.join(sorted(pair))} mesh." for pair in sorted(problem.meshes, key=sorted)]
     known += [f"{' and '.join(sorted(pair))} do not mesh." for pair in sorted(problem.apart, key=sorted)]
     if known:
         yield Section("Meshes that are known", known)
     if found.unused:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
+
+
+def _begins(found: ReconstructionReport) -> str:
+    """What drives the train, and what bears it."""
+    base, source = found.base, found.problem.input.name
+    if base is None or not base.is_carrier:
+        return f"{source} is the input."
+    turns, seen = fraction_text(base.speed), fraction_text(base.driven)
+    return f"Arbors turn on {base.name}, a carrier that turns at {turns}. Seen from it, {source} turns at {seen}."
 
 
 def _best(found: ReconstructionReport, turning: int) -> Section:

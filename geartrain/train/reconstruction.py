@@ -144,6 +144,9 @@ class Reconstruction(Declared):
     """
 
     add: AddedParts = Field(AddedParts(), description="What may be added")
+    carrier: Id | None = Field(
+        None, description="The link on which the arbors turn, with its speed among the inputs; default the frame"
+    )
     use: Literal["wheels", "arbors", "some"] = Field(
         "wheels", description="What must be used: every surviving wheel, every surviving arbor, or neither"
     )

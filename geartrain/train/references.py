@@ -287,6 +287,8 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
             "rename the link",
             train.place("links", NEW_ARBOR),
         )
+    if asked.carrier is not None and asked.carrier not in (*train.links, train.frame):
+        yield _unknown(train, "link", asked.carrier, train.links, "reconstruct", "carrier")
     for at, pair in enumerate(asked.apart):
         for wheel in pair:
             if wheel not in train.wheels:

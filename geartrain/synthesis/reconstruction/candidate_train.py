@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.numerics.decimal_text import fraction_text
+from geartrain.synthesis.reconstruction.base_link import BaseLink, find_base
 from geartrain.synthesis.reconstruction.fitted_modules import fit_modules, with_module
 from geartrain.synthesis.reconstruction.geometry_evidence import read_geometry_evidence
 from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, free_name, name_train
@@ -62,7 +63,7 @@ class TrainConstruction:
 
     given    the evidence as plain data
     links, revolutes, gears   those of the candidate, as plain data
-    shown    link and speed of every pointer
+    shown    link and speed of every pointer, as seen from the base
     meshes   ids of wheels, the driving one first
     added    ids of added wheels with their counts
     doubtful ids of surviving wheels that may have several counts, with the one that they have here
@@ -70,6 +71,7 @@ class TrainConstruction:
     """
 
     evidence: Train
+    base: BaseLink
     given: Mapping[str, Any]
     links: dict[str, Any] = field(default_factory=dict)
     revolutes: list[dict[str, Any]] = field(default_factory=list)
@@ -83,7 +85,9 @@ class TrainConstruction:
     @classmethod
     def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
         """All of a candidate."""
-        made = cls(evidence, evidence.model_dump(mode="json", exclude_unset=True, by_alias=True))
+        given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
+        made = cls(evidence, find_base(evidence), given)
+        made._carrier()
         made._add(named_candidate(evidence, arbor))
         made.doubtful = {name: made.doubtful[name] for name in evidence.wheels if name in made.doubtful}
         return made
@@ -91,8 +95,8 @@ class TrainConstruction:
     def _add(self, source: NamedArbor) -> None:
         """All arbors of a candidate."""
         self.modules = fit_modules(source, read_geometry_evidence(self.evidence))
-        self._put(source, self.evidence.case(None).inputs[source.name])
-        speeds = {source.name: self.evidence.case(None).inputs[source.name]}
+        self._put(source, self.base.driven)
+        speeds = {source.name: self.base.driven}
         for driving, wheel, arbor in source.meshes():
             assert arbor.driven is not None
             speeds[arbor.name] = -speeds[driving.name] * wheel.teeth / arbor.driven.teeth
@@ -118,14 +122,29 @@ class TrainConstruction:
         found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, "outputs": outputs}
         return {"axes": axes, **found} if axes else found
 
+    def _carrier(self) -> None:
+        """The carrier, where there is one, turns in the frame."""
+        if self.base.is_carrier:
+            self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
+            self._joint(self.evidence.frame, self.base.name)
+
     def _link(self, arbor: NamedArbor) -> None:
-        frame, joints = self.evidence.frame, self.given.get("revolutes", ())
-        link = arbor.name
-        self.links[link] = {"wheels": {}, "note": ADDED_NOTE} if arbor.added else dict(self.given["links"][link] or {})
-        joint = next((joint for joint in joints if set(joint["pair"]) == {frame, link}), None)
+        link, base = arbor.name, self.base
+        declared = self.given["links"].get(link) or {}
+        self.links[link] = {"wheels": {}, "note": ADDED_NOTE} if arbor.added else dict(declared)
+        if link != base.source or not base.is_carrier:
+            self._joint(base.name, link)
+        elif link != self.evidence.frame:  # driven from outside, about the axis of the carrier
+            self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
+
+    def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
+        """The joint by which a link turns, as declared; else on its bearing, about an axis of its own or the given."""
+        joints = self.given.get("revolutes", ())
+        bearings = {bearing, self.evidence.frame, self.base.name} - {link}
+        joint = next((joint for joint in joints if link in joint["pair"] and bearings & set(joint["pair"])), None)
         if joint is None:
             labels = {joint["axis"] for joint in (*joints, *self.revolutes)} | set(self.evidence.axes)
-            joint = {"pair": [frame, link], "axis": free_name(link, "axis", labels)}
+            joint = {"pair": [bearing, link], "axis": axis or free_name(link, "axis", labels)}
         self.revolutes.append(joint)
 
     def _wheel(self, link: str, wheel: NamedWheel) -> None:
@@ -160,6 +179,7 @@ class TrainConstruction:
     def _output(self, name: str) -> dict[str, Any]:
         link, speed = self.shown[name]
         output = self.evidence.outputs[name]
+        speed += self.base.seen(output.relative_to or self.evidence.frame)
         given = dict(self.given["outputs"][name] or {})
         if output.expect is None or not output.expect.holds(speed):
             given["expect"] = fraction_text(speed)

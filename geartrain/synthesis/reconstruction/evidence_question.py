@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem, first_problems
+from geartrain.synthesis.reconstruction.base_link import BaseLink, base_problems, carrier_axis, find_base
 from geartrain.synthesis.reconstruction.geometry_evidence import (
     read_geometry_evidence,
     refuse_unreachable,
@@ -39,10 +40,12 @@ _MOST_COUNTS = 10_000
 class EvidenceQuestion:
     """The question that evidence asks.
 
+    base     what bears the arbors; speeds of the problem are seen from it
     unused   what is declared and plays no part in the answer, a line each
     """
 
     problem: ReconstructionProblem
+    base: BaseLink
     unused: tuple[str, ...]
 
 
@@ -56,7 +59,10 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     """
     asked = evidence.reconstruct
     assert asked is not None, "no evidence"
-    found = [*_not_taken_up(evidence, asked), *_links(evidence), *_inputs(evidence)]
+    found = [*_not_taken_up(evidence, asked), *_wheels(evidence)]
+    unclear = list(base_problems(evidence))
+    base = None if unclear else find_base(evidence)
+    found += unclear
     if wheels and asked.add.teeth is None:
         fix = "add for example `teeth: [12, 225]`"
         place = evidence.place("reconstruct")
@@ -64,36 +70,37 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     bounds = {}
     for name in evidence.outputs:
         try:
-            bounds[name] = find_bounds(evidence, name, asked.sense == "free")
+            if base is not None:
+                bounds[name] = find_bounds(evidence, name, asked.sense == "free", base)
         except DeclarationError as error:
             found += error.problems
     if not evidence.outputs:
         fix = "add `outputs:`, each with `expect` or a target with its tolerance"
         found.append(Problem("nothing is known of any pointer", "a train explains what pointers show", fix))
-    if found:
+    if found or base is None:
         raise DeclarationError(first_problems(found))
-    source = next(link for link, speed in evidence.case(None).inputs.items() if speed)
     places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
-    arbors = tuple(_arbor(evidence, link) for link in evidence.links if link not in (source, evidence.frame))
+    others = (link for link in evidence.links if link not in (base.source, base.name, evidence.frame))
+    arbors = tuple(_arbor(evidence, link) for link in others)
     geometry = read_geometry_evidence(evidence)
-    unreachable = frozenset(find_unreachable((_arbor(evidence, source), *arbors), geometry))
+    unreachable = frozenset(find_unreachable((_arbor(evidence, base.source), *arbors), geometry))
     refuse_unreachable(evidence, unreachable)
     problem = ReconstructionProblem(
-        input=_arbor(evidence, source),
+        input=_arbor(evidence, base.source),
         arbors=arbors,
         dials=tuple(SearchedDial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
         additions=_additions(asked.add, wheels),
-        input_speed=evidence.case(None).inputs[source],
+        input_speed=base.driven,
         meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
         apart=frozenset(frozenset(pair) for pair in asked.apart) | unreachable,
-        coaxial=frozenset(_coaxial(evidence, geometry)),
+        coaxial=frozenset(_coaxial(evidence, base, geometry)),
         use=asked.use,
         idlers=asked.idlers or idlers,
         factors=PriorFactors(asked.cost.wheel.value, asked.cost.arbor.value, asked.cost.unused.value),
         geometry=geometry,
     )
     unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
-    return EvidenceQuestion(problem, tuple(unused))
+    return EvidenceQuestion(problem, base, tuple(unused))
 
 
 def _additions(add: AddedParts, wheels: int | None) -> Additions:
@@ -102,17 +109,21 @@ def _additions(add: AddedParts, wheels: int | None) -> Additions:
 
 
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:
-    wheels = evidence.links[link].wheels
+    wheels = evidence.links[link].wheels if link in evidence.links else {}  # a frame need not be listed
     return SurvivingArbor(link, tuple(SurvivingWheel(name, _counts(wheel)) for name, wheel in wheels.items()))
 
 
-def _coaxial(evidence: Train, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
+def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
     """Arbors that are declared on one axis, or on axes of one place."""
-    on_axis: dict[str, list[str]] = {}
+    on_axis: dict[str, set[str]] = {}
     for joint in evidence.revolutes:
-        on_axis.setdefault(joint.axis, []).extend(link for link in joint.pair if link != evidence.frame)
+        on_axis.setdefault(joint.axis, set()).update(joint.pair)
+    if base.name != evidence.frame:
+        on_axis.setdefault(carrier_axis(evidence, base.name) or "", set()).add(base.source)
     for links in on_axis.values():
-        yield from map(frozenset, combinations(links, 2))
+        # what bears the others is on none; with a carrier, the frame is where the train begins there
+        links -= {base.name, evidence.frame} - {base.source}
+        yield from map(frozenset, combinations(sorted(links), 2))
     for one, other in combinations(geometry.arbors, 2):
         if one.place == other.place:
             yield frozenset((one.name, other.name))
@@ -147,11 +158,6 @@ def _not_taken_up(evidence: Train, asked: Reconstruction) -> Iterator[Problem]:
         yield _later(evidence, "`given` couplings are not taken up by a reconstruction yet", "reconstruct", "given")
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
         yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
-    for at, joint in enumerate(evidence.revolutes):
-        if evidence.frame not in joint.pair:
-            yield _later(
-                evidence, "an arbor on a moving arbor is not taken up by a reconstruction yet", "revolutes", at
-            )
     for label, axis in evidence.axes.items():
         if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
             yield _later(evidence, "axes that are not parallel are not taken up by a reconstruction yet", "axes", label)
@@ -163,12 +169,7 @@ def _later(evidence: Train, what: str, *loc: str | int) -> Problem:
     )
 
 
-def _links(evidence: Train) -> Iterator[Problem]:
-    frame = evidence.links.get(evidence.frame)
-    if frame is not None and frame.wheels:
-        yield _later(
-            evidence, "a wheel that stands still is not taken up by a reconstruction yet", "links", evidence.frame
-        )
+def _wheels(evidence: Train) -> Iterator[Problem]:
     for link, part in evidence.links.items():
         for name, wheel in part.wheels.items():
             place = ("links", link, "wheels", name)
@@ -190,17 +191,6 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
     if weights and (min(weights) < 0 or not any(weights)):
         fix = "give weights of 0 or more, at least one of them above 0"
         yield Problem("the weights of a count are no weights", "", fix, evidence.place(*place, "teeth", "weights"))
-
-
-def _inputs(evidence: Train) -> Iterator[Problem]:
-    case = evidence.case(None)
-    turning = [link for link, speed in case.inputs.items() if speed]
-    place = evidence.place("inputs")
-    if len(turning) != 1 or len(case.inputs) != 1:
-        what = f"{len(turning)} links are driven" if len(case.inputs) == len(turning) else "an input stands still"
-        yield Problem(what, "a reconstruction has one input that turns", "give one, such as `inputs: {b: 1}`", place)
-    elif not case.exact:
-        yield Problem("the speed of the input is no fraction", "speeds are exact here", "give it in the unit", place)
 
 
 def _unused(evidence: Train) -> Iterator[str]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from geartrain.errors import DeclarationError, Problem
 from geartrain.kinematics.judged_outputs import goal_of
+from geartrain.synthesis.reconstruction.base_link import BaseLink
 from geartrain.train import Output, Train
 
 Limits = tuple[Fraction, Fraction]
@@ -21,16 +22,35 @@ class PointerBounds:
     signed: bool
     unused: tuple[str, ...] = ()
 
+    def allow(self, speed: Fraction) -> bool:
+        """Whether a speed is within them."""
+        return self.limits[0] <= (speed if self.signed else abs(speed)) <= self.limits[1]
 
-def find_bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
-    """Bounds of an output of evidence; with a free sense those of its magnitude. Raises `DeclarationError`."""
+
+def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
+    """Bounds of an output of evidence, seen from the base; with a free sense those of its magnitude.
+
+    Raises `DeclarationError` where there is no one range of speeds.
+    """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
-    if output.relative_to not in (None, evidence.frame):
+    if output.relative_to not in (None, evidence.frame, base.name):
         what = f"'{name}' is seen from '{output.relative_to}', which is not taken up by a reconstruction yet"
-        why = "a pointer of a reconstruction is seen from the frame"
-        raise DeclarationError(Problem(what, why, "give its speed against the frame", place))
+        carrier = "" if base.name == evidence.frame else f" or the carrier '{base.name}'"
+        why = f"a pointer of a reconstruction is seen from the frame{carrier}"
+        raise DeclarationError(Problem(what, why, f"give its speed against the frame{carrier}", place))
     if output.of == evidence.frame:
         raise DeclarationError(Problem(f"'{name}' is on the frame, which does not turn", "", "correct `of`", place))
+    found = _bounds(evidence, name, free_sense)
+    found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
+    if output.of is None and base.source == evidence.frame and found.allow(base.driven):
+        what = f"'{name}' turns as the frame does, and so the frame itself would show it"
+        fix = "name its arbor with `of`, or say `of: new` if that is lost"
+        raise DeclarationError(Problem(what, "its arbor is not known", fix, place))
+    return found
+
+
+def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
+    output, place = evidence.outputs[name], evidence.place("outputs", name)
     known = list(_ranges(evidence, output))
     unused = _unused(name, output)
     if not known:
@@ -45,6 +65,18 @@ def find_bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
     if plain:
         limits = _with_magnitude(limits, _common(plain, name, place), name, place)
     return PointerBounds(limits, True, unused)
+
+
+def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
+    """Bounds for a base that turns so fast."""
+    if not turning:
+        return bounds
+    if not bounds.signed:
+        what = f"the sense of '{name}' is not known, and it is seen from the frame"
+        why = "then it has two speeds, as seen from the carrier"
+        raise DeclarationError(Problem(what, why, "give the sense, or its speed `relative_to` the carrier", place))
+    least, greatest = bounds.limits
+    return replace(bounds, limits=(least - turning, greatest - turning))
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:

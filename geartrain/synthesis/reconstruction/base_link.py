@@ -1,0 +1,183 @@
+"""The link that bears the arbors of a train, and the one at which the train begins: the frame and the input.
+
+Or a carrier of known speed. Seen from it every mesh is one of fixed axes, and the frame turns: so the frame, with the
+wheels that are fixed to it, is where the train begins, or else a link that is driven besides the carrier.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from geartrain.errors import Problem
+from geartrain.train import Train
+
+_ONLY = "seen from its carrier a train begins at one link, which is the frame unless another is driven"
+
+
+@dataclass(frozen=True)
+class BaseLink:
+    """What bears the arbors of a train, and what drives the first of them.
+
+    name     the frame, or a carrier
+    speed    of that link in the frame
+    source   the link at which the train begins
+    driven   speed of that link, as seen from the base
+    """
+
+    name: str
+    speed: Fraction
+    source: str
+    driven: Fraction
+
+    @property
+    def is_carrier(self) -> bool:
+        """Whether it turns."""
+        return bool(self.speed)
+
+    def seen(self, relative_to: str) -> Fraction:
+        """How fast the base turns, seen from a link: itself, or the frame."""
+        return Fraction(0) if relative_to == self.name else self.speed
+
+
+def find_base(evidence: Train) -> BaseLink:
+    """The base of evidence of which `base_problems` has nothing to say."""
+    inputs = evidence.case(None).inputs
+    carrier = _carrier(evidence)
+    if carrier is None:
+        ((source, speed),) = inputs.items()
+        return BaseLink(evidence.frame, Fraction(0), source, speed)
+    source = next((link for link in inputs if link != carrier), evidence.frame)
+    return BaseLink(carrier, inputs[carrier], source, inputs.get(source, Fraction(0)) - inputs[carrier])
+
+
+def base_problems(evidence: Train) -> Iterator[Problem]:
+    """What leaves it open on what the arbors turn and what drives them, or cannot be asked yet."""
+    carrier = _carrier(evidence)
+    if not evidence.case(None).exact:
+        place = evidence.place("inputs")
+        yield Problem("the speed of an input is no fraction", "speeds are exact here", "give it in the unit", place)
+    elif carrier is None:
+        yield from _input(evidence)
+        yield from _on_the_frame(evidence)
+    elif carrier == evidence.frame:
+        why = "arbors turn on the frame where no carrier is named"
+        yield Problem("the frame is no carrier", why, "leave `carrier` out", evidence.place("reconstruct", "carrier"))
+    else:
+        yield from _carrier_speed(evidence, carrier)
+        yield from _carrier_wheels(evidence, carrier)
+        yield from _on_the_carrier(evidence, carrier)
+        yield from _carrier_pointers(evidence, carrier)
+        yield from _not_with_a_carrier(evidence)
+
+
+def _carrier(evidence: Train) -> str | None:
+    return None if evidence.reconstruct is None else evidence.reconstruct.carrier
+
+
+def _input(evidence: Train) -> Iterator[Problem]:
+    inputs = evidence.case(None).inputs
+    turning = [link for link, speed in inputs.items() if speed]
+    if len(turning) != 1 or len(inputs) != 1:
+        what = f"{len(turning)} links are driven" if len(inputs) == len(turning) else "an input stands still"
+        fix = "give one, such as `inputs: {b: 1}`"
+        yield Problem(what, "a reconstruction has one input that turns", fix, evidence.place("inputs"))
+    frame = evidence.links.get(evidence.frame)
+    if frame is not None and frame.wheels:
+        what = "a wheel that stands still meshes with arbors on a carrier alone"
+        fix = "name that link as `carrier`, with its speed as an input, or leave the wheel out"
+        yield Problem(what, "and no carrier is named", fix, evidence.place("links", evidence.frame))
+
+
+def _on_the_frame(evidence: Train) -> Iterator[Problem]:
+    for at, joint in enumerate(evidence.revolutes):
+        if evidence.frame not in joint.pair:
+            what = "an arbor on a moving arbor is not taken up unless that is the `carrier`"
+            fix = "name it as `carrier` with its speed as an input, or leave it out to ask without it"
+            yield Problem(what, "it would change which trains are found", fix, evidence.place("revolutes", at))
+
+
+# with a carrier
+
+
+def _carrier_speed(evidence: Train, carrier: str) -> Iterator[Problem]:
+    inputs = evidence.case(None).inputs
+    place = evidence.place("inputs")
+    others = {link: speed for link, speed in inputs.items() if link != carrier}
+    if carrier not in inputs:
+        what = f"the speed of the carrier '{carrier}' is not given, and one that is to be found is not taken up yet"
+        fix = f"give its speed, such as `inputs: {{{carrier}: 1}}`"
+        yield Problem(what, "dials are seen from the carrier", fix, evidence.place("reconstruct", "carrier"))
+    elif not inputs[carrier]:
+        fix = "leave `carrier` out, or give its speed"
+        yield Problem(f"the carrier '{carrier}' stands still", "then it is a part of the frame", fix, place)
+    if len(others) > 1:
+        fix = "leave one of them out"
+        yield Problem(f"{len(others)} links are driven besides the carrier", _ONLY, fix, place)
+    for link, speed in others.items():
+        frame = evidence.links.get(evidence.frame)
+        if frame is not None and frame.wheels:
+            fix = "leave the wheels of the frame out, or that input"
+            yield Problem(f"'{link}' is driven, and the frame has wheels", _ONLY, fix, place)
+        elif speed == inputs.get(carrier):
+            what = f"'{link}' turns as fast as the carrier"
+            yield Problem(what, "so it drives nothing on it", "correct one of the speeds", place)
+        elif not speed:
+            fix = f"leave '{link}' out, and put its wheels on the frame"
+            yield Problem("an input stands still", _ONLY, fix, place)
+
+
+def _carrier_wheels(evidence: Train, carrier: str) -> Iterator[Problem]:
+    for name in evidence.links[carrier].wheels:
+        what = f"'{name}' is a wheel of the carrier, which meshes with nothing that it carries"
+        why = "seen from the carrier it stands still"
+        fix = "leave it out, or ask of what it drives in evidence of its own"
+        yield Problem(what, why, fix, evidence.place("links", carrier, "wheels", name))
+
+
+def _on_the_carrier(evidence: Train, carrier: str) -> Iterator[Problem]:
+    """Arbors turn on the carrier, or in the frame about the axis of the carrier."""
+    axis = carrier_axis(evidence, carrier)
+    for at, joint in enumerate(evidence.revolutes):
+        place = evidence.place("revolutes", at)
+        if evidence.frame in joint.pair and joint.axis != axis:
+            (link,) = (link for link in joint.pair if link != evidence.frame)
+            what = f"'{link}' turns in the frame, and not about the axis of the carrier"
+            why = "what the carrier carries would pass by its wheels"
+            own = f"[{evidence.frame}, {carrier}]"
+            fix = f"put it on the carrier, `pair: [{carrier}, {link}]`, or on one axis with `{own}`"
+            yield Problem(what, why, fix, place)
+        elif not {evidence.frame, carrier} & set(joint.pair):
+            what = "an arbor on a second moving arbor is not taken up by a reconstruction yet"
+            fix = "put it on the carrier, or leave it out to ask without it"
+            yield Problem(what, "one carrier is", fix, place)
+
+
+def carrier_axis(evidence: Train, carrier: str) -> str | None:
+    """The label of the axis about which the carrier turns, where one is declared."""
+    pair = {evidence.frame, carrier}
+    return next((joint.axis for joint in evidence.revolutes if set(joint.pair) == pair), None)
+
+
+def _carrier_pointers(evidence: Train, carrier: str) -> Iterator[Problem]:
+    for name, output in evidence.outputs.items():
+        if output.of == carrier:
+            fix = "leave it out, or correct `of`"
+            place = evidence.place("outputs", name)
+            yield Problem(f"'{name}' is on the carrier, whose speed is given", "", fix, place)
+
+
+def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
+    asked = evidence.reconstruct
+    assert asked is not None
+    if asked.geometry is not None:
+        what = "`geometry` on a carrier is not taken up by a reconstruction yet"
+        yield _without(evidence, what, "axes on a carrier move", "geometry")
+    if asked.given:
+        what = "`given` couplings on a carrier are not taken up by a reconstruction yet"
+        yield _without(evidence, what, "give the speed before the coupling instead", "given")
+
+
+def _without(evidence: Train, what: str, why: str, key: str) -> Problem:
+    return Problem(what, why, f"leave `{key}` out to ask without it", evidence.place("reconstruct", key))

@@ -1,0 +1,51 @@
+"""Trains on a carrier are those that grow in the frame, and turn there as their dials say by the solver."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+import pytest
+from carried_trees import Node, carried_trains, random_evidence
+from concrete_trees import concrete
+
+from geartrain import load
+from geartrain.synthesis.reconstruction.candidate_train import candidate_text
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.train import declare
+
+
+@cache
+def grown(seed: int) -> list[set[Node]]:
+    return carried_trains(random_evidence(seed))
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_trains_are_those_that_grow_in_the_frame(seed: int) -> None:
+    evidence = random_evidence(seed)
+    expected = grown(seed)
+    found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
+    assert [count.mechanisms for count in found.counts] == [len(trees) for trees in expected]
+    assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
+
+
+def test_most_random_questions_have_answers() -> None:
+    answered = [any(grown(seed)) for seed in range(50)]
+    assert sum(answered) > 25
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_a_candidate_turns_as_its_dials_say(seed: int) -> None:
+    """The solver knows nothing of reconstructions: it finds carriers by itself and solves Willis' equations."""
+    data = random_evidence(seed)
+    evidence = declare(data)
+    found = find_reconstructions(evidence_question(evidence).problem, listed=10)
+    for one in found.candidates[:10]:
+        train = load(candidate_text(evidence, one.arbor, "one"))
+        assert train.mobility.by_rank == 1 + (len(data["inputs"]) - 1)
+        solved = train.solve()
+        assert solved
+        for name, output in data["outputs"].items():
+            assert train.declaration.outputs[name].relative_to == output.get("relative_to")
+            assert solved.outputs[name].speed == Fraction(output["expect"])

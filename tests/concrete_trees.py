@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import itertools
 import random
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -72,7 +73,9 @@ def _by_added(problem: ReconstructionProblem) -> list[frozenset[Node]]:
             if _keeps_rules(tree, problem):
                 added = added_wheels(tree)
                 for teeth in itertools.product(counts, repeat=added):
-                    found[added].update(_with_dials(_filled(tree, iter(teeth)), problem))
+                    filled = _filled(tree, iter(teeth))
+                    if _turns_in_rings(filled, problem):
+                        found[added].update(_with_dials(filled, problem))
         trees = {grown for tree in trees for grown in _grown(tree, problem)}
     return [frozenset(mechanisms) for mechanisms in found]
 
@@ -173,14 +176,32 @@ def meshes(node: Node) -> list[tuple[Wheel, Wheel]]:
     return found
 
 
-def speeds(node: Node, speed: Fraction) -> list[Fraction]:
-    """Speeds of `nodes`, in their order."""
+def speeds(node: Node, speed: Fraction, rings: Collection[str] = ()) -> list[Fraction]:
+    """Speeds of `nodes`, in their order; a mesh with a ring keeps the sense."""
     found = [speed]
     for wheel, children in node[3]:
-        teeth = (node[1] if wheel == DRIVEN else wheel)[1]
+        name, teeth = node[1] if wheel == DRIVEN else wheel
         for child in children:
-            found += speeds(child, -speed * teeth / child[1][1])
+            own, count = child[1]
+            inside = name in rings or own in rings
+            found += speeds(child, speed * teeth / (count if inside else -count), rings)
     return found
+
+
+def rings_of(problem: ReconstructionProblem) -> set[str]:
+    """Names of surviving rings."""
+    return {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if wheel.internal}
+
+
+def _turns_in_rings(tree: Node, problem: ReconstructionProblem) -> bool:
+    """Whether each ring meshes with wheels alone that have fewer teeth."""
+    rings = rings_of(problem)
+    for pair in meshes(tree):
+        inside = [teeth for name, teeth in pair if name not in rings]
+        around = [teeth for name, teeth in pair if name in rings]
+        if len(around) == 2 or (around and inside[0] >= around[0]):
+            return False
+    return True
 
 
 def _keeps_rules(tree: Node, problem: ReconstructionProblem) -> bool:
@@ -204,7 +225,7 @@ def _keeps_rules(tree: Node, problem: ReconstructionProblem) -> bool:
 
 def _with_dials(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
     arbors = nodes(tree)
-    turning = speeds(tree, problem.input_speed)
+    turning = speeds(tree, problem.input_speed, rings_of(problem))
     leaves = {at for at, node in enumerate(arbors) if not node[3]}
     fitting = [
         [at for at, node in enumerate(arbors) if _at_place(node, dial) and _fits(turning[at], dial)]
@@ -412,3 +433,18 @@ def _random_dial(chance: random.Random, arbor: _Grown, speed: Fraction) -> Searc
     if chance.random() < 0.4:
         place = f"A{arbor.number}" if arbor.survives else NEW
     return SearchedDial(f"D{arbor.number}", wanted - slack, wanted + slack, signed, place)
+
+
+def with_rings(problem: ReconstructionProblem, seed: int) -> ReconstructionProblem:
+    """The question with some of its surviving wheels as rings, and senses that one of its explanations may have."""
+    chance = random.Random(seed)
+    arbors = []
+    for arbor in (problem.input, *problem.arbors):
+        wheels = (replace(wheel, internal=chance.random() < 0.6) for wheel in arbor.wheels)
+        arbors.append(SurvivingArbor(arbor.name, tuple(wheels)))
+    turned = tuple(
+        replace(dial, least=-dial.greatest, greatest=-dial.least) if dial.signed and chance.random() < 0.4 else dial
+        for dial in problem.dials
+    )
+    changed = replace(problem, input=arbors[0], arbors=tuple(arbors[1:]), dials=turned)
+    return replace(changed, meshes=frozenset(pair for pair in problem.meshes if not pair <= rings_of(changed)))

@@ -158,7 +158,11 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
     """What was taken as known."""
     problem = found.problem
     rows = [
-        (each.name, ", ".join(f"{wheel.name} {_counts(wheel.counts)}" for wheel in each.wheels) or "no wheels")
+        (
+            each.name,
+            ", ".join(f"{wheel.name} {_counts(wheel.counts)}{' (ring)' * wheel.internal}" for wheel in each.wheels)
+            or "no wheels",
+        )
         for each in (problem.input, *problem.arbors)
     ]
     yield Section("Surviving arbors", [_begins(found)], [Table(("arbor", "wheels"), rows)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from concrete_trees import concrete, exact_dial, explanations, package_arbor, random_problem
+from concrete_trees import concrete, exact_dial, explanations, package_arbor, random_problem, with_rings
 
 from geartrain import GearTrain, load
 from geartrain.synthesis.reconstruction.candidate_train import candidate_data, candidate_text
@@ -158,9 +158,11 @@ def test_an_arbor_that_is_not_used_is_told() -> None:
     assert train.declaration.outputs["p"].expect.value.text == "-1/2"
 
 
+@pytest.mark.parametrize("rings", [False, True])
 @pytest.mark.parametrize("seed", range(30))
-def test_every_explanation_of_a_small_question_is_a_train(seed: int) -> None:
+def test_every_explanation_of_a_small_question_is_a_train(seed: int, rings: bool) -> None:
     problem = random_problem(seed, idlers=True)
+    problem = with_rings(problem, seed) if rings else problem
     evidence = declared(problem)
     for found in explanations(problem):
         for tree in sorted(found.mechanisms)[:5]:
@@ -186,7 +188,8 @@ def declared(problem: ReconstructionProblem) -> Train:
         for arbor in arbors
     }
     links = {
-        link: {"wheels": {name: {"teeth": part} for name, part in wheels.items()}} for link, wheels in counts.items()
+        link: {"wheels": {name: {"teeth": part, "internal": name in problem.rings} for name, part in wheels.items()}}
+        for link, wheels in counts.items()
     }
     outputs = {}
     for dial in problem.dials:
@@ -222,8 +225,9 @@ def declared(problem: ReconstructionProblem) -> Train:
 
 @pytest.mark.parametrize("seed", range(60))
 def test_a_small_question_is_read_as_it_was_declared(seed: int) -> None:
-    problem = random_problem(seed, idlers=True)
+    problem = with_rings(random_problem(seed, idlers=True), seed)
     found = evidence_question(declared(problem)).problem
+    assert found.rings == problem.rings
     assert found.dials == problem.dials
     assert found.additions == problem.additions
     assert found.coaxial == problem.coaxial

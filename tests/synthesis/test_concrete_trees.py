@@ -1,6 +1,8 @@
 """The plain growth of trees, against which the search of reconstructions is held, gives the known counts of toys."""
 
+from dataclasses import replace
 from fractions import Fraction
+from itertools import product
 
 import pytest
 from concrete_trees import concrete, exact_dial, explanations, random_problem, sure_arbor
@@ -10,7 +12,9 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     Arbor,
     PlacedWheel,
     ReconstructionProblem,
+    SurvivingArbor,
 )
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 
 
 def toy(wheels: dict[str, int], arbor: dict[str, int], dials: dict[str, str], least: int, greatest: int, signed: bool):
@@ -60,6 +64,25 @@ def test_the_one_of_the_first_toy():
     shown = Arbor(None, PlacedWheel(None, 10), ("P",), ())
     between = Arbor("a", PlacedWheel("a1", 30), (), ((PlacedWheel("a2", 15), (shown,)),))
     assert found.mechanisms == {concrete(Arbor("in", None, (), ((PlacedWheel("i", 20), (between,)),)))}
+
+
+def test_a_ring_keeps_the_sense_and_holds_smaller_wheels_alone():
+    """20 > x, y > 24 (a ring), 12 > z or 20 > 24, 12 > x, y > z: both turn by 10 y / (x z), forward."""
+    counts = range(10, 31)
+    ring = SurvivingArbor("a", (replace(sure_arbor("a", R=24).wheels[0], internal=True), *sure_arbor("a", s=12).wheels))
+    question = ReconstructionProblem(
+        sure_arbor("in", i=20), (ring,), (exact_dial("P", "1/2", place="new"),), Additions(3, 10, 30)
+    )
+    fitting = [y for x, y, z in product(counts, repeat=3) if x * z == 20 * y]
+    outside = sum(y < 24 for y in fitting)
+    assert (outside, len(fitting)) == (51, 71)
+    found = [each.counts for each in explanations(question)]
+    assert [each.mechanisms for each in found] == [0, 0, 0, outside + len(fitting)]
+    counted = find_reconstructions(question).counts
+    assert [(each.mechanisms, each.bags, each.classes) for each in counted] == [each[1:] for each in found]
+    back = replace(question, dials=(exact_dial("P", "-1/2", place="new"),))
+    assert [each.counts.mechanisms for each in explanations(back)] == [0, 1, 0, 0]
+    assert [each.mechanisms for each in find_reconstructions(back).counts] == [0, 1, 0, 0]
 
 
 def test_al_biruni_without_the_moon_wheel():

@@ -60,6 +60,12 @@ def test_a_pointer_without_of_may_stand_anywhere_even_if_an_arbor_has_its_name()
     assert ask(changed("{expect", "{of: new, expect")).problem.dials[0].place == "new"
 
 
+def test_a_ring_is_taken_up() -> None:
+    problem = ask(changed("      w: 40", "      w: {teeth: 40, internal: true}")).problem
+    assert problem.rings == {"w"}
+    assert [wheel.internal for wheel in problem.arbors[0].wheels] == [False, True]
+
+
 def test_a_frame_need_not_be_listed() -> None:
     assert ask(changed("  frame: {}\n", "")).problem == ask(SOUND).problem
 
@@ -134,10 +140,12 @@ MISTAKES = {
     "given": (changed("  add:", "  given: [{pair: [a, b]}]\n  add:"), 12, ["`given` couplings are not taken up"]),
     "given of nothing": (changed("  add:", "  given: [{pair: [a, c]}]\n  add:"), 12, ["no link 'c'"]),
     "a lock": (SOUND + "locks: [[a, b]]\n", 13, ["`locks` is not taken up"]),
-    "a ring": (
-        changed("      w: 40", "      w: {teeth: 40, internal: true}"),
-        7,
-        ["'w' is a ring, which is not taken up"],
+    "a bevel wheel": (changed("      w: 40", "      w: {teeth: 40, kind: bevel}"), 7, ["'w' is a bevel wheel, which"]),
+    "a place beside a ring": (
+        changed("      w: 40", "      w: {teeth: 40, internal: true}")
+        + "  geometry: {}\naxes: {B: {position: [0 mm, 1 mm, 0 mm]}}\nrevolutes: [{pair: [frame, b], axis: B}]\n",
+        14,
+        ["where 'b' stands is not weighed beside the ring 'w'", "leave out the position"],
     ),
     "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving arbor"]),
     "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is seen from 'a'"]),

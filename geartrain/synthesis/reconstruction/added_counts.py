@@ -17,7 +17,7 @@ from geartrain.synthesis.reconstruction.count_products import (
     list_choices,
     quotients,
 )
-from geartrain.synthesis.reconstruction.skeletons import AddedWheels, Dials, Quotients
+from geartrain.synthesis.reconstruction.skeletons import AddedWheels, CountLimit, Dials, Quotients
 
 Group = tuple[Dials, int, int]
 Wanted = tuple[tuple[str, Quotients], ...]
@@ -39,6 +39,25 @@ class AddedCounts:
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
         """How many there are; wheels are told apart."""
         return int(self._count(added.groups, wanted) * self._choices**added.idle)
+
+    def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
+        """The same where some of the wheels have a limit of their own, below the greatest count of all."""
+        if not limits:
+            return self.count(added, wanted)
+        limit, others = limits[0], limits[1:]
+        least, greatest = self.range
+        left = added.without(limit)
+        if not limit.dials:
+            return max(0, limit.most - least + 1) * self.count_limited(left, wanted, others)
+
+        def among(counts: range) -> int:
+            quotients_of = (Fraction(count) if limit.drives else Fraction(1, count) for count in counts)
+            return sum(self.count_limited(left, _divided(wanted, limit.dials, each), others) for each in quotients_of)
+
+        allowed, ruled_out = range(least, limit.most + 1), range(max(least, limit.most + 1), greatest + 1)
+        if len(allowed) <= len(ruled_out):
+            return among(allowed)
+        return self.count_limited(added, wanted, others) - among(ruled_out)
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
         """The assignments themselves, and the counts of wheels that change no speed."""

@@ -8,7 +8,6 @@ others may be together. Each chain is looked at alone: where three meet, more ma
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from itertools import combinations, product
 
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
@@ -40,7 +39,7 @@ def can_close(distance: float, sides: Sides) -> bool:
 def _chains(arbor: Arbor, geometry: SurvivingGeometry) -> list[_Chain] | None:
     """Chains from an arbor down to placed ones; None if one between two placed arbors cannot be closed."""
     by_child: list[list[_Chain]] = []
-    for wheel, child in _driven(arbor):
+    for wheel, child in arbor.driven_arbors():
         below = _chains(child, geometry)
         if below is None:
             return None
@@ -60,14 +59,6 @@ def _closes(start: str, chain: _Chain, geometry: SurvivingGeometry) -> bool:
     square = geometry.square_distance(start, chain[0])
     assert square is not None
     return can_close(math.sqrt(square), chain[1])
-
-
-def _driven(arbor: Arbor) -> Iterator[tuple[PlacedWheel, Arbor]]:
-    for wheel, children in arbor.drives:
-        yield from ((wheel, child) for child in children)
-    for child in arbor.passes:
-        assert arbor.driven is not None
-        yield arbor.driven, child
 
 
 def _side(wheel: PlacedWheel, child: Arbor, geometry: SurvivingGeometry) -> tuple[float, float]:

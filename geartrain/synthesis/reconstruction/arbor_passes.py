@@ -40,6 +40,10 @@ class ArborPass:
         """Whether the wheel that is driven is an added one that has a part in the speed: 0 or 1."""
         return int(self.driven == ADDED and not self.idler)
 
+    def meshes_with(self, rings: frozenset[str]) -> int:
+        """Number of its meshes in which one of some wheels is; an idler is in two."""
+        return sum(wheel is not None and wheel.name in rings for wheel in (self.driven, self.driver))
+
     @property
     def added(self) -> int:
         """Number of added wheels."""

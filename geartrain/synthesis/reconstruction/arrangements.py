@@ -7,41 +7,45 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 
-from geartrain.synthesis.reconstruction.added_counts import Counts
+from geartrain.synthesis.reconstruction.added_counts import AddedCounts, Counts
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.synthesis.reconstruction.ring_meshes import CountTokens, Rings, may_mesh, rings_mesh
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
 _Step = tuple[str | None, ArborPass]
 _COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
 _IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
-_Driving = tuple[str | None, str | None]
-"""An arbor and the wheel on it that drives, by name; None for added ones."""
+_Driving = tuple[str | None, PlacedWheel]
+"""An arbor by name, None for an added one, and the wheel on it that drives."""
 _Pairs = frozenset[frozenset[str]]
 
 
 @dataclass(frozen=True)
 class MeshFacts:
-    """What is known of meshes: pairs of wheels that mesh, that do not, and pairs of arbors that do not."""
+    """What is known of meshes: pairs of wheels that mesh, that do not, pairs of arbors that do not, and rings."""
 
-    meshes: _Pairs
-    apart: _Pairs
-    coaxial: _Pairs
+    meshes: _Pairs = frozenset()
+    apart: _Pairs = frozenset()
+    coaxial: _Pairs = frozenset()
+    rings: Rings = frozenset()
 
     @staticmethod
     def of(problem: ReconstructionProblem) -> MeshFacts:
         """Those of a question."""
-        return MeshFacts(problem.meshes, problem.apart, problem.coaxial)
+        return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
     @property
     def are_any(self) -> bool:
         """Whether anything is known."""
-        return bool(self.meshes or self.apart or self.coaxial)
+        return bool(self.meshes or self.apart or self.coaxial or self.rings)
 
     def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
         """Which meshes that must be, a mesh is; None if it must not be."""
         assert driven is not None
-        if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1], driven.name)) in self.apart:
+        if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
+            return None
+        if not may_mesh(driving[1], driven, self.rings):
             return None
         return frozenset({pair}) & self.meshes if pair is not None else frozenset()
 
@@ -60,11 +64,22 @@ def count_orders(skeleton: Skeleton, facts: MeshFacts) -> int:
     return _orders_below(skeleton.root, facts)[facts.meshes]
 
 
+def count_trains(skeleton: Skeleton, facts: MeshFacts, counts: AddedCounts) -> int:
+    """How many trains it is: orders by choices of counts, which hang on the order where rings limit them."""
+    greatest = counts.range[1]
+    if not any(wheel.name in facts.rings and wheel.teeth <= greatest for wheel in skeleton.used):
+        return count_orders(skeleton, facts) * counts.count(skeleton.added, skeleton.wanted)
+    tokens = CountTokens(skeleton.added)
+    orders = arranged(skeleton, tokens.counts, tokens.idle, facts)
+    limits = Counter(tokens.limits(arbor, facts.rings, greatest) for arbor in orders)
+    return sum(number * counts.count_limited(skeleton.added, skeleton.wanted, some) for some, number in limits.items())
+
+
 def _orders_below(joint: Joint, facts: MeshFacts) -> Counter[_Pairs]:
     """Orders of all that hangs from an arbor, by the meshes among those that must be."""
     found = Counter[_Pairs]({frozenset(): 1})
     for driver, limbs in _hanging(joint):
-        found = _times(found, _orders_of(limbs, (joint.name, driver.name), facts))
+        found = _times(found, _orders_of(limbs, (joint.name, driver), facts))
     return found
 
 
@@ -103,7 +118,7 @@ def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) ->
             return None, driving
         found |= met
         assert each.driver is not None
-        driving = name, each.driver.name
+        driving = name, each.driver
     return found, driving
 
 
@@ -142,12 +157,14 @@ def arranged(skeleton: Skeleton, counts: Counts, idle: tuple[int, ...], facts: M
     for chosen in product(*map(sequences, limbs)):
         orders = {id(limb): steps for limb, steps in zip(limbs, chosen, strict=True)}
         if not facts.are_any or _agrees(skeleton, orders, facts):
-            yield _Assembly(orders, counts, idle).joint(skeleton.root, ())
+            arbor = _Assembly(orders, counts, idle).joint(skeleton.root, ())
+            if rings_mesh(arbor, facts.rings):
+                yield arbor
 
 
 def _agrees(skeleton: Skeleton, orders: dict[int, tuple[_Step, ...]], facts: MeshFacts) -> bool:
     found: _Pairs = frozenset()
-    waiting = [(limb, (skeleton.root.name, driver.name)) for driver, limbs in skeleton.root.drives for limb in limbs]
+    waiting = [(limb, (skeleton.root.name, driver)) for driver, limbs in skeleton.root.drives for limb in limbs]
     while waiting:
         limb, driving = waiting.pop()
         met, last = _met_along(orders[id(limb)], driving, facts)
@@ -160,7 +177,7 @@ def _agrees(skeleton: Skeleton, orders: dict[int, tuple[_Step, ...]], facts: Mes
                 return False
             found |= at_end
             end = limb.end
-            waiting += [(each, (end.name, driver.name)) for driver, limbs in _hanging(end) for each in limbs]
+            waiting += [(each, (end.name, driver)) for driver, limbs in _hanging(end) for each in limbs]
         else:
             waiting += [(each, last) for each in limb.end]
     return found == facts.meshes

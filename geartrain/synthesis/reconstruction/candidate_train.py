@@ -99,10 +99,14 @@ class TrainConstruction:
         speeds = {source.name: self.base.driven}
         for driving, wheel, arbor in source.meshes():
             assert arbor.driven is not None
-            speeds[arbor.name] = -speeds[driving.name] * wheel.teeth / arbor.driven.teeth
+            sense = 1 if self._is_ring(wheel) or self._is_ring(arbor.driven) else -1
+            speeds[arbor.name] = sense * speeds[driving.name] * wheel.teeth / arbor.driven.teeth
             self._put(arbor, speeds[arbor.name])
             self.gears.append(self._gear(wheel.name, arbor.driven.name))
             self.meshes.append((wheel.name, arbor.driven.name))
+
+    def _is_ring(self, wheel: NamedWheel) -> bool:
+        return not wheel.added and self.evidence.wheels[wheel.name][1].internal
 
     def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
         """An arbor with its wheels and pointers."""

@@ -110,7 +110,9 @@ def _additions(add: AddedParts, wheels: int | None) -> Additions:
 
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:
     wheels = evidence.links[link].wheels if link in evidence.links else {}  # a frame need not be listed
-    return SurvivingArbor(link, tuple(SurvivingWheel(name, _counts(wheel)) for name, wheel in wheels.items()))
+    return SurvivingArbor(
+        link, tuple(SurvivingWheel(name, _counts(wheel), wheel.internal) for name, wheel in wheels.items())
+    )
 
 
 def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
@@ -173,9 +175,9 @@ def _wheels(evidence: Train) -> Iterator[Problem]:
     for link, part in evidence.links.items():
         for name, wheel in part.wheels.items():
             place = ("links", link, "wheels", name)
-            if wheel.internal or wheel.kind != "spur":
-                kind = "ring" if wheel.internal else f"{wheel.kind} wheel"
-                yield _later(evidence, f"'{name}' is a {kind}, which is not taken up by a reconstruction yet", *place)
+            if wheel.kind != "spur":
+                what = f"'{name}' is a {wheel.kind} wheel, which is not taken up by a reconstruction yet"
+                yield _later(evidence, what, *place)
             yield from _teeth(evidence, wheel, place)
 
 

@@ -19,7 +19,7 @@ from geartrain.train import Train
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     """What was measured, nothing where the evidence does not ask that it be weighed.
 
-    Raises `DeclarationError` for a module that is not above 0.
+    Raises `DeclarationError` for a module that is not above 0, and for an arbor with a place where there is a ring.
     """
     assert evidence.reconstruct is not None, "no evidence"
     asked = evidence.reconstruct.geometry
@@ -78,7 +78,17 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
         x, y, _ = map(_millimetres, axis.position)
         for link in joint.pair:
             if link != evidence.frame:
+                _refuse_ring(evidence, link, joint.axis)
                 yield PlacedArbor(link, (x, y))
+
+
+def _refuse_ring(evidence: Train, link: str, axis: str) -> None:
+    ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
+    if ring is not None:
+        what = f"where '{link}' stands is not weighed beside the ring '{ring}' yet"
+        why = "a ring and its mate are as far apart as their radii differ, of which the spread of a sum says little"
+        fix = "leave out the position of its axis, or `geometry`"
+        raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 
 
 def _millimetres(length: Quantity) -> Fraction:

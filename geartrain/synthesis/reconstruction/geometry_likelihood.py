@@ -50,18 +50,10 @@ class _Mesh(NamedTuple):
 
 
 def _meshes(arbor: Arbor) -> Iterator[_Mesh]:
-    for wheel, children in _drives(arbor):
-        for child in children:
-            assert child.driven is not None
-            yield _Mesh((arbor.name, _size(wheel)), (child.name, _size(child.driven)))
-            yield from _meshes(child)
-
-
-def _drives(arbor: Arbor) -> Iterator[tuple[PlacedWheel, tuple[Arbor, ...]]]:
-    yield from arbor.drives
-    if arbor.passes:
-        assert arbor.driven is not None
-        yield arbor.driven, arbor.passes
+    for wheel, child in arbor.driven_arbors():
+        assert child.driven is not None
+        yield _Mesh((arbor.name, _size(wheel)), (child.name, _size(child.driven)))
+        yield from _meshes(child)
 
 
 def _size(wheel: PlacedWheel) -> tuple[str | None, int]:
@@ -93,7 +85,7 @@ class _Modules:
         """Of all meshes from an arbor on."""
         # wheels that a driven wheel drives belong to the mesh in which it is driven, and are counted there
         own = sum(self._around(wheel, children).misfit for wheel, children in arbor.drives)
-        return own + sum(self.misfit(child) for _, children in _drives(arbor) for child in children)
+        return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
     def _around(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
         """What a wheel is held by: its own measure, else the wheels that it drives."""

@@ -199,15 +199,23 @@ class PathList:
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
         """By path and plan, whether the plan may be the added arbors on the path."""
         new = ~growth.ended
-        meshes = (growth.codes[:, 1:] > 0).sum(axis=1) + new
+        reversals = (growth.codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(growth.codes)
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, plan in enumerate(plans):
             fits = growth.added + new + plan.wheels <= self.problem.additions.wheels
-            turned = (meshes + plan.compounds + plan.idlers) % 2 == 1
+            turned = (reversals + plan.compounds + plan.idlers) % 2 == 1
             fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
             if self.dial.is_exact:
                 fits &= self._may_be_quotient(growth, plan.compounds, fits)
             found[:, at] = fits
+        return found
+
+    def _ring_meshes(self, codes: NDArray[np.uint16]) -> NDArray[np.int64]:
+        """By path, number of its meshes with a ring: these do not reverse the sense. A ring meshes no ring."""
+        found = np.zeros(len(codes), dtype=np.int64)
+        if self.problem.rings:
+            for at, passes in enumerate(self.passes):
+                found += np.array([0, *(each.meshes_with(self.problem.rings) for each in passes)])[codes[:, at]]
         return found
 
     def _may_turn(self, turned: bool) -> bool:
@@ -240,7 +248,8 @@ class PathList:
 
     def turns(self, row: int) -> bool:
         """Whether a path's dial turns the other way than the input."""
-        return (int(self.arbors[row]).bit_count() + int(self.new[row])) % 2 == 1
+        meshes = int(self.arbors[row]).bit_count() + int(self.new[row])
+        return (meshes - int(self._ring_meshes(self.codes[row : row + 1])[0])) % 2 == 1
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
         """Least and greatest quotient that the added wheels on a path may have."""

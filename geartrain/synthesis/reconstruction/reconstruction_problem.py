@@ -5,8 +5,10 @@ Speeds are turns per unit of the input arbor, exact, positive in one sense. The 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Literal
 
 from geartrain.synthesis.reconstruction.surviving_geometry import NO_GEOMETRY, SurvivingGeometry
@@ -19,11 +21,13 @@ NEW = "new"
 class SurvivingWheel:
     """A wheel that survives: its name and the counts it may have, each with its prior weight.
 
-    counts   teeth and weights, sorted by teeth, no count twice, weights positive; one pair where the count is sure
+    counts    teeth and weights, sorted by teeth, no count twice, weights positive; one pair where the count is sure
+    internal  whether it is a ring: its teeth point inwards
     """
 
     name: str
     counts: tuple[tuple[int, Fraction], ...]
+    internal: bool = False
 
     @property
     def is_sure(self) -> bool:
@@ -108,6 +112,11 @@ class ReconstructionProblem:
     factors: PriorFactors = PriorFactors()
     geometry: SurvivingGeometry = NO_GEOMETRY
 
+    @cached_property
+    def rings(self) -> frozenset[str]:
+        """Names of surviving rings; added wheels are none."""
+        return frozenset(wheel.name for arbor in (self.input, *self.arbors) for wheel in arbor.wheels if wheel.internal)
+
 
 @dataclass(frozen=True)
 class PlacedWheel:
@@ -133,3 +142,11 @@ class Arbor:
     dials: tuple[str, ...]
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
     passes: tuple[Arbor, ...] = ()
+
+    def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
+        """Every arbor that it drives, with the wheel that drives it."""
+        for wheel, children in self.drives:
+            yield from ((wheel, child) for child in children)
+        for child in self.passes:
+            assert self.driven is not None
+            yield self.driven, child

@@ -65,17 +65,18 @@ def find_reconstructions(
 
 def _count(added: int, skeletons: Sequence[CountedSkeleton], problem: ReconstructionProblem) -> ExplanationCount:
     mechanisms = sum(each.mechanisms for each in skeletons)
-    if sum(each.choices for each in skeletons) > _TOLD_APART:
+    # the order of arbors changes neither, but where a ring limits counts in some orders
+    one_order = not problem.rings
+    if sum(each.choices if one_order else each.mechanisms for each in skeletons) > _TOLD_APART:
         return ExplanationCount(added, mechanisms, None, None)
-    # the order of arbors changes neither
-    some = [arbor for each in skeletons for arbor in _trains(each, problem, one_order=True)]
+    some = [arbor for each in skeletons for arbor in _trains(each, problem, one_order)]
     return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
 
 
 def _trains(each: CountedSkeleton, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
     """All trains of a skeleton; or with each choice of counts one, its arbors in any order."""
     limits = problem.additions
-    facts = MeshFacts(frozenset(), frozenset(), frozenset()) if one_order else MeshFacts.of(problem)
+    facts = MeshFacts() if one_order else MeshFacts.of(problem)
     skeleton = each.skeleton
     for counts, idle in AddedCounts(limits.least, limits.greatest).assignments(skeleton.added, skeleton.wanted):
         yield from islice(arranged(skeleton, counts, idle, facts), 1 if one_order else None)
@@ -162,14 +163,8 @@ def _all_weighed(
 
 def _arbors(arbor: Arbor) -> Iterator[Arbor]:
     yield arbor
-    for child in _children(arbor):
+    for _, child in arbor.driven_arbors():
         yield from _arbors(child)
-
-
-def _children(arbor: Arbor) -> Iterator[Arbor]:
-    for _, children in arbor.drives:
-        yield from children
-    yield from arbor.passes
 
 
 def _wheels(arbor: Arbor) -> Iterator[PlacedWheel]:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from geartrain.numerics.work import Execution
 from geartrain.synthesis.reconstruction.added_counts import AddedCounts
-from geartrain.synthesis.reconstruction.arrangements import MeshFacts, count_orders
+from geartrain.synthesis.reconstruction.arrangements import MeshFacts, count_trains
 from geartrain.synthesis.reconstruction.question_digest import question_digest
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
@@ -22,16 +22,11 @@ _PARTS = 24
 
 @dataclass(frozen=True)
 class CountedSkeleton:
-    """A skeleton with its numbers of orders, and of choices of the added wheels' counts; neither is 0."""
+    """A skeleton with its number of choices of the added wheels' counts, and how many trains it is; neither is 0."""
 
     skeleton: Skeleton
-    orders: int
     choices: int
-
-    @property
-    def mechanisms(self) -> int:
-        """How many trains it is."""
-        return self.orders * self.choices
+    mechanisms: int
 
 
 class SkeletonTask(NamedTuple):
@@ -60,7 +55,7 @@ def count_skeletons(
     tasks = skeleton_tasks(problem)
     answers = (execution or Execution()).run(_counted, tasks)
     for task, answer in zip(tasks, answers, strict=True):
-        found = [CountedSkeleton(skeleton_of(plain), orders, choices) for plain, orders, choices in answer]
+        found = [CountedSkeleton(skeleton_of(plain), choices, trains) for plain, choices, trains in answer]
         yield task.added, task.part + 1 == task.parts, found
 
 
@@ -70,8 +65,8 @@ def _counted(task: SkeletonTask) -> list[tuple[Any, int, int]]:
     found = []
     for skeleton in search.skeletons(task.added, task.part, task.parts):
         number = choices.count(skeleton.added, skeleton.wanted)
-        if number and (orders := count_orders(skeleton, facts)):
-            found.append((plain_skeleton(skeleton), orders, number))
+        if number and (trains := count_trains(skeleton, facts, choices)):
+            found.append((plain_skeleton(skeleton), number, trains))
     return found
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import factorial
-from typing import Any
+from typing import Any, NamedTuple
 
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWheel
@@ -143,6 +143,18 @@ Quotients = tuple[Fraction, Fraction]
 """Least and greatest quotient of products of counts, equal where it must be exact."""
 
 
+class CountLimit(NamedTuple):
+    """The most teeth that one added wheel may have.
+
+    dials    whose speed it changes; none for a wheel that changes no speed
+    drives   whether it drives on the way to them
+    """
+
+    dials: Dials
+    drives: bool
+    most: int
+
+
 @dataclass(frozen=True)
 class AddedWheels:
     """How many wheels are added, by the dials whose speed they change.
@@ -153,6 +165,17 @@ class AddedWheels:
 
     groups: tuple[tuple[Dials, int, int], ...]
     idle: int
+
+    def without(self, limit: CountLimit) -> AddedWheels:
+        """All but one of those of a limit."""
+        if not limit.dials:
+            return AddedWheels(self.groups, self.idle - 1)
+        left = [
+            (dials, drivers - limit.drives, driven - (not limit.drives)) if dials == limit.dials else group
+            for group in self.groups
+            for dials, drivers, driven in [group]
+        ]
+        return AddedWheels(tuple(group for group in left if group[1] or group[2]), self.idle)
 
     @property
     def number(self) -> int:

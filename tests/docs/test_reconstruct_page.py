@@ -29,6 +29,7 @@ ANSWERS: dict[str, list[list[int]]] = {
     "games.yaml": [[53, 57]] * 2,  # 5/19 57/60 = 1/4
     "price.yaml": [[64]] * 2,  # 64/36 54/96 16/64 = 1/4
     "price-metonic.yaml": [],
+    "ring.yaml": [[20]],  # 20/24 12/20 = 1/2
     "draconic.yaml": [[22]],  # 75/16 63/22 = 4725/352
 }
 """By file, counts of the added wheels of each train."""

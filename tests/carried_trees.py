@@ -45,10 +45,16 @@ def _grown(tree: Node, evidence: Evidence) -> Iterator[Node]:
     counts = range(least, greatest + 1)
     children: list[Node] = [("", ("", teeth), (), ()) for teeth in counts]
     for link in _survivors(evidence) - here:
-        wheels = evidence["links"][link].get("wheels", {})
+        wheels = _wheels(evidence, link)
         children += [(link, (name, teeth), (), ()) for name, teeth in wheels.items()]
         children += [(link, ("", teeth), (), ()) for teeth in counts if not wheels]
     yield from _beneath(tree, children, evidence, counts)
+
+
+def _wheels(evidence: Evidence, link: str) -> dict[str, int]:
+    """Teeth of the surviving wheels of an arbor, negative on a ring."""
+    given = evidence["links"].get(link, {}).get("wheels", {})
+    return {name: -of["teeth"] if isinstance(of, dict) else of for name, of in given.items()}
 
 
 def _survivors(evidence: Evidence) -> set[str]:
@@ -57,7 +63,7 @@ def _survivors(evidence: Evidence) -> set[str]:
 
 def _beneath(node: Node, children: list[Node], evidence: Evidence, counts: range) -> Iterator[Node]:
     name, driven, dials, drives = node
-    wheels = evidence["links"].get(name, {}).get("wheels", {})
+    wheels = _wheels(evidence, name)
     free = [(wheel, teeth) for wheel, teeth in wheels.items() if (wheel, teeth) != driven]
     free += [("", teeth) for teeth in counts]
     if driven and evidence["reconstruct"]["idlers"]:
@@ -96,7 +102,14 @@ def _allowed(tree: Node, evidence: Evidence) -> bool:
         _added(tree) <= evidence["reconstruct"]["add"]["wheels"]
         and sum(not node[3] for node in _nodes(tree)) <= len(evidence["outputs"])
         and not any(pair <= _on_main_axis(evidence) for pair in joined)
+        and all(max(pair) > 0 and sum(pair) * min(pair) > 0 for pair in _mates(tree) if min(pair) < 0)
     )
+
+
+def _mates(tree: Node) -> list[tuple[int, int]]:
+    """Teeth of each two wheels in mesh."""
+    drives = [(node, wheel, child) for node in _nodes(tree) for wheel, below in node[3] for child in below]
+    return [(node[1][1] if wheel == DRIVEN else wheel[1], child[1][1]) for node, wheel, child in drives]
 
 
 def _on_main_axis(evidence: Evidence) -> set[str]:
@@ -115,7 +128,7 @@ def _complete(tree: Node, evidence: Evidence) -> bool:
 
 
 def frame_speeds(tree: Node, evidence: Evidence) -> list[Fraction]:
-    """Of all arbors, in the frame: z_i (w_i - w_c) + z_j (w_j - w_c) = 0 at every mesh."""
+    """Of all arbors, in the frame: z_i (w_i - w_c) + z_j (w_j - w_c) = 0 at every mesh, z negative on a ring."""
     carrier = Fraction(evidence["inputs"][CARRIER])
 
     def beneath(node: Node, speed: Fraction) -> list[Fraction]:
@@ -152,15 +165,25 @@ def _dialled(tree: Node, evidence: Evidence) -> Iterator[Node]:
 def _shown(node: Node, places: dict[str, int], numbers: Iterator[int]) -> Node:
     own = next(numbers)
     dials = _sorted(tuple(dial for dial, at in places.items() if at == own))
-    drives = tuple((wheel, _sorted(tuple(_shown(one, places, numbers) for one in below))) for wheel, below in node[3])
-    return node[0], node[1], dials, _sorted(drives)
+    drives = tuple(
+        (_plain(wheel), _sorted(tuple(_shown(one, places, numbers) for one in below))) for wheel, below in node[3]
+    )
+    return node[0], _plain(node[1]), dials, _sorted(drives)
+
+
+def _plain(wheel: tuple) -> tuple:
+    return wheel and (wheel[0], abs(wheel[1]))
 
 
 # questions
 
 
-def random_evidence(seed: int) -> Evidence:
-    """A small question that mostly has an answer: a random train on a carrier, of which some wheels are lost."""
+def random_evidence(seed: int, rings: bool = False) -> Evidence:
+    """A small question that mostly has an answer: a random train on a carrier, of which some wheels are lost.
+
+    seed   of the question
+    rings  whether some of the wheels that survive are rings
+    """
     chance = random.Random(seed)
     least = chance.randint(5, 9)
     greatest = least + chance.randint(1, 2)
@@ -184,6 +207,12 @@ def random_evidence(seed: int) -> Evidence:
         links[name] = {"wheels": {f"{name}d": chance.randint(least, greatest)}}
         driven[name] = (wheel, f"{name}d")
         order.append(name)
+        if rings and chance.random() < 0.6:
+            outer, inner = chance.choice(((wheel, f"{name}d"), (f"{name}d", wheel)))
+            arbor = name if outer == f"{name}d" else parent
+            others = [own for driving, own in driven.values() if driving == outer]
+            if all(_count(links, own) > 0 for own in (inner, outer)) and len(others) < 2:
+                links[arbor]["wheels"][outer] = -_count(links, inner) - chance.randint(1, 3)
     teeth = {wheel: count for link in links.values() for wheel, count in link.get("wheels", {}).items()}
     speeds = {source: inputs.get(source, Fraction(0))}
     for name, (wheel, own) in driven.items():
@@ -192,9 +221,14 @@ def random_evidence(seed: int) -> Evidence:
     leaves = [name for name in order[1:] if len(links[name]["wheels"]) == 1]
     lost, left = set(), 2
     for name in chance.sample(order[1:], len(order) - 1):
-        if len(links[name]["wheels"]) <= left and chance.random() < 0.7:
+        if min(links[name]["wheels"].values()) > 0 and len(links[name]["wheels"]) <= left and chance.random() < 0.7:
             lost.add(name)
             left -= len(links[name]["wheels"])
+    for link in links.values():
+        turned = {
+            wheel: {"teeth": -count, "internal": True} for wheel, count in link.get("wheels", {}).items() if count < 0
+        }
+        link.setdefault("wheels", {}).update(turned)
     if left >= len(links[source]["wheels"]) and chance.random() < 0.4:
         links[source] = {}
     outputs = {
@@ -215,11 +249,15 @@ def random_evidence(seed: int) -> Evidence:
         "outputs": outputs,
         "reconstruct": {
             "carrier": CARRIER,
-            "add": {"wheels": 2, "teeth": [least, greatest]},
+            "add": {"wheels": max(1, 2 - left) if rings else 2, "teeth": [least, greatest]},
             "use": chance.choice(("wheels", "wheels", "arbors", "some")),
             "idlers": chance.random() < 0.4,
         },
     }
+
+
+def _count(links: dict[str, Any], wheel: str) -> int:
+    return next(link["wheels"][wheel] for link in links.values() if wheel in link.get("wheels", {}))
 
 
 def _random_output(

@@ -17,28 +17,31 @@ from geartrain.train import declare
 
 
 @cache
-def grown(seed: int) -> list[set[Node]]:
-    return carried_trains(random_evidence(seed))
+def grown(seed: int, rings: bool = False) -> list[set[Node]]:
+    return carried_trains(random_evidence(seed, rings))
 
 
+@pytest.mark.parametrize("rings", [False, True])
 @pytest.mark.parametrize("seed", range(200))
-def test_trains_are_those_that_grow_in_the_frame(seed: int) -> None:
-    evidence = random_evidence(seed)
-    expected = grown(seed)
+def test_trains_are_those_that_grow_in_the_frame(seed: int, rings: bool) -> None:
+    evidence = random_evidence(seed, rings)
+    expected = grown(seed, rings)
     found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
     assert [count.mechanisms for count in found.counts] == [len(trees) for trees in expected]
     assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
 
 
-def test_most_random_questions_have_answers() -> None:
-    answered = [any(grown(seed)) for seed in range(50)]
+@pytest.mark.parametrize("rings", [False, True])
+def test_most_random_questions_have_answers(rings: bool) -> None:
+    answered = [any(grown(seed, rings)) for seed in range(50)]
     assert sum(answered) > 25
 
 
+@pytest.mark.parametrize("rings", [False, True])
 @pytest.mark.parametrize("seed", range(60))
-def test_a_candidate_turns_as_its_dials_say(seed: int) -> None:
+def test_a_candidate_turns_as_its_dials_say(seed: int, rings: bool) -> None:
     """The solver knows nothing of reconstructions: it finds carriers by itself and solves Willis' equations."""
-    data = random_evidence(seed)
+    data = random_evidence(seed, rings)
     evidence = declare(data)
     found = find_reconstructions(evidence_question(evidence).problem, listed=10)
     for one in found.candidates[:10]:

@@ -118,6 +118,7 @@ def run(
         None if original is None else rank_of(original, found),
         look_into(declared, question.problem, found, assumptions, counts_only=count),
         question.base,
+        question.joined,
     )
     if folder is not None and listed:
         extra = {FAMILY: family_text(report, question.problem)}

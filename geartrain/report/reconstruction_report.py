@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from geartrain.numerics.decimal_text import fraction_text
@@ -20,6 +20,7 @@ from geartrain.report.reconstruction_facts import (
 )
 from geartrain.synthesis.reconstruction.base_link import BaseLink
 from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
+from geartrain.synthesis.reconstruction.joined_arbors import Joined
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
 
@@ -85,6 +86,8 @@ class ReconstructionReport(Result):
         What is told beyond counts.
     base : BaseLink, optional
         What bears the arbors, where that is a carrier.
+    joined : dict of str to tuple of str
+        Links that given couplings join, by the arbor that stands for them.
     """
 
     KEYS = ("name", "counts", "complete", "unused", "best", "original", Key("", "findings"))
@@ -98,6 +101,7 @@ class ReconstructionReport(Result):
     original: tuple[int, int] | None = None
     findings: CandidateFindings = NO_FINDINGS
     base: BaseLink | None = None
+    joined: Joined = field(default_factory=dict)
 
     @property
     def total(self) -> int:
@@ -159,13 +163,14 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
     problem = found.problem
     rows = [
         (
-            each.name,
+            " and ".join(found.joined.get(each.name, (each.name,))),
             ", ".join(f"{wheel.name} {_counts(wheel.counts)}{' (ring)' * wheel.internal}" for wheel in each.wheels)
             or "no wheels",
         )
         for each in (problem.input, *problem.arbors)
     ]
-    yield Section("Surviving arbors", [_begins(found)], [Table(("arbor", "wheels"), rows)])
+    couplings = [f"{' and '.join(links)} turn as one: a pin in a slot joins them." for links in found.joined.values()]
+    yield Section("Surviving arbors", [_begins(found), *couplings], [Table(("arbor", "wheels"), rows)])
     pointers = [(dial.name, _speed(dial), _place(dial)) for dial in problem.dials]
     base = found.base
     speed = f"speed seen from {base.name}" if base is not None and base.is_carrier else "speed"

@@ -70,14 +70,14 @@ class AddedParts(Declared):
 
 
 class GivenCoupling(Declared):
-    """A coupling of two surviving links that is taken as it is.
+    """A coupling of two surviving links that is taken as it is: on average they turn alike, in the same sense.
 
     See Also
     --------
     Reconstruction : holds them as `given`
     """
 
-    pair: tuple[Id, Id] = Field(description="The two links")
+    pair: tuple[Id, Id] = Field(description="The two links, that of the pin first")
     kind: Literal["pin_and_slot"] = Field("pin_and_slot", description="A pin in a slot: a mean ratio of 1")
 
 

@@ -21,6 +21,7 @@ from geartrain.train.declaration_files import read_evidence
 COUNTS = [
     ("metonic-l-m", [(0, 0, 0, 0), (1, 2, 1, 1)]),
     ("moon-c-e", [(0, 0, 0, 0), (1, 0, 0, 0), (2, 2, 1, 1)]),
+    ("moon-pin-and-slot", [(0, 0, 0, 0), (1, 0, 0, 0), (2, 2, 1, 1)]),
     ("al-biruni-without-moon", [(0, 0, 0, 0), (1, 2, 2, 2)]),
     ("al-biruni-without-transfer", [(0, 0, 0, 0), (1, 0, 0, 0), (2, 3, 3, 2)]),
     ("isfahan-without-double", [(0, 0, 0, 0), (1, 0, 0, 0), (2, 4, 4, 4)]),

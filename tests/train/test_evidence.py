@@ -137,7 +137,7 @@ MISTAKES = {
     "no such arbor": (changed("{expect", "{of: bb, expect"), 10, ["no link 'bb'", "did you mean 'b'?"]),
     "a link called new": (changed("  b:\n", "  new:\n"), 4, ["a surviving link is called 'new'"]),
     "no such factor": (changed("  add:", "  cost: {wheel: 0}\n  add:"), 12, ["0 is not above 0"]),
-    "given": (changed("  add:", "  given: [{pair: [a, b]}]\n  add:"), 12, ["`given` couplings are not taken up"]),
+    "given to the frame": (changed("  add:", "  given: [{pair: [a, frame]}]\n  add:"), 12, ["hold an arbor still"]),
     "given of nothing": (changed("  add:", "  given: [{pair: [a, c]}]\n  add:"), 12, ["no link 'c'"]),
     "a lock": (SOUND + "locks: [[a, b]]\n", 13, ["`locks` is not taken up"]),
     "a bevel wheel": (changed("      w: 40", "      w: {teeth: 40, kind: bevel}"), 7, ["'w' is a bevel wheel, which"]),
@@ -255,7 +255,10 @@ def test_a_whole_file_of_evidence() -> None:
     assert len(found.unused) == 2
 
 
-def test_what_is_given_is_refused_by_name_and_not_passed_over() -> None:
-    text = BACK_TRAIN + "  given: [{pair: [f, g], kind: pin_and_slot}]\n"
-    with pytest.raises(GearTrainError, match="`given` couplings are not taken up"):
-        ask(text)
+def test_what_is_given_joins_arbors() -> None:
+    found = ask(BACK_TRAIN + "  given: [{pair: [f, g], kind: pin_and_slot}]\n")
+    assert found.joined == {"f": ("f", "g")}
+    assert [[wheel.name for wheel in arbor.wheels] for arbor in found.problem.arbors if arbor.name in "fg"] == [
+        ["f1", "f2", "g1"]
+    ]
+    assert found.problem.dials[1].place == "f"

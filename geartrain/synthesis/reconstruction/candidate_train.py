@@ -14,6 +14,7 @@ from geartrain.numerics.decimal_text import fraction_text
 from geartrain.synthesis.reconstruction.base_link import BaseLink, find_base
 from geartrain.synthesis.reconstruction.fitted_modules import fit_modules, with_module
 from geartrain.synthesis.reconstruction.geometry_evidence import read_geometry_evidence
+from geartrain.synthesis.reconstruction.joined_arbors import joined_arbors
 from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, free_name, name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
 from geartrain.train import Train, declare
@@ -62,7 +63,7 @@ class TrainConstruction:
     """A declaration that is put together arbor by arbor.
 
     given    the evidence as plain data
-    links, revolutes, gears   those of the candidate, as plain data
+    links, revolutes, gears, couplings   those of the candidate, as plain data
     shown    link and speed of every pointer, as seen from the base
     meshes   ids of wheels, the driving one first
     added    ids of added wheels with their counts
@@ -76,6 +77,7 @@ class TrainConstruction:
     links: dict[str, Any] = field(default_factory=dict)
     revolutes: list[dict[str, Any]] = field(default_factory=list)
     gears: list[dict[str, Any]] = field(default_factory=list)
+    couplings: list[dict[str, Any]] = field(default_factory=list)
     shown: dict[str, tuple[str, Fraction]] = field(default_factory=dict)
     meshes: list[tuple[str, str]] = field(default_factory=list)
     added: dict[str, int] = field(default_factory=dict)
@@ -109,11 +111,23 @@ class TrainConstruction:
         return not wheel.added and self.evidence.wheels[wheel.name][1].internal
 
     def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
-        """An arbor with its wheels and pointers."""
-        self._link(arbor)
+        """An arbor with its wheels and pointers, or those that given couplings join to one."""
+        links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
+        for link in links:
+            self._link(link, arbor.added)
+        self._couple(links)
         for wheel in arbor.wheels():
-            self._wheel(arbor.name, wheel)
-        self.shown.update(dict.fromkeys(arbor.dials, (arbor.name, speed)))
+            self._wheel(arbor.name if wheel.added else self.evidence.wheels[wheel.name][0], wheel)
+        for dial in arbor.dials:
+            of = self.evidence.outputs[dial].of
+            self.shown[dial] = (of if of in links else links[0], speed)
+
+    def _couple(self, links: tuple[str, ...]) -> None:
+        asked = self.evidence.reconstruct
+        for coupling in () if asked is None else asked.given:
+            if coupling.pair[0] in links:
+                pin, slot = coupling.pair
+                self.couplings.append({"kind": coupling.kind, "pin": pin, "slot": slot})
 
     def parts(self) -> dict[str, Any]:
         """What differs from the evidence."""
@@ -123,7 +137,8 @@ class TrainConstruction:
         labels = {joint["axis"] for joint in self.revolutes}
         axes = {label: axis for label, axis in self.given.get("axes", {}).items() if label in labels}
         outputs = {name: self._output(name) for name in self.evidence.outputs}
-        found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, "outputs": outputs}
+        couplings = {"couplings": self.couplings} if self.couplings else {}
+        found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, **couplings, "outputs": outputs}
         return {"axes": axes, **found} if axes else found
 
     def _carrier(self) -> None:
@@ -132,10 +147,10 @@ class TrainConstruction:
             self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
             self._joint(self.evidence.frame, self.base.name)
 
-    def _link(self, arbor: NamedArbor) -> None:
-        link, base = arbor.name, self.base
+    def _link(self, link: str, added: bool) -> None:
+        base = self.base
         declared = self.given["links"].get(link) or {}
-        self.links[link] = {"wheels": {}, "note": ADDED_NOTE} if arbor.added else dict(declared)
+        self.links[link] = {"wheels": {}, "note": ADDED_NOTE} if added else dict(declared)
         if link != base.source or not base.is_carrier:
             self._joint(base.name, link)
         elif link != self.evidence.frame:  # driven from outside, about the axis of the carrier

@@ -14,6 +14,13 @@ from geartrain.synthesis.reconstruction.geometry_evidence import (
     refuse_unreachable,
     unweighed_geometry,
 )
+from geartrain.synthesis.reconstruction.joined_arbors import (
+    Joined,
+    coupling_problems,
+    join_arbors,
+    joined_arbors,
+    parted_problems,
+)
 from geartrain.synthesis.reconstruction.pointer_bounds import find_bounds
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
@@ -27,7 +34,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
 from geartrain.synthesis.reconstruction.surviving_geometry import SurvivingGeometry
 from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachable
 from geartrain.train import Teeth, Train, Wheel
-from geartrain.train.reconstruction import NEW_ARBOR, AddedParts, Reconstruction
+from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
 
 _NOT_TAKEN_UP = ("couplings", "fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
 """Keys of a train that change what turns, or need arbors that a candidate may not have."""
@@ -41,11 +48,13 @@ class EvidenceQuestion:
     """The question that evidence asks.
 
     base     what bears the arbors; speeds of the problem are seen from it
+    joined   links that given couplings join, by the arbor that stands for them
     unused   what is declared and plays no part in the answer, a line each
     """
 
     problem: ReconstructionProblem
     base: BaseLink
+    joined: Joined
     unused: tuple[str, ...]
 
 
@@ -59,7 +68,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     """
     asked = evidence.reconstruct
     assert asked is not None, "no evidence"
-    found = [*_not_taken_up(evidence, asked), *_wheels(evidence)]
+    found = [*_not_taken_up(evidence), *coupling_problems(evidence), *_wheels(evidence)]
     unclear = list(base_problems(evidence))
     base = None if unclear else find_base(evidence)
     found += unclear
@@ -100,7 +109,10 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         geometry=geometry,
     )
     unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
-    return EvidenceQuestion(problem, base, tuple(unused))
+    joined = joined_arbors(evidence)
+    if parted := list(parted_problems(evidence, problem, joined)):
+        raise DeclarationError(first_problems(parted))
+    return EvidenceQuestion(join_arbors(problem, joined), base, joined, tuple(unused))
 
 
 def _additions(add: AddedParts, wheels: int | None) -> Additions:
@@ -152,12 +164,10 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
 # what cannot be asked
 
 
-def _not_taken_up(evidence: Train, asked: Reconstruction) -> Iterator[Problem]:
+def _not_taken_up(evidence: Train) -> Iterator[Problem]:
     for key in _NOT_TAKEN_UP:
         if getattr(evidence, key):
             yield _later(evidence, f"`{key}` is not taken up by a reconstruction yet", key)
-    if asked.given:
-        yield _later(evidence, "`given` couplings are not taken up by a reconstruction yet", "reconstruct", "given")
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
         yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
     for label, axis in evidence.axes.items():

@@ -31,6 +31,7 @@ ANSWERS: dict[str, list[list[int]]] = {
     "price-metonic.yaml": [],
     "ring.yaml": [[20]],  # 20/24 12/20 = 1/2
     "draconic.yaml": [[22]],  # 75/16 63/22 = 4725/352
+    "nodes.yaml": [[31 * times, 32 * times] for times in range(1, 8)],  # 49/31 32/48 = 98/93 = 1 + 5/93
 }
 """By file, counts of the added wheels of each train."""
 

@@ -14,6 +14,7 @@ from geartrain.synthesis.reconstruction.candidate_train import candidate_text
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.train import declare
+from geartrain.train.declaration_files import read_evidence
 
 
 @cache
@@ -52,3 +53,38 @@ def test_a_candidate_turns_as_its_dials_say(seed: int, rings: bool) -> None:
         for name, output in data["outputs"].items():
             assert train.declaration.outputs[name].relative_to == output.get("relative_to")
             assert solved.outputs[name].speed == Fraction(output["expect"])
+
+
+MARS = """\
+name: mars
+links:
+  frame: {wheels: {x56: 56}}
+  b: {}
+  cp64: {wheels: {cp64: 64, cp38: 38}}
+  ma71: {wheels: {ma71: 71}}
+  ma80s: {wheels: {ma80s: 80}}
+  mars: {wheels: {ma80o: 80}}
+revolutes: [{pair: [frame, b], axis: B}, {pair: [frame, mars], axis: B}]
+inputs: {b: 1}
+outputs:
+  mars: {of: mars, expect: 151/284}
+  anomaly: {of: ma71, relative_to: b, expect: 133/284}
+reconstruct:
+  carrier: b
+  given: [{pair: [ma71, ma80s]}]
+  idlers: true
+  add: {wheels: 1, teeth: [12, 100]}
+"""
+
+
+def test_a_pin_in_a_slot_on_the_carrier() -> None:
+    """Mars of 2021 without its idler: one of 89 counts, before the arbor cp64 or behind it."""
+    evidence = read_evidence(MARS)
+    found = find_reconstructions(evidence_question(evidence).problem, listed=1000)
+    assert [count.mechanisms for count in found.counts] == [0, 2 * 89]
+    for one in found.candidates[::20]:
+        train = load(candidate_text(evidence, one.arbor, "one"))
+        assert train.mobility.by_rank == 1
+        solved = train.solve()
+        assert solved
+        assert (solved["mars"], solved["ma80s"]) == (Fraction(151, 284), Fraction(417, 284))

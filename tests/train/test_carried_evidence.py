@@ -97,7 +97,12 @@ MISTAKES = {
     ),
     "as the frame": (changed("of: n, expect: -5/93", "expect: 0"), 9, "'nodes' turns as the frame does"),
     "geometry": (changed("  carrier", "  geometry: {}\n  carrier"), 12, "`geometry` on a carrier"),
-    "given": (changed("  carrier", "  given: [{pair: [p, n]}]\n  carrier"), 12, "`given` couplings"),
+    "given": (
+        changed("  carrier", "  given: [{pair: [p, n]}]\n  carrier"),
+        12,
+        "'n' turns in the frame, and a coupling",
+    ),
+    "given of the frame": (changed("  carrier", "  given: [{pair: [p, frame]}]\n  carrier"), 12, "hold an arbor still"),
     "no carrier": (changed("  carrier: b\n", ""), 2, "a wheel that stands still"),
 }
 

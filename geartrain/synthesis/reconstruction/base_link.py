@@ -173,11 +173,5 @@ def _not_with_a_carrier(evidence: Train) -> Iterator[Problem]:
     assert asked is not None
     if asked.geometry is not None:
         what = "`geometry` on a carrier is not taken up by a reconstruction yet"
-        yield _without(evidence, what, "axes on a carrier move", "geometry")
-    if asked.given:
-        what = "`given` couplings on a carrier are not taken up by a reconstruction yet"
-        yield _without(evidence, what, "give the speed before the coupling instead", "given")
-
-
-def _without(evidence: Train, what: str, why: str, key: str) -> Problem:
-    return Problem(what, why, f"leave `{key}` out to ask without it", evidence.place("reconstruct", key))
+        fix = "leave `geometry` out to ask without it"
+        yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))

@@ -86,18 +86,27 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
 
 
 def _carried(evidence: Train, pair: tuple[str, str], at: int) -> Iterator[Problem]:
+    """Joined arbors turn on what bears all: the frame, or the carrier."""
+    assert evidence.reconstruct is not None, "no evidence"
+    base = evidence.reconstruct.carrier or evidence.frame
+    place = evidence.place("reconstruct", "given", at)
     for link in pair:
-        carrier = next(
-            (other for joint in evidence.revolutes if link in joint.pair for other in joint.pair if other != link),
-            evidence.frame,
+        bearing = next(
+            (other for joint in evidence.revolutes if link in joint.pair for other in joint.pair if other != link), base
         )
-        if carrier not in (evidence.frame, link):
-            what = f"'{link}' turns on '{carrier}', and a coupling over a carrier is not taken up by a reconstruction"
+        if bearing in (base, link):
+            continue
+        if bearing == evidence.frame:
+            what = f"'{link}' turns in the frame, and a coupling on the carrier '{base}' joins arbors on it"
+            fix = f"put both on the carrier, `pair: [{base}, {link}]`"
+            yield Problem(what, "else the pin would leave its slot", fix, place)
+        else:
+            what = f"'{link}' turns on '{bearing}', and a coupling over a carrier is not taken up by a reconstruction"
             why = f"how fast '{link}' turns hangs on its carrier"
             fix = (
-                f"give the arbors before and behind '{carrier}' as the pair, which turn alike, without what it carries"
+                f"give the arbors before and behind '{bearing}' as the pair, which turn alike, without what it carries"
             )
-            yield Problem(what, why, fix, evidence.place("reconstruct", "given", at))
+            yield Problem(what, why, fix, place)
 
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:

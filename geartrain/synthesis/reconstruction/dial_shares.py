@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import combinations, product
-from typing import NamedTuple
 
 from geartrain.synthesis.reconstruction.arbor_passes import ArborPass
-from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWheel
 from geartrain.synthesis.reconstruction.skeletons import Dials
 
 HERE = "="
@@ -15,48 +13,22 @@ IDLER = "~"
 BESIDE = "+"
 """Ways on from an arbor, beside the names of its surviving wheels: its own dial, its driven wheel, an added one."""
 
-
-class JointPlace(NamedTuple):
-    """An arbor at which paths part: its number, -1 for an added one, its name, and the wheel that is driven.
-
-    ways   by dial and way on, the codes of the paths that take it
-    """
-
-    at: int
-    name: str | None
-    driven: PlacedWheel | None
-    ways: dict[str, dict[str, list[int]]]
-
-
 Block = tuple[str, Dials]
 """A way on from an arbor, and the dials to which it leads."""
 
 
-def codes_by_way(passes: Sequence[ArborPass], codes: Sequence[int]) -> dict[str, list[int]]:
-    """Codes of ways through an arbor by the way on that they take."""
-    found: dict[str, list[int]] = {}
-    for code in codes:
-        each = passes[code - 1]
-        if each.driver is None:
-            way = HERE
-        elif each.idler:
-            way = IDLER
-        else:
-            way = BESIDE if each.driver.name is None else each.driver.name
-        found.setdefault(way, []).append(code)
-    return found
+def way_on(each: ArborPass) -> str:
+    """The way on that a path takes from an arbor."""
+    if each.driver is None:
+        return HERE
+    if each.idler:
+        return IDLER
+    return BESIDE if each.driver.name is None else each.driver.name
 
 
-def shared_out(
-    dials: Dials, ways: dict[str, dict[str, list[int]]], must: Sequence[str]
-) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them.
-
-    must   surviving wheels each of which leads to some
-    """
+def shared_out(dials: Dials, ways: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
+    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them."""
     for chosen in product(*(ways[dial] for dial in dials)):
-        if not set(must) <= set(chosen):
-            continue
         by_way: dict[str, list[str]] = {}
         for dial, way in zip(dials, chosen, strict=True):
             by_way.setdefault(way, []).append(dial)

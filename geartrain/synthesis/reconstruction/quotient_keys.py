@@ -36,7 +36,7 @@ class QuotientKeys:
         self.least, self.greatest = least, greatest
         self._words: dict[int, int] = {}
         self._random = np.random.default_rng(0x6EA7)
-        self._fewer: dict[int, Keys] = {}
+        self._fewer: dict[int, Keys | None] = {}
         self._tables: dict[tuple[int, int], Keys | None] = {(0, 0): np.zeros(1, dtype=np.uint64)}
 
     def key(self, number: Fraction | int) -> int:
@@ -69,25 +69,39 @@ class QuotientKeys:
 
     def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
         """Which keys are those of quotients that so many added wheels or fewer make; never wrongly False."""
-        if wheels > _FEW:
-            return np.ones(keys.shape, dtype=bool)
-        return _are_in(self._few(wheels), keys)
+        few = self.few(wheels) if wheels <= _FEW else None
+        return np.ones(keys.shape, dtype=bool) if few is None else _are_in(few, keys)
+
+    def fewest(self, keys: Keys, most: int) -> NDArray[np.int8]:
+        """How few added wheels make each quotient: `most` + 1 where more are needed; never too many."""
+        found = np.full(keys.shape, most + 1, dtype=np.int8)
+        for wheels in range(most, -1, -1):
+            found[self.need_few(keys, wheels)] = wheels
+        return found
 
     def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Which keys have a partner among others to which their quotient needs so many added wheels or fewer."""
-        short = min(len(keys), len(others))
-        if wheels > _FEW or not short or short * len(self._few(wheels)) > 2 * _LONGEST:
-            return np.full(keys.shape, bool(short)), np.full(others.shape, bool(short))
+        if wheels < 0 or not len(keys) or not len(others):
+            return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
+        few = self.few(wheels) if wheels <= _FEW else None
+        short, long = sorted((len(keys), len(others)))
+        if few is None or short * min(len(few), long) > 2 * _LONGEST:
+            return np.ones(keys.shape, dtype=bool), np.ones(others.shape, dtype=bool)
+        if long <= len(few):
+            pairs = _are_in(few, np.subtract.outer(keys, others))
+            return np.asarray(pairs.any(axis=1)), np.asarray(pairs.any(axis=0))
         if len(keys) > len(others):
             more, some = self.agreeing(others, keys, wheels)
             return some, more
-        reached = np.add.outer(keys, self._few(wheels))  # with a quotient its inverse is one
-        return np.asarray(_are_in(np.unique(others), reached).any(axis=1)), _are_in(np.unique(reached), others)
+        reached = np.add.outer(keys, few)  # with a quotient its inverse is one
+        return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
 
-    def _few(self, wheels: int) -> Keys:
+    def few(self, wheels: int) -> Keys | None:
+        """Keys of all quotients of so many wheels or fewer; None where there are too many."""
         if wheels not in self._fewer:
             tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
-            self._fewer[wheels] = np.unique(np.concatenate([table for table in tables if table is not None]))
+            known = [table for table in tables if table is not None]
+            self._fewer[wheels] = _unique(np.concatenate(known)) if len(known) == len(tables) else None
         return self._fewer[wheels]
 
     def _table(self, drivers: int, driven: int) -> Keys | None:
@@ -99,13 +113,19 @@ class QuotientKeys:
             self._tables[key] = (
                 None
                 if known is None or len(known) * len(counts) > 4 * _LONGEST
-                else np.unique(np.add.outer(known, counts))
+                else _unique(np.add.outer(known, counts))
             )
         return self._tables[key]
 
     @cached_property
     def _counts(self) -> Keys:
         return np.array([self.key(count) for count in range(self.least, self.greatest + 1)], dtype=np.uint64)
+
+
+def _unique(keys: Keys) -> Keys:
+    """Each key once, sorted: by hashes, as NumPy does, it takes ten times as long."""
+    found = np.sort(keys, axis=None)
+    return np.asarray(found[np.append(True, found[1:] != found[:-1])]) if len(found) else found
 
 
 def _are_in(table: Keys, keys: Keys) -> NDArray[np.bool_]:

@@ -1,0 +1,81 @@
+"""What of the paths in a list is compared with a path to another dial, in columns: fast for many paths at once."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.synthesis.reconstruction.arbor_passes import ArborPass
+from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
+from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+
+
+class PathColumns:
+    """The paths of a list, by arbor.
+
+    codes            by arbor and row: the way through it, 0 where there is none
+    driven, driver   by arbor and row: number of the wheel that is driven with its count, and of the one that drives by
+                     its name; 0 where there is none
+    ends             by row: bit of the surviving arbor that shows the dial
+    used             by row: bits of surviving arbors, then of wheels, that are used
+    """
+
+    def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
+        self.paths = paths
+        names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
+        number = {name: at for at, name in enumerate(names, 1)}
+        self.codes = np.ascontiguousarray(paths.codes.T)
+        self.driven = np.ascontiguousarray(paths.driven_at(np.arange(len(paths))).T.astype(np.int16)) + np.int16(1)
+        self.driver = np.zeros(self.codes.shape, dtype=np.int16)
+        self.used = paths.arbors.copy()
+        self.ends = np.zeros(len(paths), dtype=np.int64)
+        for at, passes in enumerate(paths.passes):
+            taken = self.codes[at]
+            drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
+            self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
+            wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
+            self.used |= np.array(wheels, dtype=np.int64)[taken]
+            if at:
+                last = np.array([False, *(each.driver is None for each in passes)])
+                self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
+
+    def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
+        """Which paths may stand in one tree with a path to another dial, or each with one of several.
+
+        Only the arbor at which they part may be left by different wheels, and none is reached by different ones. A
+        wheel has one count. Where they part at the input they share no arbor.
+        """
+        both = self.paths.arbors[rows] & other.paths.arbors[row]
+        good = self._end_in(rows, both, other, row)
+        parted = np.zeros(len(rows), dtype=np.int8)
+        one = isinstance(row, int)
+        for at in np.flatnonzero(other.codes[:, row]).tolist() if one else range(len(self.codes)):
+            codes, others = self.codes[at][rows], other.codes[at, row]
+            shared = codes > 0 if one else (codes > 0) & (others > 0)
+            left = shared & (codes != others)
+            parted += left
+            good &= ~(shared & (self.driven[at][rows] != other.driven[at, row]))
+            driver = other.driver[at, row]
+            if not one or driver:
+                good &= ~(left & (self.driver[at][rows] == driver) & (driver > 0))
+            if not at:
+                good &= ~left | (both == 0)
+        return good & (parted <= 1)
+
+    def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
+        """Which paths keep to the rule that one which ends at an arbor of the other is a part of it."""
+        mine, theirs = self.paths, other.paths
+        ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
+        compounds = mine.compounds[rows] - theirs.compounds[row]
+        idlers = mine.idlers[rows] - theirs.idlers[row]
+        good = ~ends | ((both == mine.arbors[rows]) & (compounds <= 0) & (idlers <= 0))
+        good &= ~their_end | ((both == theirs.arbors[row]) & (compounds >= 0) & (idlers >= 0))
+        return np.asarray(good)
+
+
+def _bits(each: ArborPass, number: dict[str, int]) -> int:
+    found = 0
+    for wheel in (each.driven, each.driver):
+        if wheel is not None and wheel.name in number:
+            found |= 1 << (number[wheel.name] - 1)
+    return found

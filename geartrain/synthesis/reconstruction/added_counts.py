@@ -16,6 +16,7 @@ from geartrain.synthesis.reconstruction.count_products import (
     count_choices,
     list_choices,
     quotients,
+    quotients_of_parts,
 )
 from geartrain.synthesis.reconstruction.skeletons import AddedWheels, CountLimit, Dials, Quotients
 
@@ -38,7 +39,8 @@ class AddedCounts:
 
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
         """How many there are; wheels are told apart."""
-        return int(self._count(added.groups, wanted) * self._choices**added.idle)
+        alike = _alike(added.groups, wanted)
+        return int(self._count(added.groups, alike) * self._choices**added.idle) if alike is not None else 0
 
     def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
         """The same where some of the wheels have a limit of their own, below the greatest count of all."""
@@ -61,7 +63,8 @@ class AddedCounts:
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
         """The assignments themselves, and the counts of wheels that change no speed."""
-        for counts in self._listed(added.groups, wanted):
+        alike = _alike(added.groups, wanted)
+        for counts in self._listed(added.groups, alike) if alike is not None else ():
             for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
                 yield counts, idle
 
@@ -79,9 +82,21 @@ class AddedCounts:
         if bounds[0] == bounds[1]:
             own = count_choices(bounds[0], drivers, driven, self.range)
             return own and own * self._count(rest, _divided(wanted, dials, bounds[0]))
+        pair = _pair(groups, wanted)
+        if pair is not None:
+            return self._counted_pair(groups, wanted, *pair)
         return sum(
             own * self._count(rest, _divided(wanted, dials, quotient))
             for quotient, own in quotients(*bounds, drivers, driven, self.range)
+        )
+
+    def _counted_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
+        """The same, with two groups whose product is known: for few quotients of the one, the other has what is left."""
+        rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
+        kinds = groups[one][1:], groups[other][1:]
+        return sum(
+            own * self._count(rest, _divided(_divided(wanted, groups[one][0], part), groups[other][0], both / part))
+            for part, own in quotients_of_parts(both, *kinds, self.range)
         )
 
     def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
@@ -104,26 +119,60 @@ class AddedCounts:
         """The group to be settled next, bounds of its quotient, and whether one dial alone asks for it."""
         if not groups:
             return None
-        anywhere: Quotients = Fraction(0), _BOUNDLESS
-        found = min(range(len(groups)), key=lambda at: groups[at][1] + groups[at][2]), anywhere, False
-        best = False
+        best: tuple[int, Quotients, bool] | None = None
+        fewest = groups
         for dial, bounds in wanted:
             own = [at for at, group in enumerate(groups) if dial in group[0]]
-            if len(own) == 1 and not best:
+            if len(own) == 1:
                 exact = bounds[0] == bounds[1]
                 private = groups[own[0]][0] == (dial,)
-                if exact or private:
-                    found, best = (own[0], bounds, private), exact
-        return found
+                if exact:
+                    return own[0], bounds, private
+                if private and best is None:
+                    best = own[0], bounds, private
+            elif own and len(own) < len(fewest):
+                fewest = tuple(groups[at] for at in own)
+        if best is not None:
+            return best
+        # then soonest a dial has one group left
+        tried = min(fewest, key=lambda group: (group[1] + group[2], -len(group[0])))
+        return groups.index(tried), (Fraction(0), _BOUNDLESS), False
 
 
 _BOUNDLESS = Fraction(10**40)
+_LISTED_TOGETHER = 3
+"""Wheels of two groups whose choices are listed for what their product must be."""
+
+
+def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
+    """Two groups of few wheels that are all that change the speed of an exact dial, and their product."""
+    best, fewest = None, _LISTED_TOGETHER + 1
+    for dial, (low, high) in wanted:
+        own = [at for at, group in enumerate(groups) if dial in group[0]]
+        wheels = sum(groups[at][1] + groups[at][2] for at in own)
+        if len(own) == 2 and low == high and wheels < fewest:
+            best, fewest = (own[0], own[1], low), wheels
+    return best
 
 
 def _may_hold(groups: tuple[Group, ...], wanted: Wanted) -> bool:
     """Whether the dials whose speed no group changes any more turn as they must."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
+
+
+def _alike(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
+    """Of dials whose speeds the same groups change, one with what all of them want; None if that cannot be."""
+    found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
+    for dial, (low, high) in wanted:
+        own = tuple(at for at, group in enumerate(groups) if dial in group[0])
+        if own in found:
+            _, (least, greatest) = found[own]
+            low, high = max(low, least), min(high, greatest)
+            if low > high:
+                return None
+        found[own] = dial, (low, high)
+    return tuple(found.values())
 
 
 def _without(wanted: Wanted, dials: Dials) -> Wanted:

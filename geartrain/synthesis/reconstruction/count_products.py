@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +67,21 @@ def list_choices(
     for common in range(1, last + 1):
         if above := factorings(num * common, drivers, counts):
             yield from product(above, factorings(den * common, driven, counts))
+
+
+@lru_cache(maxsize=1 << 16)
+def quotients_of_parts(
+    quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
+) -> tuple[tuple[Fraction, int], ...]:
+    """Quotients of the first of two parts that make a quotient together, each with the number of choices of both.
+
+    A part is its numbers of drivers and of driven wheels.
+    """
+    found: dict[Fraction, int] = {}
+    for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
+        part = Fraction(prod(drivers[: one[0]]), prod(driven[: one[1]]))
+        found[part] = found.get(part, 0) + 1
+    return tuple(found.items())
 
 
 @lru_cache(maxsize=1 << 16)

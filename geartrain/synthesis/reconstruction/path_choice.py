@@ -34,7 +34,7 @@ _INPUT = ""
 _NEAR = 2
 """Added wheels up to which all quotients are listed."""
 _SHORT = 2
-"""A path with so many added wheels fewer than there are is short: if none is, of many dials two have equal quotients."""
+"""A path with so many added wheels fewer than there are is short; if none is, few paths go together."""
 _MOST_ENDS = 6
 """Dials whose tours are all tried; of more, the last ones."""
 _PIECE = 1 << 21
@@ -208,10 +208,10 @@ class PathChoice:
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
         if not first.dial.is_exact or not second.dial.is_exact:
-            return np.abs(wheels - own).astype(np.int8)
+            return np.asarray(np.abs(wheels - own), dtype=np.int8)
         fewest = self.keys.fewest(second.wanted[rows] - first.wanted[row], _NEAR)
         if self._idlers:  # where two paths part at a wheel that one passes as an idler, its count matters to the other
-            return np.maximum(fewest - 1, 0).astype(np.int8)
+            return np.asarray(np.maximum(fewest - 1, 0), dtype=np.int8)
         # wheels that are shared are on both
         return np.asarray(fewest + (wheels + own - fewest) % 2, dtype=np.int8)
 

@@ -45,7 +45,7 @@ class PathColumns:
         Only the arbor at which they part may be left by different wheels, and none is reached by different ones. A
         wheel has one count. Where they part at the input they share no arbor.
         """
-        both = self.paths.arbors[rows] & other.paths.arbors[row]
+        both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)
         parted = np.zeros(len(rows), dtype=np.int8)
         one = isinstance(row, int)

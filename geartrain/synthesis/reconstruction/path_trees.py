@@ -1,7 +1,7 @@
 """Every skeleton with one given path a dial: which added wheels paths share, and where paths part.
 
-Where two paths have surviving arbors in common, these are above their branching. So what is open is little: how many added
-arbors stand on each limb, at which of them paths part, and how added driving wheels are shared.
+Where two paths have surviving arbors in common, these are above their branching. So what is open is little: how many
+added arbors stand on each limb, at which of them paths part, and how added driving wheels are shared.
 """
 
 from __future__ import annotations
@@ -117,7 +117,8 @@ class PathTrees:
         if _need(paths) > left.wheels:
             return
         if len(paths) == 1:
-            yield from self._leg(*paths.items(), left=left)
+            ((dial, path),) = paths.items()
+            yield from self._leg(dial, path, left)
             return
         found = self._common(paths)
         if found is None:
@@ -183,9 +184,8 @@ class PathTrees:
                 through.append(at)
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
-    def _leg(self, item: tuple[str, _Path], left: _Left) -> Iterator[tuple[Limb, _Left]]:
+    def _leg(self, dial: str, path: _Path, left: _Left) -> Iterator[tuple[Limb, _Left]]:
         """The only limb that leads to one dial alone."""
-        dial, path = item
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
             return
@@ -216,9 +216,7 @@ class PathTrees:
                 continue
             if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):
                 drivers = [None if way == IDLER else paths[dials[0]].passes[at].driver for way, dials in blocks]
-                yield from self._hung(
-                    self.names[at], first.driven, here, blocks, drivers, below, left.without(paid)
-                )
+                yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
 
     def _new_joint(self, paths: Paths, left: _Left) -> Iterator[tuple[Joint, _Left]]:
         """An added arbor that shows some of the dials, or leads to them by several wheels."""

@@ -91,7 +91,7 @@ class AddedCounts:
         )
 
     def _counted_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """The same, with two groups whose product is known: for few quotients of the one, the other has what is left."""
+        """The same, with two groups whose product is known: few of the one leave what the other may have."""
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
         return sum(

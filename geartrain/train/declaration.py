@@ -53,7 +53,7 @@ class Train(Declared):
     title: str = Field("", description="One line for a reader")
     note: str | None = Field(None, description="A remark for the reader")
     extends: str | None = Field(
-        None, description="The train this one changes: a file beside it, or a shipped train by name"
+        None, description="The train this one changes: a file beside it, or a shipped train or evidence by name"
     )
     remove: Remove | None = Field(None, description="What is taken away from the parent, before anything is added")
     sources: ByName[Annotated[Source, BeforeValidator(_cited)]] = Field(

@@ -119,18 +119,25 @@ def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Yam
 def _parent(name: str, folder: Path, place: str) -> Path:
     if not name:
         raise DeclarationError(
-            Problem("`extends` names nothing", "it is the file or shipped train to change", "name one", place)
+            Problem(
+                "`extends` names nothing",
+                "it is the file, shipped train or shipped evidence to change",
+                "name one",
+                place,
+            )
         )
     if _exists(folder / name):
         return folder / name
-    if name in shipped():
-        return shipped()[name]
-    siblings = [*shipped(), *(path.name for path in folder.glob("*.yaml"))]
+    known = {**shipped_evidence(), **shipped()}
+    if name in known:
+        return known[name]
+    siblings = [*known, *(path.name for path in folder.glob("*.yaml"))]
+    where = "this folder" if folder == Path() else folder
     raise DeclarationError(
         Problem(
             f"`extends` names '{name}'",
-            f"there is no such file in {'this folder' if folder == Path() else folder} and no such shipped train",
-            suggest(name, siblings, otherwise="`geartrain list` shows the shipped trains", wide=True),
+            f"there is no such file in {where}, and no shipped train or evidence has that name",
+            suggest(name, siblings, otherwise="`geartrain list [--evidence]` shows what is shipped", wide=True),
             place,
         )
     )
@@ -154,15 +161,30 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
     if within is not None:
         return within
     evidence = known is shipped_evidence()
-    kind, plural, option = ("evidence", "evidence", " --evidence") if evidence else ("train", "trains", "")
+    kind = "evidence" if evidence else "train"
     raise DeclarationError(
         Problem(
             "there is no such file",
             f"and no shipped {kind} is called '{path.stem}'",
-            suggest(path.stem, known, otherwise=f"`geartrain list{option}` shows the shipped {plural}", wide=True),
+            _instead(path.stem, evidence),
             str(source),
         )
     )
+
+
+def _instead(name: str, evidence: bool) -> str:
+    """What to give instead of a name that is not shipped, as evidence or as a train."""
+    if evidence and name in shipped():
+        return f"it is a shipped train: say by `--without ARBOR` what to take for lost, or give evidence: {_evidence()}"
+    if not evidence and name in shipped_evidence():
+        return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
+    if evidence:
+        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence()}", wide=True)
+    return suggest(name, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True)
+
+
+def _evidence() -> str:
+    return ", ".join(shipped_evidence())
 
 
 def _read(path: Path) -> str:

@@ -8,12 +8,14 @@ have the counts that were known before.
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Additions,
@@ -23,6 +25,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SurvivingWheel,
 )
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.train.declaration_files import read_evidence
 
 QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
 
@@ -65,3 +68,36 @@ def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
     found = find_reconstructions(asked(question), listed=0)
     assert found.complete
     assert [[each.mechanisms, each.bags, each.classes] for each in found.counts] == question["counts"]
+
+
+@pytest.mark.parametrize(
+    ("evidence", "name"),
+    [
+        ("back-train", "e4 back"),
+        ("back-train-exeligmos", "e5 exeligmos"),
+        ("back-train-moon", "e6 moon"),
+        ("back-train-doubt", "back with doubts, Metonic+Saros"),
+        ("back-wheels-sure", "back with c d e o, Metonic+Saros+Moon+Games, counts sure"),
+    ],
+)
+def test_shipped_evidence_asks_what_other_programs_were_asked(evidence: str, name: str) -> None:
+    (question,) = (each for each in QUESTIONS if each["name"] == name)
+    assert _plain(evidence_question(read_evidence(evidence)).problem) == _plain(asked(question))
+
+
+def test_back_wheels_in_doubt_ask_what_other_programs_were_asked_with_the_games_beside() -> None:
+    problem = evidence_question(read_evidence("back-wheels")).problem
+    (games,) = (dial for dial in problem.dials if dial.place == "o")
+    assert (games.name, games.least, games.greatest) == ("games", Fraction(1, 4), Fraction(1, 4))
+    arbors = tuple(arbor for arbor in problem.arbors if arbor.name != "o")
+    dials = tuple(dial for dial in problem.dials if dial != games)
+    (question,) = (each for each in QUESTIONS if each["name"].startswith("back with doubts and c d e"))
+    assert _plain(replace(problem, arbors=arbors, dials=dials)) == _plain(asked(question))
+
+
+def _plain(problem: ReconstructionProblem) -> tuple[Any, ...]:
+    """A question but for names of wheels, the order of its parts and how many wheels may be added."""
+    wheels = {arbor.name: sorted(wheel.counts for wheel in arbor.wheels) for arbor in (problem.input, *problem.arbors)}
+    facts = (problem.meshes, problem.apart, problem.coaxial)
+    additions = replace(problem.additions, wheels=0)
+    return wheels, {*problem.dials}, problem.input_speed, additions, problem.use, problem.idlers, facts

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -206,8 +208,43 @@ def test_evidence_is_no_train_and_a_train_no_evidence() -> None:
 def test_evidence_has_its_own_catalogue() -> None:
     assert "back-train" in shipped_evidence()
     assert not set(shipped_evidence()) & set(shipped())
-    with pytest.raises(GearTrainError, match="did you mean 'back-train'"):
-        read_evidence("back-trian")
+
+
+@pytest.mark.parametrize(
+    ("name", "fix"),
+    [
+        ("back-trian", ["did you mean 'back-train'"]),
+        ("zzz", ["give a file, or one of:", "back-train", "metonic-l-m"]),
+        ("freeth-2008", ["it is a shipped train", "--without", "back-train"]),
+    ],
+)
+def test_evidence_that_is_not_shipped(name: str, fix: list[str]) -> None:
+    with pytest.raises(GearTrainError) as caught:
+        read_evidence(name)
+    assert all(part in caught.value.problems[0].fix for part in fix)
+
+
+def test_shipped_evidence_is_no_shipped_train() -> None:
+    with pytest.raises(GearTrainError, match="it is evidence: `geartrain reconstruct back-train`"):
+        read_declaration("back-train")
+
+
+def test_shipped_evidence_is_extended_by_its_name(tmp_path: Path) -> None:
+    path = tmp_path / "seen.yaml"
+    path.write_text("extends: back-train\ngears: [{pair: [e4, f1]}]\n", encoding="utf-8")
+    for source in (
+        path,
+        path.read_text(encoding="utf-8"),
+        {"extends": "back-train", "gears": [{"pair": ["e4", "f1"]}]},
+    ):
+        problem = evidence_question(read_evidence(source)).problem
+        plain = evidence_question(read_evidence("back-train")).problem
+        assert problem == replace(plain, meshes=frozenset({frozenset({"e4", "f1"})}))
+    path.write_text("extends: back-trian\n", encoding="utf-8")
+    with pytest.raises(
+        GearTrainError, match=r"seen\.yaml:1: `extends` names 'back-trian'(.|\n)*did you mean 'back-train'"
+    ):
+        read_evidence(path)
 
 
 BACK_TRAIN = """\

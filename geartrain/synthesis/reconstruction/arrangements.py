@@ -10,7 +10,7 @@ from itertools import product
 from geartrain.synthesis.reconstruction.added_counts import AddedCounts, Counts
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
-from geartrain.synthesis.reconstruction.ring_meshes import CountTokens, Rings, may_mesh, rings_mesh
+from geartrain.synthesis.reconstruction.ring_meshes import CountTokens, Rings, may_mesh, rings_limit, rings_mesh
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
 _Step = tuple[str | None, ArborPass]
@@ -67,7 +67,7 @@ def count_orders(skeleton: Skeleton, facts: MeshFacts) -> int:
 def count_trains(skeleton: Skeleton, facts: MeshFacts, counts: AddedCounts) -> int:
     """How many trains it is: orders by choices of counts, which hang on the order where rings limit them."""
     greatest = counts.range[1]
-    if not any(wheel.name in facts.rings and wheel.teeth <= greatest for wheel in skeleton.used):
+    if not rings_limit(skeleton, facts.rings, greatest):
         return count_orders(skeleton, facts) * counts.count(skeleton.added, skeleton.wanted)
     tokens = CountTokens(skeleton.added)
     orders = arranged(skeleton, tokens.counts, tokens.idle, facts)

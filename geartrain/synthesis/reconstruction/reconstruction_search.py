@@ -14,6 +14,7 @@ from geartrain.synthesis.reconstruction.arrangements import MeshFacts, arranged
 from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_likelihood
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+from geartrain.synthesis.reconstruction.ring_meshes import rings_limit
 from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
 from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton, count_skeletons
 
@@ -66,10 +67,11 @@ def find_reconstructions(
 def _count(added: int, skeletons: Sequence[CountedSkeleton], problem: ReconstructionProblem) -> ExplanationCount:
     mechanisms = sum(each.mechanisms for each in skeletons)
     # the order of arbors changes neither, but where a ring limits counts in some orders
-    one_order = not problem.rings
-    if sum(each.choices if one_order else each.mechanisms for each in skeletons) > _TOLD_APART:
+    greatest = problem.additions.greatest
+    told = [(each, not rings_limit(each.skeleton, problem.rings, greatest)) for each in skeletons]
+    if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
         return ExplanationCount(added, mechanisms, None, None)
-    some = [arbor for each in skeletons for arbor in _trains(each, problem, one_order)]
+    some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
     return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.synthesis.reconstruction.skeletons import AddedWheels, CountLimit, Dials
+from geartrain.synthesis.reconstruction.skeletons import AddedWheels, CountLimit, Dials, Skeleton
 
 Rings = frozenset[str]
 """Names of rings."""
@@ -23,6 +23,11 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
 def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
     """Whether all rings from an arbor on mesh with wheels that fit into them."""
     return all(may_mesh(wheel, mate, rings) for wheel, mate in _meshes(arbor))
+
+
+def rings_limit(skeleton: Skeleton, rings: Rings, greatest: int) -> bool:
+    """Whether an order may limit counts below the greatest: whether a ring is so small."""
+    return any(wheel.name in rings and wheel.teeth <= greatest for wheel in skeleton.used)
 
 
 class CountTokens:

@@ -68,6 +68,16 @@ def test_joined_arbors_are_one_in_the_question_and_several_in_a_train() -> None:
     assert {link: [*part.wheels] for link, part in declared.links.items() if link in "km"} == {"m": ["v", "w"], "k": []}
 
 
+def test_a_coupling_that_is_declared_as_in_a_train_keeps_its_sizes() -> None:
+    said = "{id: anomaly, kind: pin_and_slot, pin: k, slot: m, pin_radius: 9.6 mm, offset: 1.1 mm, status: surviving}"
+    evidence = read_evidence(COUPLED.replace("  given: [{pair: [m, k]}]\n", "") + f"couplings: [{said}]\n")
+    question, given = evidence_question(evidence), evidence_question(read_evidence(COUPLED))
+    assert (question.problem, question.joined) == (given.problem, given.joined)
+    train = load(candidate_text(evidence, find_reconstructions(question.problem).candidates[0].arbor, "one"))
+    assert train.solve()
+    assert train.declaration.couplings == evidence.couplings
+
+
 def test_the_input_stands_for_what_is_joined_to_it_and_added_wheels_are_written_on_it() -> None:
     text = (
         COUPLED.replace("[m, k]", "[k, a]").replace("-1/2", "1").replace("star: {expect: 1/3}", "star: {expect: -2/5}")
@@ -105,9 +115,18 @@ def test_the_moon_has_as_many_trains_behind_the_pin_as_before_it() -> None:
 AXES = "axes: {B: {position: [0 mm, 1 mm, 0 mm]}}\n"
 REFUSED = {
     "frame": (COUPLED.replace("[m, k]", "[m, frame]"), ["would hold an arbor still"]),
+    "the carrier": (
+        COUPLED.replace("[m, k]", "[m, c]").replace("  k: {}", "  c: {}\n  k: {}").replace("{a: 1}", "{a: 1, c: 2}")
+        + "  carrier: c\n",
+        ["'m' and 'c' would hold an arbor still"],
+    ),
     "itself": (COUPLED.replace("[m, k]", "[m, m]"), ["joins what is joined already"]),
     "loop": (COUPLED.replace("[m, k]}", "[m, k]}, {pair: [k, n]}, {pair: [n, m]}"), ["'n' and 'm'", "joined already"]),
     "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["'w~x' was seen", "lock"]),
+    "follower": (
+        COUPLED + "couplings: [{kind: pin_follower, pin: m, slot: n}]\n",
+        ["'m~n' is no pin and slot", "give the speed before it"],
+    ),
     "carrier": (
         COUPLED + "revolutes: [{pair: [n, k], axis: K}]\n",
         ["'k' turns on 'n'", "over a carrier", "before and behind 'n'"],

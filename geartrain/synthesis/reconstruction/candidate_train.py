@@ -14,14 +14,26 @@ from geartrain.numerics.decimal_text import fraction_text
 from geartrain.synthesis.reconstruction.base_link import BaseLink, find_base
 from geartrain.synthesis.reconstruction.fitted_modules import fit_modules, with_module
 from geartrain.synthesis.reconstruction.geometry_evidence import read_geometry_evidence
-from geartrain.synthesis.reconstruction.joined_arbors import joined_arbors
+from geartrain.synthesis.reconstruction.joined_arbors import couplings_of, joined_arbors
 from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, free_name, name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
 from geartrain.train import Train, declare
 from geartrain.train.yaml_nodes import as_yaml
 
 ADDED_NOTE = "added by reconstruct"
-_LEFT_OUT = {"name", "title", "extends", "remove", "reconstruct", "links", "axes", "revolutes", "gears", "outputs"}
+_LEFT_OUT = {
+    "name",
+    "title",
+    "extends",
+    "remove",
+    "reconstruct",
+    "links",
+    "axes",
+    "revolutes",
+    "gears",
+    "couplings",
+    "outputs",
+}
 
 
 def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
@@ -115,19 +127,12 @@ class TrainConstruction:
         links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
         for link in links:
             self._link(link, arbor.added)
-        self._couple(links)
+        self.couplings += couplings_of(self.evidence, links)
         for wheel in arbor.wheels():
             self._wheel(arbor.name if wheel.added else self.evidence.wheels[wheel.name][0], wheel)
         for dial in arbor.dials:
             of = self.evidence.outputs[dial].of
             self.shown[dial] = (of if of in links else links[0], speed)
-
-    def _couple(self, links: tuple[str, ...]) -> None:
-        asked = self.evidence.reconstruct
-        for coupling in () if asked is None else asked.given:
-            if coupling.pair[0] in links:
-                pin, slot = coupling.pair
-                self.couplings.append({"kind": coupling.kind, "pin": pin, "slot": slot})
 
     def parts(self) -> dict[str, Any]:
         """What differs from the evidence."""

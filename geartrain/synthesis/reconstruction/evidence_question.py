@@ -36,7 +36,7 @@ from geartrain.synthesis.reconstruction.unreachable_wheels import find_unreachab
 from geartrain.train import Teeth, Train, Wheel
 from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
 
-_NOT_TAKEN_UP = ("couplings", "fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
+_NOT_TAKEN_UP = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
 """Keys of a train that change what turns, or need arbors that a candidate may not have."""
 
 _MOST_COUNTS = 10_000

@@ -6,10 +6,11 @@ written; what is added is written on the first of them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
-from geartrain.errors import Problem
+from geartrain.errors import Loc, Problem
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem, SurvivingArbor
 from geartrain.synthesis.reconstruction.surviving_geometry import PlacedArbor
 from geartrain.train import Train
@@ -20,10 +21,9 @@ Joined = Mapping[str, tuple[str, ...]]
 
 def joined_arbors(evidence: Train) -> Joined:
     """What the given couplings of evidence join: called after the input, else the first link with wheels."""
-    assert evidence.reconstruct is not None, "no evidence"
     groups: dict[str, set[str]] = {}
-    for coupling in evidence.reconstruct.given:
-        group = set().union(*(groups.get(link, {link}) for link in coupling.pair))
+    for pair, _ in _pairs(evidence):
+        group = set().union(*(groups.get(link, {link}) for link in pair))
         groups.update(dict.fromkeys(group, group))
     found = {}
     for link in evidence.links:
@@ -32,6 +32,26 @@ def joined_arbors(evidence: Train) -> Joined:
             own.sort(key=lambda other: (other not in evidence.inputs, not evidence.links[other].wheels))
             found[own[0]] = tuple(own)
     return found
+
+
+def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
+    """The couplings of joined links with the keys of a declaration."""
+    asked = evidence.reconstruct
+    for coupling in evidence.couplings:
+        if coupling.pin in links:
+            yield coupling.model_dump(mode="json", exclude_unset=True, by_alias=True)
+    for given in () if asked is None else asked.given:
+        if given.pair[0] in links:
+            yield {"kind": given.kind, "pin": given.pair[0], "slot": given.pair[1]}
+
+
+def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
+    """Links that a coupling joins, and its place in the evidence."""
+    assert evidence.reconstruct is not None, "no evidence"
+    for at, coupling in enumerate(evidence.couplings):
+        yield (coupling.pin, coupling.slot), ("couplings", at)
+    for at, given in enumerate(evidence.reconstruct.given):
+        yield given.pair, ("reconstruct", "given", at)
 
 
 def join_arbors(problem: ReconstructionProblem, joined: Joined) -> ReconstructionProblem:
@@ -62,21 +82,27 @@ def join_arbors(problem: ReconstructionProblem, joined: Joined) -> Reconstructio
 
 def coupling_problems(evidence: Train) -> Iterator[Problem]:
     """Given couplings that hold something still, close a loop, or go over a carrier."""
-    asked = evidence.reconstruct
-    assert asked is not None, "no evidence"
+    assert evidence.reconstruct is not None, "no evidence"
+    bearing = {evidence.frame, evidence.reconstruct.carrier}
+    for at, coupling in enumerate(evidence.couplings):
+        if coupling.kind != "pin_and_slot":
+            what = f"'{coupling.name}' is no pin and slot, and is not taken up by a reconstruction yet"
+            fix = "leave it out, and give the speed before it"
+            yield Problem(what, "only a mean ratio of 1 joins two arbors", fix, evidence.place("couplings", at))
     joined: dict[str, set[str]] = {}
-    for at, coupling in enumerate(asked.given):
-        place = evidence.place("reconstruct", "given", at)
-        said = " and ".join(f"'{link}'" for link in coupling.pair)
-        first, second = (joined.get(link, {link}) for link in coupling.pair)
-        if evidence.frame in coupling.pair:
+    for pair, loc in _pairs(evidence):
+        place = evidence.place(*loc)
+        said = " and ".join(f"'{link}'" for link in pair)
+        first, second = (joined.get(link, {link}) for link in pair)
+        if bearing & set(pair):
             fix = "name the two arbors that it joins"
-            yield Problem(f"the coupling of {said} would hold an arbor still", "the frame does not turn", fix, place)
+            why = "what bears the arbors does not turn with one of them"
+            yield Problem(f"the coupling of {said} would hold an arbor still", why, fix, place)
         elif second & first:
             what = f"the coupling of {said} joins what is joined already"
             yield Problem(what, "given couplings join arbors to a tree", "leave it out", place)
         joined.update(dict.fromkeys(first | second, first | second))
-        yield from _carried(evidence, coupling.pair, at)
+        yield from _carried(evidence, pair, place)
     for at, gear in enumerate(evidence.gears):
         first_link, second_link = (evidence.wheels[wheel][0] for wheel in gear.pair)
         if second_link in joined.get(first_link, ()):
@@ -85,11 +111,10 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
             yield Problem(what, "they would lock", "leave out the mesh or the coupling", place)
 
 
-def _carried(evidence: Train, pair: tuple[str, str], at: int) -> Iterator[Problem]:
+def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
     """Joined arbors turn on what bears all: the frame, or the carrier."""
     assert evidence.reconstruct is not None, "no evidence"
     base = evidence.reconstruct.carrier or evidence.frame
-    place = evidence.place("reconstruct", "given", at)
     for link in pair:
         bearing = next(
             (other for joint in evidence.revolutes if link in joint.pair for other in joint.pair if other != link), base
@@ -122,7 +147,8 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
             what = f"{said} are joined, and stand on different axes"
             why = "which of them an added wheel is on would have to be asked too"
             fix = f"leave out the axis of '{name}', and name wheels that do not mesh in `apart`"
-            yield Problem(what, why, fix, evidence.place("reconstruct", "given"))
+            place = next(loc for pair, loc in _pairs(evidence) if name in pair)
+            yield Problem(what, why, fix, evidence.place(*place))
 
 
 def _beside(problem: ReconstructionProblem, link: str) -> Iterator[str]:

@@ -110,7 +110,7 @@ def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
     assert [branch["parent"] for branch in found["family"]] == [None, 0, 1, 1, 0, 4, 4]
     assert found["family"][0]["meshes"] == ["b2 > l1"]
     assert found["family"][0]["weight"] == 1
-    assert found["family"][2]["trains"] == [{"rank": 1, "weight": 0.25, "counts": {"m3": 27, "metonic1": 53}}]
+    assert found["family"][2]["trains"] == [{"rank": 1, "weight": 0.25, "counts": {"m_new1": 27, "new_metonic1": 53}}]
     assert found["counts"][2]["mechanisms"] == 4
     assert len(found["question"]) == 64
 
@@ -140,7 +140,7 @@ def test_what_is_told_beyond_counts() -> None:
     page = call("reconstruct", "metonic-l-m").stdout
     assert "A wheel of 53 is needed in all." in page
     assert "- the input: 100 %, 2 trains" in page
-    assert "  - b2 > l1, l2 > m1, m2 > metonic1 (metonic): 50 %, rank 1 with metonic1 53" in page
+    assert "  - b2 > l1, l2 > m1, m2 > new_metonic1 (metonic): 50 %, rank 1 with new_metonic1 53" in page
 
 
 def test_assumptions_are_dropped_where_that_is_asked() -> None:

@@ -74,13 +74,13 @@ def test_where_they_part_each_answer_has_its_share() -> None:
 
 def test_the_next_fact_says_what_each_answer_leaves() -> None:
     fact = marginal("pair", "e4 and f1", ("no", HALF, 2), ("yes", HALF, 2))
-    (section,) = next_section([NextFact(fact, (Fact("driver", "f"), Fact("added", "m3"), Fact("count", "g1")))])
+    (section,) = next_section([NextFact(fact, (Fact("driver", "f"), Fact("added", "m_new1"), Fact("count", "g1")))])
     assert list(section.tables[0].rows) == [
         (
             "whether e4 and f1 mesh",
             "1",
             "no: 50 % (2), yes: 50 % (2)",
-            "which arbor drives f; the count of m3, which is added and 1 more",
+            "which arbor drives f; the count of m_new1, which is added and 1 more",
         )
     ]
     (long,) = next_section([NextFact(fact, ())] * 14)

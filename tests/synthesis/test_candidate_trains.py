@@ -12,7 +12,7 @@ from geartrain.synthesis.reconstruction.candidate_train import candidate_data, c
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.train import Train, declare
-from geartrain.train.declaration_files import read_evidence, shipped_evidence
+from geartrain.train.declaration_files import read_declaration, read_evidence, shipped_evidence
 
 Path = list[tuple[str | None, PlacedWheel, PlacedWheel]]
 """Arbors that follow each other: name, driven wheel, driving wheel."""
@@ -57,10 +57,10 @@ def through_f(after: Path) -> Arbor:
 
 
 BACK = {
-    "that of 2006": (through_m([("E", E3, E4), ("f", F1, F2)]), "e4~f1", {"m3": 27, "metonic1": 53}),
-    "E and f exchanged": (through_m([("f", F1, F2), ("E", E3, E4)]), "f2~e3", {"m3": 27, "metonic1": 53}),
-    "54 on f": (through_f([("E", E3, E4), ("m", M1, M2)]), "f3~e3", {"f3": 54, "metonic1": 192}),
-    "E and m exchanged": (through_f([("m", M1, M2), ("E", E3, E4)]), "f3~m1", {"f3": 54, "metonic1": 192}),
+    "that of 2006": (through_m([("E", E3, E4), ("f", F1, F2)]), "e4~f1", {"m_new1": 27, "new_metonic1": 53}),
+    "E and f exchanged": (through_m([("f", F1, F2), ("E", E3, E4)]), "f2~e3", {"m_new1": 27, "new_metonic1": 53}),
+    "54 on f": (through_f([("E", E3, E4), ("m", M1, M2)]), "f_new1~e3", {"f_new1": 54, "new_metonic1": 192}),
+    "E and m exchanged": (through_f([("m", M1, M2), ("E", E3, E4)]), "f_new1~m1", {"f_new1": 54, "new_metonic1": 192}),
 }
 
 
@@ -79,6 +79,19 @@ def test_the_four_of_the_back_train(which: str) -> None:
     assert wheels["e3"][1].status == "surviving"
     assert wheels["e3"][1].source == "F06"
     assert pair in {gear.name for gear in train.declaration.gears}
+
+
+def test_added_parts_have_no_name_of_the_real_machine() -> None:
+    """There m3 is a wheel of its own, and so is n1 on n."""
+    real = read_declaration("freeth-2008")
+    for arbor, _, _ in BACK.values():
+        found = load(candidate_text(read_evidence("back-train"), arbor, "one")).declaration
+        wheels = {name for name, (_, part) in found.wheels.items() if part.status == "hypothetical"}
+        links = {name for name, part in found.links.items() if part.note}
+        assert len(wheels) == 2
+        assert links == {"new_metonic"}
+        assert not wheels & set(real.wheels)
+        assert not links & {*real.links, *real.outputs}
 
 
 @pytest.mark.parametrize(("first", "second"), [(12, 121), (121, 12)])
@@ -101,7 +114,7 @@ def test_huygens(first: int, second: int) -> None:
         == Fraction(7, driven) * Fraction(driving, 17 if first == 12 else 12)
     )
     names = {name for name, (_, part) in train.declaration.wheels.items() if part.note}
-    assert names == ({"new1_1", "new1_2"} if first == 12 else {"mercury1", "mercury_arbor1"})
+    assert names == ({"new1_1", "new1_2"} if first == 12 else {"mercury_new1", "new_mercury1"})
 
 
 def test_the_text_does_not_depend_on_the_order_of_branches() -> None:
@@ -131,7 +144,7 @@ def test_what_was_declared_of_the_evidence_stays() -> None:
     assert joints[frozenset(("frame", "m"))] == "M"
     assert joints[frozenset(("frame", "l"))] == "E"
     assert joints[frozenset(("frame", "E"))] == "E_axis"
-    assert found["outputs"]["metonic"] == {"of": "metonic", "expect": "-5/19"}
+    assert found["outputs"]["metonic"] == {"of": "new_metonic", "expect": "-5/19"}
 
 
 def test_a_count_in_doubt_keeps_its_range() -> None:

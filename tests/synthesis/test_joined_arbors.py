@@ -87,7 +87,7 @@ def test_the_input_stands_for_what_is_joined_to_it_and_added_wheels_are_written_
     found = find_reconstructions(evidence_question(evidence).problem)
     declared = load(candidate_text(evidence, found.candidates[0].arbor, "one")).declaration
     assert [count.mechanisms for count in found.counts] == [0, 1]
-    assert {link: len(part.wheels) for link, part in declared.links.items()}["star"] == 1
+    assert {link: len(part.wheels) for link, part in declared.links.items()}["new_star"] == 1
     assert [(each.pin, each.slot) for each in declared.couplings] == [("k", "a")]
 
 

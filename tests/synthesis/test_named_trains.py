@@ -26,9 +26,9 @@ def told(train: NamedArbor) -> list[tuple[str, str, str]]:
 def test_names_do_not_depend_on_counts_or_order() -> None:
     right = [
         ("i", "new1_1", "new1"),
-        ("new1_2", "sun1", "sun"),
+        ("new1_2", "new_sun1", "new_sun"),
         ("i", "new2_1", "new2"),
-        ("new2_2", "moon1", "moon"),
+        ("new2_2", "new_moon1", "new_moon"),
     ]
     sun, moon = branch(20, 25, "sun"), branch(10, 15, "moon")
     i = PlacedWheel("i", 12)
@@ -40,10 +40,14 @@ def test_a_wheel_that_drives_two_arbors_is_one_and_two_wheels_of_one_count_are_t
     sun, moon = Arbor(None, added(20), ("sun",), ()), Arbor(None, added(20), ("moon",), ())
     shared = named((added(15), (sun, moon)))
     apart = named((added(15), (sun,)), (added(15), (moon,)))
-    assert told(shared) == [("in1", "sun1", "sun"), ("in1", "moon1", "moon")]
-    assert told(apart) == [("in1", "sun1", "sun"), ("in2", "moon1", "moon")]
-    assert [wheel.name for wheel in shared.wheels()] == ["in1"]
-    assert [(arbor.name, arbor.added) for arbor in apart.arbors()] == [("in", False), ("sun", True), ("moon", True)]
+    assert told(shared) == [("in_new1", "new_sun1", "new_sun"), ("in_new1", "new_moon1", "new_moon")]
+    assert told(apart) == [("in_new1", "new_sun1", "new_sun"), ("in_new2", "new_moon1", "new_moon")]
+    assert [wheel.name for wheel in shared.wheels()] == ["in_new1"]
+    assert [(arbor.name, arbor.added) for arbor in apart.arbors()] == [
+        ("in", False),
+        ("new_sun", True),
+        ("new_moon", True),
+    ]
 
 
 def test_a_driven_wheel_that_drives_is_one_wheel() -> None:
@@ -53,11 +57,13 @@ def test_a_driven_wheel_that_drives_is_one_wheel() -> None:
     i = PlacedWheel("i", 12)
     for arbor in (idler, same):
         train = named((i, (arbor,)))
-        assert told(train) == [("i", "e1", "e"), ("e1", "sun1", "sun")]
-        assert [wheel.name for each in train.arbors() for wheel in each.wheels()] == ["i", "e1", "sun1"]
+        assert told(train) == [("i", "e1", "e"), ("e1", "new_sun1", "new_sun")]
+        assert [wheel.name for each in train.arbors() for wheel in each.wheels()] == ["i", "e1", "new_sun1"]
 
 
 def test_names_that_are_taken_are_left_alone() -> None:
     sun = Arbor(None, added(20), ("sun",), ())
-    train = name_train(Arbor("in", None, (), ((added(9), (sun,)),)), ("sun",), {"in", "sun"}, {"in1", "sun_arbor1"})
-    assert told(train) == [("in2", "sun_arbor2", "sun_arbor")]
+    train = name_train(
+        Arbor("in", None, (), ((added(9), (sun,)),)), ("sun",), {"in", "new_sun"}, {"in_new1", "new_sun_arbor1"}
+    )
+    assert told(train) == [("in_new2", "new_sun_arbor2", "new_sun_arbor")]

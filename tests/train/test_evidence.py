@@ -160,7 +160,7 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_told_with_its_line(mistake: str, tmp_path) -> None:
+def test_a_mistake_is_told_with_its_line(mistake: str, tmp_path: Path) -> None:
     text, line, words = MISTAKES[mistake]
     path = tmp_path / "evidence.yaml"
     path.write_text(text, encoding="utf-8")

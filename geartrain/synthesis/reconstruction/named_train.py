@@ -1,8 +1,9 @@
 """A candidate in which every arbor and wheel has a name, in an order that does not depend on counts.
 
 Branches stand in the order of the first pointer to which each leads. An added arbor is called after the first pointer
-that it shows, else `new1`, `new2`, ...; an added wheel after its arbor, the driven one first. So wheels that play the
-same part in different candidates have the same name, whatever their counts.
+that it shows, as `new_sun`, else `new1`, `new2`, ...; its wheels are `new_sun1`, or `new1_1`, the driven one first. On
+a surviving arbor `m` they are `m_new1`, `m_new2`, ...: a name such as `m3` would be that of another wheel wherever the
+literature has one. So wheels that play the same part in different candidates have one name, whatever their counts.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from collections.abc import Collection, Container, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
+
+_ADDED = "new"
 
 
 @dataclass(frozen=True)
@@ -93,13 +96,13 @@ class _Naming:
 
     def name(self, arbor: Arbor) -> NamedArbor:
         link = arbor.name if arbor.name is not None else self._link(arbor)
-        driven = self._wheel(link, arbor.driven) if arbor.driven is not None else None
+        driven = self._wheel(arbor, link, arbor.driven) if arbor.driven is not None else None
         named: dict[int, NamedWheel] = {}
         below = []
         for _, at, wheel, child in sorted(self._drives(arbor), key=lambda one: one[:2]):
             if at not in named:
                 same = driven is not None and (at < 0 or wheel.name == driven.name)
-                named[at] = driven if same and driven is not None else self._wheel(link, wheel)
+                named[at] = driven if same and driven is not None else self._wheel(arbor, link, wheel)
             below.append((named[at], child))
         drives = tuple((wheel, self.name(child)) for wheel, child in below)
         return NamedArbor(link, arbor.name is None, driven, arbor.dials, drives)
@@ -122,13 +125,15 @@ class _Naming:
         return self.firsts[id(arbor)]
 
     def _link(self, arbor: Arbor) -> str:
-        link = free_name(arbor.dials[0], "arbor", self.links) if arbor.dials else numbered("new", self.links)
+        name = f"{_ADDED}_{arbor.dials[0]}" if arbor.dials else numbered(_ADDED, self.links)
+        link = free_name(name, "arbor", self.links)
         self.links.add(link)
         return link
 
-    def _wheel(self, link: str, wheel: PlacedWheel) -> NamedWheel:
+    def _wheel(self, arbor: Arbor, link: str, wheel: PlacedWheel) -> NamedWheel:
         if wheel.name is not None:
             return NamedWheel(wheel.name, wheel.teeth, False)
-        name = numbered(f"{link}_" if link[-1].isdigit() else link, self.wheels)
+        stem = f"{link}_{_ADDED}" if arbor.name is not None else f"{link}_" if link[-1].isdigit() else link
+        name = numbered(stem, self.wheels)
         self.wheels.add(name)
         return NamedWheel(name, wheel.teeth, True)

@@ -207,13 +207,18 @@ class PathChoice:
         """How far some paths are from a chosen one, at least."""
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
-        if not first.dial.is_exact or not second.dial.is_exact:
-            return np.asarray(np.abs(wheels - own), dtype=np.int8)
-        fewest = self.keys.fewest(second.wanted[rows] - first.wanted[row], _NEAR)
-        if self._idlers:  # where two paths part at a wheel that one passes as an idler, its count matters to the other
-            return np.asarray(np.maximum(fewest - 1, 0), dtype=np.int8)
+        if first.dial.is_exact and second.dial.is_exact:
+            fewest = self.keys.fewest(second.wanted[rows] - first.wanted[row], _NEAR)
+        else:
+            (low, high), (least, greatest) = first.bounds, second.bounds
+            with np.errstate(divide="ignore"):
+                fewest = second.ranges.fewest((least[rows] / high[row], greatest[rows] / low[row]))
         # wheels that are shared are on both
-        return np.asarray(fewest + (wheels + own - fewest) % 2, dtype=np.int8)
+        far = fewest + (wheels + own - fewest) % 2
+        if self._idlers:  # where two paths part at an added wheel that one passes, its count matters to the other alone
+            passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
+            far = np.where(passed, np.maximum(fewest - 1, 0), far)
+        return np.asarray(far, dtype=np.int8)
 
     def _closes(self, ends: Sequence[str], far: Mapping[_Pair, int], near: _Near) -> NDArray[np.bool_]:
         """For which paths a tour of some ends and theirs is short enough."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.synthesis.reconstruction.arbor_passes import ArborPass
+from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 
@@ -17,6 +17,7 @@ class PathColumns:
     driven, driver   by arbor and row: number of the wheel that is driven with its count, and of the one that drives by
                      its name; 0 where there is none
     ends             by row: bit of the surviving arbor that shows the dial
+    passes_added     by row: whether an added wheel is an idler on it
     used             by row: bits of surviving arbors, then of wheels, that are used
     """
 
@@ -29,12 +30,14 @@ class PathColumns:
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
         self.ends = np.zeros(len(paths), dtype=np.int64)
+        self.passes_added = paths.idlers > 0
         for at, passes in enumerate(paths.passes):
             taken = self.codes[at]
             drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
             self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
             wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
             self.used |= np.array(wheels, dtype=np.int64)[taken]
+            self.passes_added |= np.array([False, *(each.idler and each.driven == ADDED for each in passes)])[taken]
             if at:
                 last = np.array([False, *(each.driver is None for each in passes)])
                 self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)

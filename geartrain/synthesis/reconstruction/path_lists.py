@@ -20,6 +20,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass, arbor_passes
 from geartrain.synthesis.reconstruction.path_growth import PathGrowth
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
+from geartrain.synthesis.reconstruction.quotient_ranges import Bounds, QuotientRanges
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 
 Rows = NDArray[np.int64]
@@ -56,6 +57,7 @@ class PathList:
 
     def __init__(self, dial: SearchedDial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
         self.dial, self.problem, self.keys = dial, problem, keys
+        self.ranges = QuotientRanges(problem.additions.least, problem.additions.greatest)
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
         plans = tuple(_plans(problem.additions.wheels, problem.idlers))
@@ -199,14 +201,12 @@ class PathList:
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
         """By path and plan, whether the plan may be the added arbors on the path."""
         new = ~growth.ended
-        reversals = (growth.codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(growth.codes)
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, plan in enumerate(plans):
             fits = growth.added + new + plan.wheels <= self.problem.additions.wheels
-            turned = (reversals + plan.compounds + plan.idlers) % 2 == 1
+            turned = self._turned(growth.codes, new + np.int64(plan.compounds + plan.idlers))
             fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
-            if self.dial.is_exact:
-                fits &= self._may_be_quotient(growth, plan.compounds, fits)
+            fits &= self._may_be_quotient(growth, plan.compounds, turned, fits)
             found[:, at] = fits
         return found
 
@@ -229,16 +229,35 @@ class PathList:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
 
-    def _may_be_quotient(self, growth: PathGrowth, compounds: int, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def _may_be_quotient(
+        self, growth: PathGrowth, compounds: int, turned: NDArray[np.bool_], asked: NDArray[np.bool_]
+    ) -> NDArray[np.bool_]:
         found = asked.copy()
         kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
         for kind in np.unique(kinds[asked]):
             rows = np.flatnonzero(asked & (kinds == kind))
             drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
-            found[rows] = self.keys.may_be_quotients(growth.keys[rows], drivers, driven)
+            if self.dial.is_exact:
+                found[rows] = self.keys.may_be_quotients(growth.keys[rows], drivers, driven)
+            else:
+                found[rows] = self.ranges.may_hold(self._bounds(growth.codes[rows], turned[rows]), drivers, driven)
         return found
 
     # a path's speed
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """By row, least and greatest quotient that the added wheels on a path may have, up to rounding."""
+        return self._bounds(self.codes, self._turned(self.codes, self.new))
+
+    def _bounds(self, codes: NDArray[np.uint16], turned: NDArray[np.bool_]) -> Bounds:
+        known = np.full(len(codes), float(abs(self.problem.input_speed)))
+        for at, passes in enumerate(self.passes):
+            ratios = [1.0, *(1.0 if one.idler else _sure(one.driver) / _sure(one.driven) for one in passes)]
+            known *= np.array(ratios)[codes[:, at]]
+        (low, high), (turned_low, turned_high) = self._magnitudes(False), self._magnitudes(True)
+        least = np.where(turned, float(turned_low), float(low))
+        return least / known, np.where(turned, float(turned_high), float(high)) / known
 
     def known_ratio(self, row: int) -> Fraction:
         """Product of the surviving wheels that drive over that of those that are driven, on a path."""
@@ -248,8 +267,11 @@ class PathList:
 
     def turns(self, row: int) -> bool:
         """Whether a path's dial turns the other way than the input."""
-        meshes = int(self.arbors[row]).bit_count() + int(self.new[row])
-        return (meshes - int(self._ring_meshes(self.codes[row : row + 1])[0])) % 2 == 1
+        return bool(self._turned(self.codes[row : row + 1], self.new[row : row + 1])[0])
+
+    def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """The same for each of some paths, with their numbers of added arbors."""
+        return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
         """Least and greatest quotient that the added wheels on a path may have."""

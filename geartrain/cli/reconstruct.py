@@ -25,7 +25,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
-from geartrain.cli.reconstruction_findings import FAMILY, MOST_TURNING, family_text, look_into, write_page
+from geartrain.cli.reconstruction_findings import FAMILY, MOST_TURNING, drop_facts, family_text, look_into, write_page
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import RankedTrain
@@ -104,8 +104,11 @@ def run(
         check_folder(folder, [_file(1)], force)
     listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
     asked = {"question": question_digest(question.problem)}  # how much is listed, and per what, changes no task
-    with long_run("reconstruct", asked, folder, RunOptions.alone(workers, scheduler, resume)) as given:
+    options = RunOptions.alone(workers, scheduler, resume)
+    with long_run("reconstruct", asked, folder, options) as given:
         found = find_reconstructions(question.problem, given, listing, per)
+    dropped, told = drop_facts(question.problem, folder, options) if assumptions and found.complete else ((), True)
+    if told:  # else this journal is taken up with the other
         close_journal(given.journal, not found.complete)
     listed = () if count else found.candidates if every else found.candidates[:best]
     report = ReconstructionReport(
@@ -116,7 +119,7 @@ def run(
         question.unused,
         tuple(_ranked(declared, listed)),
         None if original is None else rank_of(original, found),
-        look_into(declared, question.problem, found, assumptions, counts_only=count),
+        look_into(declared, question.problem, found, dropped, counts_only=count),
         question.base,
         question.joined,
     )

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from geartrain.cli.common import Sink, as_json, plural, tell
-from geartrain.cli.long_runs import ProgressBar, progress
+from geartrain.cli.long_runs import ProgressBar, RunOptions, close_journal, long_run, progress
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import ReconstructionReport
@@ -26,25 +27,44 @@ def look_into(
     evidence: Train,
     problem: ReconstructionProblem,
     found: Reconstructions,
-    assumptions: bool,
+    dropped: tuple[ChangedCount, ...] = (),
     counts_only: bool = False,
 ) -> CandidateFindings:
     """What is told of the candidates, or why there are none; with `counts_only` no more than assumptions."""
     from geartrain.numerics.work import Execution
     from geartrain.synthesis.reconstruction.candidate_findings import CandidateFindings, find_facts
-    from geartrain.synthesis.reconstruction.dropped_facts import count_changed, without_each_fact
     from geartrain.synthesis.reconstruction.missing_explanation import explain_missing
 
-    dropped: tuple[ChangedCount, ...] = ()
-    if assumptions:
-        with stoppable("assumptions") as bar:
-            dropped = count_changed(without_each_fact(problem), Execution(tell=bar.reach))
     if found.complete and not counts_only and not any(count.mechanisms for count in found.counts):
         missing = None
         with stoppable("why nothing fits") as bar:
             missing = explain_missing(problem, Execution(tell=bar.reach))
         return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, () if counts_only else found.candidates, dropped)
+
+
+def drop_facts(
+    problem: ReconstructionProblem, folder: Path | None, options: RunOptions
+) -> tuple[tuple[ChangedCount, ...], bool]:
+    """The counts without each hard fact, and whether all are told or none can be taken up.
+
+    If that is stopped, those that were counted are told, and the others can be taken up.
+    """
+    from geartrain.synthesis.reconstruction.dropped_facts import changed_counts, without_each_fact
+    from geartrain.synthesis.reconstruction.question_digest import question_digest
+
+    changed, dropped = without_each_fact(problem), []
+    asked = {"question": question_digest(problem), "without": [each.change for each in changed]}
+    with long_run("reconstruct_assumptions", asked, folder, options) as given:
+        try:
+            for each in changed_counts(changed, given):
+                dropped.append(each)
+        except KeyboardInterrupt:
+            tell(f"{len(dropped)} of {plural(len(changed), 'assumption')} counted; the rest is left out")
+        cut = len(dropped) < len(changed)
+        kept = given.journal is not None and bool(len(given.journal))
+        close_journal(given.journal, cut)
+    return tuple(dropped), not (cut and kept)
 
 
 @contextmanager

@@ -184,6 +184,40 @@ def test_what_is_told_besides_may_be_stopped(
     assert len(found["best"]) == (0 if file == "none" else 4)
 
 
+STOP_AFTER = 3
+
+
+def test_assumptions_that_are_stopped_are_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those that were counted stay, and none is counted again."""
+    counted = dropped_facts._count
+    asked: list[object] = []
+
+    def some(task: tuple[ReconstructionProblem, object]) -> object:
+        asked.append(task)
+        if len(asked) == STOP_AFTER + 1:
+            raise KeyboardInterrupt
+        return counted(task)
+
+    monkeypatch.chdir(tmp_path)
+    whole = json.loads(call("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json").stdout)["assumptions"]
+    assert not list(tmp_path.iterdir())
+    monkeypatch.setattr(dropped_facts, "_count", some)
+    cut = call("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json")
+    assert json.loads(cut.stdout)["assumptions"] == whole[:STOP_AFTER]
+    assert "--resume" in cut.stderr
+    assert len(list(tmp_path.iterdir())) == 2
+    resumed = call("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json", "--resume")
+    assert json.loads(resumed.stdout)["assumptions"] == whole
+    assert len(asked) == len(whole) + 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_assumptions_are_the_same_with_workers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    asked = ("reconstruct", "metonic-l-m", "--assumptions", "--count", "--json")
+    assert call(*asked, "--workers", "2").stdout == call(*asked).stdout
+
+
 def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
     page = tmp_path / "found.html"
     result = call("reconstruct", "moon-c-e", "--page", page, "--turning", "1")

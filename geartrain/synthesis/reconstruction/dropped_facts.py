@@ -67,11 +67,16 @@ def count_changed(
     questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
 ) -> tuple[ChangedCount, ...]:
     """The counts of questions, in their order; `search` stands at the top of a module."""
+    return tuple(changed_counts(questions, execution, search))
+
+
+def changed_counts(
+    questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
+) -> Iterator[ChangedCount]:
+    """The same, each as it comes; an interrupted one is not told, so that no journal keeps half of it."""
     answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
-    return tuple(
-        ChangedCount(question.change, tuple(mechanisms), complete, refused)
-        for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True)
-    )
+    for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True):
+        yield ChangedCount(question.change, tuple(mechanisms), complete, refused)
 
 
 def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool, str | None]:
@@ -80,7 +85,9 @@ def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool,
         found = search(problem)
     except QuestionError as error:
         return [], False, error.problems[0].what
-    return [count.mechanisms for count in found.counts], found.complete, None
+    if not found.complete:  # the search tells what it has when it is stopped
+        raise KeyboardInterrupt
+    return [count.mechanisms for count in found.counts], True, None
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:

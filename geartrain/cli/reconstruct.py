@@ -156,7 +156,7 @@ def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrai
     for rank, candidate in enumerate(listed, 1):
         train = TrainConstruction.of(evidence, candidate.arbor)
         meshes = tuple(f"{driving} > {driven}" for driving, driven in train.meshes)
-        yield RankedTrain(rank, candidate.added, candidate.weight, train.added, train.doubtful, meshes)
+        yield RankedTrain(rank, candidate.ranks, candidate.added, candidate.weight, train.added, train.doubtful, meshes)
 
 
 def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool, extra: Mapping[str, str]) -> None:

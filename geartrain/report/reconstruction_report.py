@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from fractions import Fraction
 
 from geartrain.numerics.decimal_text import fraction_text
@@ -31,6 +31,7 @@ _USE = {
 }
 
 
+_NOT_COUNTED = "not counted"
 _TURNING = "A rank or an end of the family tree that is underlined shows its train turning."
 
 
@@ -41,7 +42,9 @@ class RankedTrain(Result):
     Attributes
     ----------
     rank : int
-        From 1 on.
+        Place among those that are listed, from 1 on.
+    ranks : tuple of int
+        First and last rank by weight that it may have, for some weigh the same.
     added : int
         Added wheels.
     weight : float
@@ -54,9 +57,10 @@ class RankedTrain(Result):
         Every mesh, the driving wheel first.
     """
 
-    KEYS = ("rank", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
+    KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
 
     rank: int
+    ranks: tuple[int, int]
     added: int
     weight: float
     wheels: dict[str, int]
@@ -147,7 +151,9 @@ def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
     yield from _given(found)
     findings = found.findings
     line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
-    counted = [tuple(map(str, (each.added, each.mechanisms, each.bags, each.classes))) for each in found.counts]
+    counted = [
+        tuple(_NOT_COUNTED if number is None else str(number) for number in astuple(each)) for each in found.counts
+    ]
     yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
@@ -195,12 +201,21 @@ def _begins(found: ReconstructionReport) -> str:
 def _best(found: ReconstructionReport, turning: int) -> Section:
     rows = []
     for one in found.best:
-        rank = SceneText(str(one.rank), one.rank) if one.rank <= turning else str(one.rank)
+        shown = _rank(one)
+        rank = SceneText(shown, one.rank) if one.rank <= turning else shown
         added = _teeth(one.wheels) or "none"
         rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), _teeth(one.doubtful)))
     more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
+    if any(one.ranks[0] < one.ranks[1] for one in found.best):
+        more.append("In brackets the ranks that trains of one weight share.")
     header = ("rank", "weight", "added wheels", "meshes", "counts in doubt")
     return Section("The best", more, [filled_table(header, rows, 4)])
+
+
+def _rank(one: RankedTrain) -> str:
+    """The rank, with those of all that weigh the same."""
+    first, last = one.ranks
+    return str(one.rank) if first == last else f"{one.rank} ({first}-{last})"
 
 
 def _teeth(wheels: dict[str, int]) -> str:

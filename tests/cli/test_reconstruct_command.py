@@ -241,7 +241,7 @@ def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> 
     def grown(problem: ReconstructionProblem, *_: object) -> Reconstructions:
         found = explanations(problem)
         trees = [(each.counts.added, tree) for each in found for tree in sorted(each.mechanisms)]
-        listed = tuple(Candidate(package_arbor(tree), added, 1 / len(trees)) for added, tree in trees)
+        listed = tuple(Candidate(package_arbor(tree), added, 1 / len(trees), (1, len(trees))) for added, tree in trees)
         return Reconstructions(tuple(ExplanationCount(*each.counts) for each in found), True, listed)
 
     theirs = json.loads(call("reconstruct", "al-biruni-without-moon", "--json").stdout)

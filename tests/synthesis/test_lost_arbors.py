@@ -188,18 +188,18 @@ def results(listed: list[Candidate], total: int) -> Reconstructions:
 
 def test_equal_weights_share_ranks() -> None:
     moons = [Arbor("a", None, (), ((wheel(teeth, "a1"), ()),)) for teeth in (5, 6, 7, 8)]
-    listed = [Candidate(arbor, 0, weight) for arbor, weight in zip(moons, (0.4, 0.25, 0.25, 0.1), strict=True)]
-    assert [rank_of(arbor, results(listed, 4)) for arbor in moons] == [(1, 1), (2, 3), (2, 3), (4, 4)]
-    assert rank_of(moons[0], results(listed[1:], 3)) is None
-    # of five, the last one is not listed: it may weigh as much as the fourth
-    assert [rank_of(arbor, results(listed, 5)) for arbor in moons] == [(1, 1), (2, 3), (2, 3), None]
+    # of five, the last one is not listed, and weighs as much as the fourth
+    weighed = zip(moons, (0.4, 0.2, 0.2, 0.1), ((1, 1), (2, 3), (2, 3), (4, 5)), strict=True)
+    listed = [Candidate(arbor, 0, weight, ranks) for arbor, weight, ranks in weighed]
+    assert [rank_of(arbor, results(listed, 5)) for arbor in moons] == [(1, 1), (2, 3), (2, 3), (4, 5)]
+    assert rank_of(moons[0], results(listed[1:], 5)) is None
 
 
 def test_a_rank_does_not_depend_on_the_order_of_branches() -> None:
     first, second = (Arbor(name, wheel(9, f"{name}1"), (name,), ()) for name in "pq")
     one = Arbor("a", None, (), ((wheel(5, "a1"), (first, second)),))
     other = Arbor("a", None, (), ((wheel(5, "a1"), (second, first)),))
-    assert rank_of(one, results([Candidate(other, 0, 1.0)], 1)) == (1, 1)
+    assert rank_of(one, results([Candidate(other, 0, 1.0, (1, 1))], 1)) == (1, 1)
 
 
 QUICK = {

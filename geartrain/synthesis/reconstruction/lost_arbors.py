@@ -60,13 +60,10 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str]) -> dict[str, Any]:
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
     """First and last rank by weight that a candidate may have among all, for some weigh the same.
 
-    None if it is not there, or weighs no more than candidates that are counted and not listed.
+    None if it is not listed.
     """
-    listed, wanted = found.candidates, mechanism(arbor)
-    own = next((one.weight for one in listed if mechanism(one.arbor) == wanted), None)
-    if own is None or (not is_all_listed(found) and own <= listed[-1].weight):
-        return None
-    return 1 + sum(one.weight > own for one in listed), sum(one.weight >= own for one in listed)
+    wanted = mechanism(arbor)
+    return next((one.ranks for one in found.candidates if mechanism(one.arbor) == wanted), None)
 
 
 def is_all_listed(found: Reconstructions) -> bool:

@@ -66,7 +66,7 @@ def name_train(arbor: Arbor, dials: Sequence[str], links: Collection[str], wheel
     links   names that arbors have already
     wheels  names that wheels have already
     """
-    return _Naming(tuple(dials), set(links), set(wheels)).name(arbor)
+    return _Naming(tuple(dials), FreeNames(set(links), set(wheels))).name(arbor)
 
 
 def free_name(name: str, kind: str, taken: Container[str]) -> str:
@@ -86,12 +86,36 @@ def numbered(stem: str, taken: Container[str]) -> str:
 
 
 @dataclass
+class FreeNames:
+    """Names for what is added, none twice.
+
+    links, wheels   names that are taken
+    """
+
+    links: set[str]
+    wheels: set[str]
+
+    def link(self, dials: tuple[str, ...] = ()) -> str:
+        """The name of the next added arbor, which shows some dials."""
+        name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
+        link = free_name(name, "arbor", self.links)
+        self.links.add(link)
+        return link
+
+    def wheel(self, link: str, survives: bool) -> str:
+        """The name of the next added wheel of an arbor."""
+        stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
+        name = numbered(stem, self.wheels)
+        self.wheels.add(name)
+        return name
+
+
+@dataclass
 class _Naming:
     """Names that are given arbor by arbor, from the input on."""
 
     dials: tuple[str, ...]
-    links: set[str]
-    wheels: set[str]
+    free: FreeNames
     firsts: dict[int, int] = field(default_factory=dict)
 
     def name(self, arbor: Arbor) -> NamedArbor:
@@ -125,15 +149,9 @@ class _Naming:
         return self.firsts[id(arbor)]
 
     def _link(self, arbor: Arbor) -> str:
-        name = f"{_ADDED}_{arbor.dials[0]}" if arbor.dials else numbered(_ADDED, self.links)
-        link = free_name(name, "arbor", self.links)
-        self.links.add(link)
-        return link
+        return self.free.link(arbor.dials)
 
     def _wheel(self, arbor: Arbor, link: str, wheel: PlacedWheel) -> NamedWheel:
         if wheel.name is not None:
             return NamedWheel(wheel.name, wheel.teeth, False)
-        stem = f"{link}_{_ADDED}" if arbor.name is not None else f"{link}_" if link[-1].isdigit() else link
-        name = numbered(stem, self.wheels)
-        self.wheels.add(name)
-        return NamedWheel(name, wheel.teeth, True)
+        return NamedWheel(self.free.wheel(link, arbor.name is not None), wheel.teeth, True)

@@ -42,13 +42,16 @@ class Candidate(Result):
         Added wheels.
     weight : float
         Its share of the weight of all explanations.
+    ranks : tuple of int
+        First and last rank by weight that it may have among all explanations, from 1 on; some may weigh the same.
     """
 
-    KEYS = ("added", Key("weight", to=float))
+    KEYS = ("added", Key("weight", to=float), "ranks")
 
     arbor: Arbor
     added: int
     weight: float
+    ranks: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)

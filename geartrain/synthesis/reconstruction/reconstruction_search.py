@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby, islice
-from typing import Literal
+from typing import Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.work import Execution
@@ -17,6 +18,8 @@ from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, 
 from geartrain.synthesis.reconstruction.ring_meshes import rings_limit
 from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
 from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton, count_skeletons
+
+_Weight = TypeVar("_Weight", Fraction, float)
 
 _LISTED = 20_000
 """Candidates that are made at most; of more of one weight, the first that are found."""
@@ -118,6 +121,10 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]
     """The heaviest candidates, those of one weight by added wheels and their teeth."""
     weighed = [(skeleton_prior(each, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.mechanisms for weight, _, each in weighed)
+    alike = Counter[Fraction]()
+    for weight, _, each in weighed:
+        alike[weight] += each.mechanisms
+    ranks = _ranks(alike)
     weighed.sort(key=lambda one: (-one[0], one[1]))
     made, most = 0, max(listed, _LISTED)
     for (weight, added), equal in groupby(weighed, key=lambda one: one[:2]):
@@ -126,7 +133,16 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]
         arbors = list(islice((arbor for _, _, each in equal for arbor in _trains(each, problem)), most - made))
         made += len(arbors)
         arbors.sort(key=_order)
-        yield from (Candidate(arbor, added, float(weight / whole)) for arbor in arbors)
+        yield from (Candidate(arbor, added, float(weight / whole), ranks[weight]) for arbor in arbors)
+
+
+def _ranks(alike: Mapping[_Weight, int]) -> dict[_Weight, tuple[int, int]]:
+    """First and last rank of candidates of each weight; `alike` says how many there are."""
+    found, before = {}, 0
+    for weight in sorted(alike, reverse=True):
+        found[weight] = before + 1, before + alike[weight]
+        before += alike[weight]
+    return found
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
@@ -159,7 +175,8 @@ def _all_weighed(
         weighed = [(weight / classes[ratio_class(arbor)], added, arbor) for weight, added, arbor in weighed]
     weighed.sort(key=lambda one: (-one[0], one[1], _order(one[2])))
     whole = sum(weight for weight, _, _ in weighed)
-    candidates = tuple(Candidate(arbor, added, weight / whole) for weight, added, arbor in weighed)
+    ranks = _ranks(Counter(weight for weight, _, _ in weighed))
+    candidates = tuple(Candidate(arbor, added, weight / whole, ranks[weight]) for weight, added, arbor in weighed)
     return Reconstructions(tuple(counts), complete, candidates)
 
 

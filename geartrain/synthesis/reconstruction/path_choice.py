@@ -11,14 +11,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, reduce
-from itertools import combinations, pairwise, permutations
+from functools import cache, reduce
+from itertools import combinations, pairwise, product
 from operator import or_
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.synthesis.reconstruction.end_tours import (
+    EndPair,
+    distances,
+    end_pair,
+    shortest_tour,
+    tours_with_one_more,
+)
 from geartrain.synthesis.reconstruction.path_columns import PathColumns
 from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
@@ -27,16 +34,14 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import Reconstruc
 Choice = dict[str, int]
 """By dial, the row of its list."""
 
-_Pair = tuple[str, str]
-"""Two ends, sorted."""
 _INPUT = ""
 """The end from which all paths start."""
 _NEAR = 2
 """Added wheels up to which all quotients are listed."""
 _SHORT = 2
 """A path with so many added wheels fewer than there are is short; if none is, few paths go together."""
-_MOST_ENDS = 6
-"""Dials whose tours are all tried; of more, the last ones."""
+_MOST_ENDS = 4
+"""Dials whose tours are tried, in all orders; of more, some."""
 _PIECE = 1 << 21
 """Keys that are looked up at once."""
 _EVEN_SHARES = 50
@@ -58,10 +63,10 @@ class PathChoice:
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
         """All choices for trains with just so many added wheels; of several parts one."""
         self._added = added
-        whole = {}
-        for dial, paths in self.lists.items():
-            rows = np.flatnonzero(paths.wheels <= added)
-            whole[dial] = _Near(rows, {_INPUT: paths.wheels[rows].astype(np.int8)})
+        whole = {
+            dial: _Near(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
+            for dial, rows in self._with_partners(added).items()
+        }
         share = _Share(part, parts)
         if len(whole) == 1:
             ((dial, near),) = whole.items()
@@ -72,6 +77,34 @@ class PathChoice:
             yield from self._from_short(short, whole, share)
             whole = {dial: near.beyond({_INPUT: short + 1}) for dial, near in whole.items()}
             yield from self._from_near(short, whole, share)
+
+    @cache  # noqa: B019 -- lives as long as the lists
+    def _with_partners(self, added: int) -> dict[str, Rows]:
+        """The paths that have partners among those to each other dial, by the quotients of two alone."""
+        found = {
+            dial: [np.flatnonzero(paths.wheels == wheels) for wheels in range(added + 1)]
+            for dial, paths in self.lists.items()
+        }
+        for one, other in combinations(self.lists, 2):
+            if self.lists[one].dial.is_exact and self.lists[other].dial.is_exact:
+                found[one], found[other] = self._partners(one, found[one], other, found[other], added)
+        return {dial: np.sort(np.concatenate(groups)) for dial, groups in found.items()}
+
+    def _partners(
+        self, one: str, groups: list[Rows], other: str, others: list[Rows], added: int
+    ) -> tuple[list[Rows], list[Rows]]:
+        """The same for two dials, by number of added wheels."""
+        some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
+        for own, another in product(range(added + 1), repeat=2):
+            far = 2 * added - own - another + self._idlers
+            keys = self.lists[one].wanted[groups[own]], self.lists[other].wanted[others[another]]
+            first, second = self.keys.agreeing(*keys, far)
+            some[own] |= first
+            more[another] |= second
+        return (
+            [rows[good] for rows, good in zip(groups, some, strict=True)],
+            [rows[good] for rows, good in zip(others, more, strict=True)],
+        )
 
     # with what it begins
 
@@ -108,7 +141,7 @@ class PathChoice:
                     yield from self._with(dial, row, _Chosen(), others, least, None)
 
     def _from_pair(
-        self, one: str, other: str, far: int, lists: dict[str, _Near], least: Mapping[_Pair, int]
+        self, one: str, other: str, far: int, lists: dict[str, _Near], least: Mapping[EndPair, int]
     ) -> Iterator[Choice]:
         rest = {dial: near for dial, near in lists.items() if dial not in (one, other)}
         for row, partners in self._joined(one, lists[one].rows, other, lists[other].rows, far):
@@ -126,7 +159,7 @@ class PathChoice:
         row: int,
         chosen: _Chosen,
         lists: Mapping[str, _Near],
-        least: Mapping[_Pair, int],
+        least: Mapping[EndPair, int],
         share: _Share | None,
         known: Mapping[str, _Near] = MappingProxyType({}),
     ) -> Iterator[Choice]:
@@ -155,13 +188,13 @@ class PathChoice:
             if not kept:
                 yield {**paths, following: next_row}
             else:
-                own = {_pair(end, following): int(each[at]) for end, each in near.far.items()}
-                own |= {_pair(_INPUT, dial): int(self.lists[dial].wheels[row])}
+                own = {end_pair(end, following): int(each[at]) for end, each in near.far.items()}
+                own |= {end_pair(_INPUT, dial): int(self.lists[dial].wheels[row])}
                 after = _Chosen(paths, {**chosen.far, **own})
                 yield from self._with(following, next_row, after, kept, least, None)
 
     def _fitting(
-        self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, least: Mapping[_Pair, int]
+        self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, least: Mapping[EndPair, int]
     ) -> _Near:
         """The paths of another dial that go with one more that is chosen."""
         near = near.kept(self._columns[other].fit(near.rows, self._columns[dial], row))
@@ -171,7 +204,7 @@ class PathChoice:
         ends = (_INPUT, *[*chosen.paths, dial][-_MOST_ENDS:])
         wheels = int(self.lists[dial].wheels[row])
         good = self._closes(ends, {**chosen.far, (_INPUT, dial): wheels}, near)
-        asked = least.get(_pair(dial, other), 0)
+        asked = least.get(end_pair(dial, other), 0)
         return near.kept(good & (near.far[dial] >= asked) if asked else good)
 
     def _joined(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
@@ -220,17 +253,17 @@ class PathChoice:
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
         return np.asarray(far, dtype=np.int8)
 
-    def _closes(self, ends: Sequence[str], far: Mapping[_Pair, int], near: _Near) -> NDArray[np.bool_]:
+    def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Near) -> NDArray[np.bool_]:
         """For which paths a tour of some ends and theirs is short enough."""
         good = np.zeros(len(near.rows), dtype=bool)
-        for one, two, rest in _tours_with_one_more(len(ends), _distances(ends, far)):
+        for one, two, rest in tours_with_one_more(len(ends), distances(ends, far)):
             good |= near.far[ends[one]].astype(np.int16) + near.far[ends[two]] + rest <= 2 * self._added
         return good
 
-    def _may_close(self, ends: Sequence[str], far: Mapping[_Pair, int]) -> bool:
+    def _may_close(self, ends: Sequence[str], far: Mapping[EndPair, int]) -> bool:
         """Whether a tour of some ends may be short enough."""
         ends = ends[: _MOST_ENDS + 1]
-        return _shortest_tour(len(ends), _distances(ends, far)) <= 2 * self._added
+        return shortest_tour(len(ends), distances(ends, far)) <= 2 * self._added
 
     # what must be used
 
@@ -248,7 +281,7 @@ class _Chosen:
     """Paths that are chosen, by dial, and how far two ends are apart at least."""
 
     paths: Mapping[str, int] = field(default_factory=dict)
-    far: Mapping[_Pair, int] = field(default_factory=dict)
+    far: Mapping[EndPair, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -271,10 +304,6 @@ class _Near:
         return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in least.items())))
 
 
-def _pair(one: str, other: str) -> _Pair:
-    return (one, other) if one < other else (other, one)
-
-
 def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
     """Where among wanted ones, and where among sorted keys, equal ones stand; all pairs, by the wanted ones."""
     start, end = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, side="right")
@@ -282,30 +311,6 @@ def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, 
     at = np.repeat(np.arange(len(wanted)), number)
     first = np.repeat(start - np.append(0, np.cumsum(number)[:-1]), number)
     return at, first + np.arange(len(at))
-
-
-def _distances(ends: Sequence[str], far: Mapping[_Pair, int]) -> tuple[int, ...]:
-    return tuple(far.get(_pair(one, two), 0) for one in ends for two in ends)
-
-
-@lru_cache(maxsize=1 << 16)
-def _shortest_tour(number: int, far: tuple[int, ...]) -> int:
-    """The least length of a tour from the first end past all others and back."""
-    tours = ((0, *order, 0) for order in permutations(range(1, number)) if order[:1] <= order[-1:])
-    return min(sum(far[one * number + two] for one, two in pairwise(tour)) for tour in tours)
-
-
-@lru_cache(maxsize=1 << 16)
-def _tours_with_one_more(number: int, far: tuple[int, ...]) -> tuple[tuple[int, int, int], ...]:
-    """By two ends between which one more may stand on a tour: the least length of the rest."""
-    if number == 1:
-        return ((0, 0, 0),)
-    best: dict[tuple[int, int], int] = {}
-    for order in permutations(range(number)):
-        if order[0] < order[-1]:
-            rest = sum(far[one * number + two] for one, two in pairwise(order))
-            best[order[0], order[-1]] = min(rest, best.get((order[0], order[-1]), rest))
-    return tuple((one, two, rest) for (one, two), rest in best.items())
 
 
 def _all_to_use(problem: ReconstructionProblem) -> int:

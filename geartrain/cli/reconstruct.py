@@ -25,7 +25,16 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
-from geartrain.cli.reconstruction_findings import FAMILY, MOST_TURNING, drop_facts, family_text, look_into, write_page
+from geartrain.cli.reconstruction_findings import (
+    FAMILY,
+    MOST_TURNING,
+    drop_facts,
+    family_text,
+    look_into,
+    tell_question,
+    weighted,
+    write_page,
+)
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import RankedTrain
@@ -105,8 +114,9 @@ def run(
     listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
     asked = {"question": question_digest(question.problem)}  # how much is listed, and per what, changes no task
     options = RunOptions.alone(workers, scheduler, resume)
+    expected = tell_question(question.problem, options)
     with long_run("reconstruct", asked, folder, options) as given:
-        found = find_reconstructions(question.problem, given, listing, per)
+        found = find_reconstructions(question.problem, weighted(given, question.problem, expected), listing, per)
     dropped, told = drop_facts(question.problem, folder, options) if assumptions and found.complete else ((), True)
     if told:  # else this journal is taken up with the other
         close_journal(given.journal, not found.complete)
@@ -122,6 +132,7 @@ def run(
         look_into(declared, question.problem, found, dropped, counts_only=count),
         question.base,
         question.joined,
+        expected,
     )
     if folder is not None and listed:
         extra = {FAMILY: family_text(report, question.problem)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,16 +12,56 @@ from geartrain.cli.common import Sink, as_json, plural, tell
 from geartrain.cli.long_runs import ProgressBar, RunOptions, close_journal, long_run, progress
 
 if TYPE_CHECKING:
+    from geartrain.numerics.work import Execution
     from geartrain.report.reconstruction_report import ReconstructionReport
     from geartrain.synthesis.reconstruction.candidate_findings import CandidateFindings
     from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
+    from geartrain.synthesis.reconstruction.expected_cost import ExpectedCost
     from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
     from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, Reconstructions
     from geartrain.train import Train
 
 FAMILY = "family.json"
 MOST_TURNING = 200
+_STEPS = 1000
+"""Of a progress bar."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
+
+
+def tell_question(problem: ReconstructionProblem, options: RunOptions) -> ExpectedCost:
+    """Say what is asked, and what it will cost, before it is looked for."""
+    from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
+    from geartrain.synthesis.reconstruction.expected_cost import expect_cost, rough
+
+    tell(f"asked: {AskedQuestion.of(problem)}")
+    expected = expect_cost(problem)
+    tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in expected.paths.items())}")
+    if seconds := rough(expected.whole):
+        shared = f", shared by {options.workers}" if options.workers not in (None, 1) else ""
+        timed = f"one part in {expected.parts} of the search was timed"
+        tell(f"expected: about {_lasting(seconds)} in one process{shared}; {timed}")
+    return expected
+
+
+def weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
+    """The same, which tells what is done as a share of the time that all is expected to take."""
+    from geartrain.synthesis.reconstruction.expected_cost import done_shares
+
+    shares, said = done_shares(problem, expected), execution.tell
+
+    def reach(done: int, _: int) -> None:
+        if said is not None:
+            said(round(_STEPS * shares[done]), _STEPS)
+
+    return replace(execution, tell=reach)
+
+
+def _lasting(seconds: float) -> str:
+    """A rough time in the unit that fits."""
+    for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} seconds"
 
 
 def look_into(

@@ -18,8 +18,10 @@ from geartrain.report.reconstruction_facts import (
     share_text,
     shared_sections,
 )
+from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
 from geartrain.synthesis.reconstruction.base_link import BaseLink
 from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
+from geartrain.synthesis.reconstruction.expected_cost import ExpectedCost
 from geartrain.synthesis.reconstruction.joined_arbors import Joined
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
@@ -92,9 +94,11 @@ class ReconstructionReport(Result):
         What bears the arbors, where that is a carrier.
     joined : dict of str to tuple of str
         Links that given couplings join, by the arbor that stands for them.
+    expected : ExpectedCost, optional
+        What the search was expected to cost before it began.
     """
 
-    KEYS = ("name", "counts", "complete", "unused", "best", "original", Key("", "findings"))
+    KEYS = ("name", "asked", "expected", "counts", "complete", "unused", "best", "original", Key("", "findings"))
 
     name: str
     problem: ReconstructionProblem
@@ -106,6 +110,12 @@ class ReconstructionReport(Result):
     findings: CandidateFindings = NO_FINDINGS
     base: BaseLink | None = None
     joined: Joined = field(default_factory=dict)
+    expected: ExpectedCost | None = None
+
+    @property
+    def asked(self) -> AskedQuestion:
+        """What is asked."""
+        return AskedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from answer_schemas import holds
@@ -11,7 +12,8 @@ from commands import call, ended
 from concrete_trees import explanations, package_arbor
 
 from geartrain import load
-from geartrain.synthesis.reconstruction import dropped_facts, reconstruction_search
+from geartrain.errors import Problem, QuestionError
+from geartrain.synthesis.reconstruction import dropped_facts, expected_cost, reconstruction_search
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.question_digest import question_digest
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
@@ -184,6 +186,27 @@ def test_what_is_told_besides_may_be_stopped(
     assert len(found["best"]) == (0 if file == "none" else 4)
 
 
+def test_what_is_asked_is_told_before_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    def none(*_: object) -> Reconstructions:
+        raise QuestionError(Problem("not today", "", ""))
+
+    monkeypatch.setattr(reconstruction_search, "find_reconstructions", none)
+    result = call("reconstruct", "back-train")
+    assert result.exit_code != 0
+    assert "asked: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
+    assert "possible paths: 22 to metonic, 4 to saros" in result.stderr
+
+
+def test_the_time_is_told_where_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(expected_cost, "timed_part", lambda task, _: 6400 / task.parts * (task.part < task.parts))
+    result = call("reconstruct", "back-train", "-k", "3", "--count", "--json", "--workers", "2")
+    assert "expected: about 100 minutes in one process, shared by 2; one part in 4096" in result.stderr
+    found = json.loads(result.stdout)
+    holds("reconstruct", found)
+    assert found["expected"]["seconds"] == 6000
+    assert found["counts"][3]["mechanisms"] == 60
+
+
 STOP_AFTER = 3
 
 
@@ -192,7 +215,7 @@ def test_assumptions_that_are_stopped_are_taken_up(tmp_path: Path, monkeypatch: 
     counted = dropped_facts._count
     asked: list[object] = []
 
-    def some(task: tuple[ReconstructionProblem, object]) -> object:
+    def some(task: Any) -> object:
         asked.append(task)
         if len(asked) == STOP_AFTER + 1:
             raise KeyboardInterrupt

@@ -16,8 +16,9 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import QuestionError
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass, arbor_passes
+from geartrain.synthesis.reconstruction.asked_question import too_wide
 from geartrain.synthesis.reconstruction.path_growth import PathGrowth
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
 from geartrain.synthesis.reconstruction.quotient_ranges import Bounds, QuotientRanges
@@ -144,8 +145,7 @@ class PathList:
         self._looked_at += sum(len(part.codes) for part in parts)
         if self._looked_at > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
-            fix = "ask with fewer added wheels (-k), narrow counts that are in doubt, or leave out arbors"
-            raise QuestionError(Problem(what, "each count in doubt multiplies them", fix))
+            raise QuestionError(too_wide(self.problem, what))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -57,6 +57,19 @@ def count_skeletons(
     for task, answer in zip(tasks, answers, strict=True):
         found = [CountedSkeleton(skeleton_of(plain), choices, trains) for plain, choices, trains in answer]
         yield task.added, task.part + 1 == task.parts, found
+
+
+def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
+    """By dial, how many paths to it are possible."""
+    search, _ = _search(question_digest(problem), problem)
+    return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
+
+
+def timed_part(task: SkeletonTask, clock: Callable[[], float]) -> float:
+    """How long a part of the search takes (s)."""
+    start = clock()
+    _counted(task)
+    return clock() - start
 
 
 def _counted(task: SkeletonTask) -> list[tuple[Any, int, int]]:

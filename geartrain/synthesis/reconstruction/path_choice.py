@@ -40,7 +40,7 @@ _NEAR = 2
 """Added wheels up to which all quotients are listed."""
 _SHORT = 2
 """A path with so many added wheels fewer than there are is short; if none is, few paths go together."""
-_MOST_ENDS = 4
+_MOST_ENDS = 6
 """Dials whose tours are tried, in all orders; of more, some."""
 _PIECE = 1 << 21
 """Keys that are looked up at once."""

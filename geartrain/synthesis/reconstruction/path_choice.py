@@ -241,7 +241,10 @@ class PathChoice:
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
         if first.dial.is_exact and second.dial.is_exact:
-            fewest = self.keys.fewest(second.wanted[rows] - first.wanted[row], _NEAR)
+            fewest = self._columns[dial].differing_primes(rows, self._columns[end], row)
+            near = fewest <= _NEAR
+            by_number = self.keys.fewest(second.wanted[rows[near]] - first.wanted[row], _NEAR)
+            fewest[near] = np.maximum(fewest[near], by_number)
         else:
             (low, high), (least, greatest) = first.bounds, second.bounds
             with np.errstate(divide="ignore"):

@@ -9,10 +9,14 @@ from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 
+_NEVER = 100
+"""Wheels apart, of paths that differ by a prime that no wheel has."""
+
 
 class PathColumns:
     """The paths of a list, by arbor.
 
+    powers           by large prime and row: its power in what the added wheels must make
     codes            by arbor and row: the way through it, 0 where there is none
     driven, driver   by arbor and row: number of the wheel that is driven with its count, and of the one that drives by
                      its name; 0 where there is none
@@ -26,6 +30,7 @@ class PathColumns:
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
         number = {name: at for at, name in enumerate(names, 1)}
         self.codes = np.ascontiguousarray(paths.codes.T)
+        self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
         self.driven = np.ascontiguousarray(paths.driven_at(np.arange(len(paths))).T.astype(np.int16)) + np.int16(1)
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
@@ -64,6 +69,16 @@ class PathColumns:
             if not at:
                 good &= ~left | (both == 0)
         return good & (parted <= 1)
+
+    def differing_primes(self, rows: Rows, other: PathColumns, row: int) -> NDArray[np.int8]:
+        """How many wheels with a large prime each path and one to another dial have apart from each other, at least."""
+        found = np.zeros(len(rows), dtype=np.int16)
+        for prime in self.powers.keys() | other.powers.keys():
+            own = self.powers[prime][rows] if prime in self.powers else np.int8(0)
+            theirs = other.powers[prime][row] if prime in other.powers else np.int8(0)
+            differ = np.abs(own - theirs)
+            found += differ if prime <= self.paths.problem.additions.greatest else differ * np.int16(_NEVER)
+        return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
         """Which paths keep to the rule that one which ends at an arbor of the other is a part of it."""

@@ -54,6 +54,7 @@ class PathList:
     compounds, idlers    by row: number of added arbors before the last
     wheels, new          by row: number of added wheels and of added arbors
     wanted               by row: key of the quotient that the added wheels must have, where it must be exact
+    powers               by row and large prime, the columns of `primes`: its power in that quotient
     """
 
     def __init__(self, dial: SearchedDial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
@@ -73,6 +74,7 @@ class PathList:
         self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
         self.wheels = growth.added[rows] + self.ends_new + 2 * self.compounds + self.idlers
         self.wanted = growth.keys[rows]
+        self.powers = growth.powers[rows]
         self.new = self.compounds + self.idlers + self.ends_new
 
         self._driven = [np.array([-1, *_numbered_wheels(passes)]) for passes in self.passes]
@@ -132,7 +134,7 @@ class PathList:
             return
         growth = self._with_arbor(growth, order[0])
         later = {prime for each in order[1:] for prime in self._primes_of(each)}
-        closed = [column for column, prime in enumerate(self._primes) if prime not in later]
+        closed = [column for column, prime in enumerate(self.primes) if prime not in later]
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         growth = growth.kept(growth.may_stand(closed, self._lost, self.problem.additions.wheels, debts))
         for start in range(0, len(growth.codes), _PIECE):
@@ -151,14 +153,15 @@ class PathList:
     def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:
         """By how much a pass changes the key, and the powers of large primes, of what is left to be added."""
         if each.idler:
-            return np.uint64(0), np.zeros(len(self._primes), dtype=np.int8)
+            return np.uint64(0), np.zeros(len(self.primes), dtype=np.int8)
         ratio = Fraction(_sure(each.driven), _sure(each.driver))
         return np.uint64(self.keys.key(ratio)), self._powers(ratio)
 
     # primes of which an added wheel holds one at most
 
     @cached_property
-    def _primes(self) -> tuple[int, ...]:
+    def primes(self) -> tuple[int, ...]:
+        """Primes of which an added wheel has one at most, and none beside it; none where the dial has a tolerance."""
         if not self.dial.is_exact:
             return ()
         least = self.problem.additions.greatest
@@ -175,12 +178,12 @@ class PathList:
 
     def _powers(self, ratio: Fraction) -> NDArray[np.int8]:
         up, down = dict(prime_powers(ratio.numerator)), dict(prime_powers(ratio.denominator))
-        return np.array([up.get(prime, 0) - down.get(prime, 0) for prime in self._primes], dtype=np.int8)
+        return np.array([up.get(prime, 0) - down.get(prime, 0) for prime in self.primes], dtype=np.int8)
 
     @cached_property
     def _lost(self) -> NDArray[np.bool_]:
         """Which primes no added wheel has."""
-        return np.array([prime > self.problem.additions.greatest for prime in self._primes], dtype=bool)
+        return np.array([prime > self.problem.additions.greatest for prime in self.primes], dtype=bool)
 
     @cached_property
     def _wanted(self) -> Fraction:

@@ -94,8 +94,19 @@ def _template() -> Any:
     from jinja2 import Environment
 
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"is_web": is_web, "is_cited": lambda cell: isinstance(cell, CitedText)}
+    environment.filters |= {
+        "is_web": is_web,
+        "is_cited": lambda cell: isinstance(cell, CitedText),
+        "with_code": _with_code,
+    }
     return environment.from_string(_shipped("page.html"))
+
+
+def _with_code(line: str) -> Any:
+    """A line in which what stands between backticks is marked as code; everything else is escaped."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(line))))
 
 
 def is_web(url: str) -> bool:

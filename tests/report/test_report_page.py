@@ -23,6 +23,7 @@ from geartrain.report import (
     to_html,
     to_markdown,
 )
+from geartrain.report.document import Document, Section
 from geartrain.report.html_page import inline, is_web
 
 SVG = (
@@ -244,3 +245,9 @@ def test_what_only_a_page_has_room_for_changes_no_markdown() -> None:
     plain = to_markdown([describe_shared_page(collect_report(train))])
     assert "Wheels and their sources" not in plain
     assert to_markdown([describe_shared_page(collect_report(train), [Picture("x", SVG)], "<p>v</p>", ["n"])]) == plain
+
+
+def test_what_stands_between_backticks_is_code_and_everything_is_escaped() -> None:
+    page = to_html([Document("t", ["`a<b` is <i>, and a lone ` stays"], [Section("s", ["`bits` are told."])])])
+    assert "<p><code>a&lt;b</code> is &lt;i&gt;, and a lone ` stays</p>" in page
+    assert "<p><code>bits</code> are told.</p>" in page

@@ -81,7 +81,9 @@ def look_into(
         with stoppable("why nothing fits") as bar:
             missing = explain_missing(problem, Execution(tell=bar.reach))
         return CandidateFindings(assumptions=dropped, missing=missing)
-    return find_facts(evidence, problem, () if counts_only else found.candidates, dropped)
+    if counts_only:
+        return CandidateFindings(assumptions=dropped)
+    return find_facts(evidence, problem, found, dropped)
 
 
 def drop_facts(

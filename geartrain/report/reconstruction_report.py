@@ -154,7 +154,10 @@ def _lead(found: ReconstructionReport) -> Iterator[str]:
     if 0 < found.findings.listed < found.total:
         share = share_text(found.findings.share)
         listed = f"{found.findings.listed} trains of greatest weight, which have {share} of the weight of all"
-        yield f"The family tree, what trains share and the next fact are told of the {listed}; shares are of theirs."
+        if found.findings.of_all:
+            yield f"The family tree holds the {listed}; what trains share and the next fact are told of all."
+        else:
+            yield f"The family tree, what trains share and the next fact are of the {listed}; shares are of theirs."
 
 
 def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:

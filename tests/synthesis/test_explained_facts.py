@@ -78,13 +78,13 @@ def test_weights_are_brought_to_whole_numbers() -> None:
     [
         ("mesh", "i > a1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
         ("mesh", "a2 > c1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
-        ("mesh", "c2 > sun1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
-        ("mesh", "a1 > sun1", [("no", "7/8", 3), ("yes", "1/8", 1)]),
+        ("mesh", "c2 > new_sun1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
+        ("mesh", "a1 > new_sun1", [("no", "7/8", 3), ("yes", "1/8", 1)]),
         ("driver", "a", [("in", "7/8", 3), ("c", "1/8", 1)]),
         ("driver", "c", [("a", "3/4", 2), ("in", "1/8", 1), ("not in the train", "1/8", 1)]),
         ("pointer", "sun", [("an added arbor", "1", 4)]),
         ("count", "c1", [("40", "5/8", 2), ("41", "1/4", 1), ("not used", "1/8", 1)]),
-        ("added", "sun1", [("53", "7/8", 3), ("50", "1/8", 1)]),
+        ("added", "new_sun1", [("53", "7/8", 3), ("50", "1/8", 1)]),
         ("needed", "53", [("yes", "7/8", 3), ("no", "1/8", 1)]),
         ("used", "c1", [("yes", "7/8", 3), ("no", "1/8", 1)]),
     ],
@@ -130,7 +130,7 @@ def test_the_most_telling_fact_is_first_and_those_that_divide_alike_stand_togeth
     )
     assert found[2].same == (Fact("pair", "a2 and c1"),)
     assert Fact("driver", "a") in found[3].same
-    assert Fact("added", "sun1") in found[4].same
+    assert Fact("added", "new_sun1") in found[4].same
 
 
 def test_nothing_is_to_be_looked_for_where_there_is_one_candidate() -> None:
@@ -148,21 +148,21 @@ def test_the_family_tree() -> None:
     told = [(one.parent, one.meshes, one.share, one.mechanisms) for one in tree]
     assert told == [
         (None, (), 1, 4),
-        (0, ("i > a1", "a2 > c1", "c2 > sun1 (sun)"), Fraction(3, 4), 2),
-        (0, ("i > c1", "c2 > a1", "a2 > sun1 (sun)"), Fraction(1, 8), 1),
-        (0, ("i > a2", "a1 > sun1 (sun)"), Fraction(1, 8), 1),
+        (0, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"), Fraction(3, 4), 2),
+        (0, ("i > c1", "c2 > a1", "a2 > new_sun1 (sun)"), Fraction(1, 8), 1),
+        (0, ("i > a2", "a1 > new_sun1 (sun)"), Fraction(1, 8), 1),
     ]
     ends = [[(train.rank, list(train.counts.items())) for train in one.trains] for one in tree]
     assert ends == [
         [],
-        [(1, [("sun1", 53), ("c1", 40)]), (2, [("sun1", 53), ("c1", 41)])],
-        [(3, [("sun1", 53), ("c1", 40)])],
-        [(4, [("sun1", 50)])],
+        [(1, [("new_sun1", 53), ("c1", 40)]), (2, [("new_sun1", 53), ("c1", 41)])],
+        [(3, [("new_sun1", 53), ("c1", 40)])],
+        [(4, [("new_sun1", 50)])],
     ]
 
 
 def test_a_stem_is_one_branch_and_no_candidates_have_no_tree() -> None:
     tree = grow_family_tree(WeighedTrains.of(WEIGHED.trains[:2], [1, 1]))
-    assert [(one.parent, one.meshes) for one in tree] == [(None, ("i > a1", "a2 > c1", "c2 > sun1 (sun)"))]
-    assert [train.counts for train in tree[0].trains] == [{"sun1": 53}, {"sun1": 53}]
+    assert [(one.parent, one.meshes) for one in tree] == [(None, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"))]
+    assert [train.counts for train in tree[0].trains] == [{"new_sun1": 53}, {"new_sun1": 53}]
     assert grow_family_tree(WeighedTrains((), ())) == ()

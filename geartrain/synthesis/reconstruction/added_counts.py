@@ -54,7 +54,7 @@ class AddedCounts:
 
         def among(counts: range) -> int:
             quotients_of = (Fraction(count) if limit.drives else Fraction(1, count) for count in counts)
-            return sum(self.count_limited(left, _divided(wanted, limit.dials, each), others) for each in quotients_of)
+            return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in quotients_of)
 
         allowed, ruled_out = range(least, limit.most + 1), range(max(least, limit.most + 1), greatest + 1)
         if len(allowed) <= len(ruled_out):
@@ -81,12 +81,12 @@ class AddedCounts:
             return own and own * self._count(rest, _without(wanted, dials))
         if bounds[0] == bounds[1]:
             own = count_choices(bounds[0], drivers, driven, self.range)
-            return own and own * self._count(rest, _divided(wanted, dials, bounds[0]))
+            return own and own * self._count(rest, divided(wanted, dials, bounds[0]))
         pair = _pair(groups, wanted)
         if pair is not None:
             return self._counted_pair(groups, wanted, *pair)
         return sum(
-            own * self._count(rest, _divided(wanted, dials, quotient))
+            own * self._count(rest, divided(wanted, dials, quotient))
             for quotient, own in quotients(*bounds, drivers, driven, self.range)
         )
 
@@ -95,7 +95,7 @@ class AddedCounts:
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
         return sum(
-            own * self._count(rest, _divided(_divided(wanted, groups[one][0], part), groups[other][0], both / part))
+            own * self._count(rest, divided(divided(wanted, groups[one][0], part), groups[other][0], both / part))
             for part, own in quotients_of_parts(both, *kinds, self.range)
         )
 
@@ -108,7 +108,7 @@ class AddedCounts:
         at, bounds, _ = step
         (dials, drivers, driven), rest = groups[at], groups[:at] + groups[at + 1 :]
         for quotient, _ in quotients(*bounds, drivers, driven, self.range):
-            left = _divided(wanted, dials, quotient)
+            left = divided(wanted, dials, quotient)
             if self._count(rest, left):
                 own = list(list_choices(quotient, drivers, driven, self.range))
                 for others in self._listed(rest, left):
@@ -179,7 +179,7 @@ def _without(wanted: Wanted, dials: Dials) -> Wanted:
     return tuple(each for each in wanted if each[0] not in dials)
 
 
-def _divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
+def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
     """What is left to be reached by the other groups."""
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted

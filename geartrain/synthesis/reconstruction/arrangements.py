@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
@@ -14,6 +14,7 @@ from geartrain.synthesis.reconstruction.ring_meshes import CountTokens, Rings, m
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
 _Step = tuple[str | None, ArborPass]
+COMPOUND, IDLER = -1, -2
 _COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
 _IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
 _Driving = tuple[str | None, PlacedWheel]
@@ -160,6 +161,20 @@ def arranged(skeleton: Skeleton, counts: Counts, idle: tuple[int, ...], facts: M
             arbor = _Assembly(orders, counts, idle).joint(skeleton.root, ())
             if rings_mesh(arbor, facts.rings):
                 yield arbor
+
+
+def in_order(skeleton: Skeleton, orders: Mapping[int, list[int]], counts: Counts, idle: tuple[int, ...]) -> Arbor:
+    """The train of one order.
+
+    orders   by `id` of a limb the arbors on it, from the driving wheel on: the number of a surviving one, `COMPOUND`
+             for an added one with two wheels, or `IDLER`
+    """
+    added = {COMPOUND: _COMPOUND, IDLER: _IDLER}
+    steps = {
+        id(limb): tuple(added[at] if at in added else limb.through[at] for at in orders[id(limb)])
+        for limb in skeleton.limbs
+    }
+    return _Assembly(steps, counts, idle).joint(skeleton.root, ())
 
 
 def _agrees(skeleton: Skeleton, orders: dict[int, tuple[_Step, ...]], facts: MeshFacts) -> bool:

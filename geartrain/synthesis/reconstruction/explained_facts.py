@@ -1,4 +1,4 @@
-"""What each candidate says of single facts: marginals by weight, and which fact would divide the candidates most.
+"""What trains say of single facts: marginals by weight, and which fact would divide the trains most.
 
 A fact has one answer in each candidate: whether two wheels mesh, what drives an arbor, the count of a wheel. Its
 marginal is the weight of each answer; looking it up is expected to tell the entropy of these weights, as the candidate
@@ -7,7 +7,7 @@ decides the answer.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -34,6 +34,7 @@ used     a surviving wheel meshes
 
 _KINDS: tuple[FactKind, ...] = get_args(FactKind)
 
+AN_ADDED_ARBOR = "an added arbor"
 YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not used"
 _ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
 """The answer of a candidate that says nothing of a fact; `NO` of the other kinds."""
@@ -148,64 +149,95 @@ class WeighedTrains:
         return sum(self.weights)
 
 
-class ExplainedFacts:
-    """Every fact with the candidates that give each of its answers."""
+class FactTally:
+    """By fact and answer, the weight and the number of the trains that give it."""
 
-    def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem) -> None:
-        self._weighed = weighed
-        self._found: dict[Fact, dict[str, list[int]]] = {}
-        lost = {dial.name for dial in problem.dials if dial.place is None}
-        doubtful = {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
-        for index, train in enumerate(weighed.trains):
-            for fact, answer in _facts(train, doubtful, lost):
-                self._found.setdefault(fact, {}).setdefault(answer, []).append(index)
-        self._all_used(problem)
+    def __init__(self, problem: ReconstructionProblem) -> None:
+        self.trains = 0
+        self._whole = Fraction(0)
+        self._found: dict[Fact, dict[str, tuple[Fraction, int]]] = {}
+        self._wheels = [wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels]
 
-    def marginals(self) -> tuple[FactMarginal, ...]:
-        """Of every fact but `pair`, those of a kind together; what is in all candidates first, then by weight."""
-        found = [self._marginal(fact) for fact in self._found if fact.kind != "pair"]
-        return tuple(sorted(found, key=lambda one: (_KINDS.index(one.kind), -_affirmed(one), _natural(one.subject))))
+    def add_trains(self, weight: Fraction | int, number: int = 1) -> None:
+        """So many more trains, of one weight each."""
+        self._whole += weight * number
+        self.trains += number
 
-    def next_facts(self) -> tuple[NextFact, ...]:
-        """Facts that would divide the candidates, the most telling first."""
-        asked = [self._marginal(fact) for fact in self._found if fact.kind in _LOOKED_FOR]
-        asked = [one for one in asked if len(one.answers) > 1]
-        order = {kind: at for at, kind in enumerate(_LOOKED_FOR)}
-        asked.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
-        alike: dict[frozenset[frozenset[int]], list[FactMarginal]] = {}
-        for one in asked[:_MOST_FACTS]:
-            alike.setdefault(self._parts(Fact(one.kind, one.subject)), []).append(one)
-        return tuple(
-            NextFact(first, tuple(Fact(one.kind, one.subject) for one in others)) for first, *others in alike.values()
-        )
+    def add(self, fact: Fact, answer: str, weight: Fraction | int, number: int = 1) -> None:
+        """So many of them give an answer; none gives two to one fact."""
+        answers = self._found.setdefault(fact, {})
+        before = answers.get(answer, (Fraction(0), 0))
+        answers[answer] = before[0] + weight * number, before[1] + number
 
-    def _all_used(self, problem: ReconstructionProblem) -> None:
-        """Leave out what is said of wheels that all candidates use; say it of those that none uses."""
-        count = len(self._weighed.trains)
-        for arbor in _survivors(problem):
-            for wheel in arbor.wheels:
-                used = self._found.setdefault(Fact("used", wheel.name), {})
-                if len(used.get(YES, ())) == count:
-                    del self._found[Fact("used", wheel.name)]
+    def facts(self) -> Iterator[Fact]:
+        """All of them, without wheels that all trains use, but with those that none uses."""
+        used = {wheel: Fact("used", wheel) for wheel in self._wheels}
+        everywhere = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
+        yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in everywhere)
 
-    def _marginal(self, fact: Fact) -> FactMarginal:
-        weights, whole = self._weighed.weights, self._weighed.whole
-        answers = [
-            FactAnswer(answer, Fraction(sum(weights[index] for index in indexes), whole), len(indexes))
-            for answer, indexes in self._found[fact].items()
-        ]
-        left = len(weights) - sum(answer.mechanisms for answer in answers)
+    def marginal(self, fact: Fact) -> FactMarginal:
+        """What the trains say of a fact."""
+        found = self._found.get(fact, {})
+        answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
+        left = self.trains - sum(answer.mechanisms for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
             answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))
         answers.sort(key=lambda one: (-one.share, _natural(one.answer)))
         return FactMarginal(fact.kind, fact.subject, tuple(answers))
 
-    def _parts(self, fact: Fact) -> frozenset[frozenset[int]]:
-        """The parts into which a fact divides the candidates."""
-        parts = [frozenset(indexes) for indexes in self._found[fact].values()]
+
+class ExplainedFacts:
+    """What trains say of every fact, and which facts divide them alike.
+
+    Parameters
+    ----------
+    weighed : WeighedTrains
+        All of them, or the best.
+    problem : ReconstructionProblem
+    tally : FactTally, optional
+        The sums over all, where they are known; facts divide alike if they do so in `weighed`, with equal sums.
+    """
+
+    def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
+        self._weighed = weighed
+        self._listed: dict[Fact, dict[str, list[int]]] = {}
+        lost, doubtful = lost_pointers(problem), wheels_in_doubt(problem)
+        own = FactTally(problem)
+        for index, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True)):
+            own.add_trains(weight)
+            for fact, answer in _facts(train, doubtful, lost):
+                self._listed.setdefault(fact, {}).setdefault(answer, []).append(index)
+                own.add(fact, answer, weight)
+        self._tally = own if tally is None else tally
+
+    def marginals(self) -> tuple[FactMarginal, ...]:
+        """Of every fact but `pair`, those of a kind together; what is in all trains first, then by weight."""
+        found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
+        return tuple(sorted(found, key=lambda one: (_KINDS.index(one.kind), -_affirmed(one), _natural(one.subject))))
+
+    def next_facts(self) -> tuple[NextFact, ...]:
+        """Facts that would divide the trains, the most telling first."""
+        asked = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in _LOOKED_FOR]
+        asked = [one for one in asked if len(one.answers) > 1]
+        order = {kind: at for at, kind in enumerate(_LOOKED_FOR)}
+        asked.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
+        alike: dict[Hashable, list[FactMarginal]] = {}
+        for one in asked[:_MOST_FACTS]:
+            alike.setdefault(self._parts(one), []).append(one)
+        return tuple(
+            NextFact(first, tuple(Fact(one.kind, one.subject) for one in others)) for first, *others in alike.values()
+        )
+
+    def _parts(self, one: FactMarginal) -> Hashable:
+        """The parts into which a fact divides the trains that are listed, and how many trains of all each part has."""
+        fact = Fact(one.kind, one.subject)
+        parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
         rest = frozenset(range(len(self._weighed.trains))).difference(*parts)
-        return frozenset([*parts, *([rest] if rest else [])])
+        found = frozenset([*parts, *([rest] if rest else [])])
+        if len(found) < len(one.answers):  # those that are listed do not show how it divides all
+            return fact
+        return found, frozenset((answer.share, answer.mechanisms) for answer in one.answers)
 
 
 def _facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
@@ -213,7 +245,7 @@ def _facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tu
     wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
     for arbor in train.arbors():
         for dial in lost.intersection(arbor.dials):
-            yield Fact("pointer", dial), "an added arbor" if arbor.added else arbor.name
+            yield Fact("pointer", dial), AN_ADDED_ARBOR if arbor.added else arbor.name
     for wheel in wheels:
         if wheel.added:
             yield Fact("added", wheel.name), str(wheel.teeth)
@@ -229,7 +261,17 @@ def _facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tu
         if not (wheel.added or arbor.driven.added):
             yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
         if not arbor.added:
-            yield Fact("driver", arbor.name), "an added arbor" if driving.added else driving.name
+            yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
+
+
+def lost_pointers(problem: ReconstructionProblem) -> set[str]:
+    """Dials whose place is not known."""
+    return {dial.name for dial in problem.dials if dial.place is None}
+
+
+def wheels_in_doubt(problem: ReconstructionProblem) -> set[str]:
+    """Surviving wheels that may have several counts."""
+    return {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
 
 
 def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
+from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +67,13 @@ class Reconstructions(Result):
         Whether all were looked at.
     candidates : tuple of Candidate
         The best first.
+    skeletons : tuple of CountedSkeleton
+        All structures with the numbers of their trains, where each train weighs as its structure; else none.
     """
+
+    KEYS = ("counts", "complete", "candidates")
 
     counts: tuple[ExplanationCount, ...]
     complete: bool
     candidates: tuple[Candidate, ...]
+    skeletons: tuple[CountedSkeleton, ...] = ()

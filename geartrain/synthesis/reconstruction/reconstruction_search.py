@@ -64,7 +64,8 @@ def find_reconstructions(
     if per == "class" or geometry.wheels or geometry.arbors:
         return _all_weighed(problem, found, complete, per)
     counts = tuple(_count(added, skeletons, problem) for added, skeletons in found.items())
-    return Reconstructions(counts, complete, tuple(_best(problem, found, listed)))
+    every = tuple(each for some in found.values() for each in some)
+    return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every)
 
 
 def _count(added: int, skeletons: Sequence[CountedSkeleton], problem: ReconstructionProblem) -> ExplanationCount:

@@ -48,13 +48,21 @@ class CountTokens:
 
     def limits(self, arbor: Arbor, rings: Rings, greatest: int) -> tuple[CountLimit, ...]:
         """The limits below the greatest count that rings set in a train whose added wheels have tokens, sorted."""
+        most = self.most(arbor, rings, greatest)
+        return tuple(sorted(CountLimit(*self.owner(token), count) for token, count in most.items()))
+
+    def owner(self, token: int) -> tuple[Dials, bool]:
+        """The dials whose speed a wheel changes, and whether it drives on the way to them."""
+        return self._owners[-token - 1]
+
+    def most(self, arbor: Arbor, rings: Rings, greatest: int) -> dict[int, int]:
+        """The same limits by token."""
         least: dict[int, int] = {}
         for pair in _meshes(arbor):
             for ring, inside in (pair, pair[::-1]):
                 if ring.name in rings and inside.teeth < 0:
                     least[inside.teeth] = min(least.get(inside.teeth, greatest), ring.teeth - 1)
-        found = [(*self._owners[-token - 1], most) for token, most in least.items() if most < greatest]
-        return tuple(sorted(CountLimit(*each) for each in found))
+        return {token: count for token, count in least.items() if count < greatest}
 
 
 def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:

@@ -1,0 +1,38 @@
+"""Trains drawn from the sums come as often as each other, and every train of a skeleton comes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from random import Random
+
+import pytest
+from concrete_trees import Node, concrete, explanations, random_problem, with_rings
+
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
+
+DRAWS = 60
+"""For each train, on average."""
+
+
+@pytest.mark.parametrize("rings", [False, True])
+def test_each_train_of_a_skeleton_is_drawn_as_often(rings: bool) -> None:
+    chance, tried = Random(1), 0
+    for seed in range(300, 340):
+        plain = random_problem(seed, idlers=True)
+        problem = with_rings(plain, seed) if rings else plain
+        grown = {tree for found in explanations(problem) for tree in found.mechanisms}
+        trains = SkeletonTrains(problem, [dial.name for dial in problem.dials])
+        everything: set[Node] = set()
+        for each in find_reconstructions(problem, listed=0).skeletons[:20]:
+            if each.mechanisms > 12:
+                continue
+            found = Counter(concrete(trains.draw(each.skeleton, chance)) for _ in range(DRAWS * each.mechanisms))
+            assert len(found) == each.mechanisms
+            assert set(found) <= grown
+            # eight standard deviations of a binomial
+            assert all(abs(number - DRAWS) < 8 * DRAWS**0.5 for number in found.values())
+            assert not everything & set(found)
+            everything |= set(found)
+            tried += each.mechanisms > 1
+    assert tried > (3 if rings else 20)

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 from concrete_trees import ADDED, concrete, explanations, meshes, nodes, package_arbor, random_problem, with_rings
 
+from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
+from geartrain.synthesis.reconstruction import candidate_findings
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, WeighedTrains
 from geartrain.synthesis.reconstruction.fact_sums import sum_facts
 from geartrain.synthesis.reconstruction.named_train import name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions, prior, skeleton_prior
+from geartrain.train.declaration_files import read_evidence
 
 Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
 
@@ -87,3 +92,21 @@ def test_sums_are_those_over_concrete_trees(first: int) -> None:
             if key[0] == "needed" or (key[0] == "mesh" and set(key[1].split(" > ")) <= survivors)
         }
         assert told == direct
+
+
+@pytest.mark.parametrize(("most", "told"), [(10**6, 4), (3, 1)])
+def test_facts_are_told_of_all_trains_unless_they_are_too_many(
+    most: int, told: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One of the four trains of the back is listed."""
+    evidence = read_evidence("back-train")
+    problem = evidence_question(evidence).problem
+    found = find_reconstructions(problem)
+    monkeypatch.setattr(candidate_findings, "MOST_SUMMED", most)
+    findings = candidate_findings.find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
+    assert findings.of_all == (told == 4)
+    assert {one.trains for one in findings.marginals} == {told}
+    assert (findings.listed, len(findings.family)) == (1, 1)
+    report = ReconstructionReport("back", problem, found.counts, True, (), (), findings=findings)
+    said = "are told of all." if told == 4 else "shares are of theirs."
+    assert sum(line.endswith(said) for line in describe_reconstruction(report).lead) == 1

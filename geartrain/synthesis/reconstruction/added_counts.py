@@ -122,7 +122,7 @@ class AddedCounts:
         if not groups:
             return None
         best: tuple[int, Quotients, bool] | None = None
-        fewest = groups
+        tried: list[tuple[int, int, int, int]] = []
         for dial, bounds in wanted:
             own = [at for at, group in enumerate(groups) if dial in group[0]]
             if len(own) == 1:
@@ -132,13 +132,13 @@ class AddedCounts:
                     return own[0], bounds, private
                 if private and best is None:
                     best = own[0], bounds, private
-            elif own and len(own) < len(fewest):
-                fewest = tuple(groups[at] for at in own)
+            else:
+                tried += [(len(own), groups[at][1] + groups[at][2], -len(groups[at][0]), at) for at in own]
         if best is not None:
             return best
-        # then soonest a dial has one group left
-        tried = min(fewest, key=lambda group: (group[1] + group[2], -len(group[0])))
-        return groups.index(tried), (Fraction(0), _BOUNDLESS), False
+        # so that soon a dial has one group left; it may be that none is left that asks
+        at = min(tried)[-1] if tried else 0
+        return at, (Fraction(0), _BOUNDLESS), False
 
 
 _BOUNDLESS = Fraction(10**40)

@@ -87,6 +87,16 @@ def test_an_eccentric_wheel_and_axles_apart_are_right_to_first_order(which: Whic
 
 
 @PAIRS
+@pytest.mark.parametrize("moved", [0.02, 0.005])
+def test_contact_does_not_jump_where_round_tips_stand_still(which: Which, moved: float) -> None:
+    """The radius of a round tip has no slope at its end; what a slope of rounding says there must not count."""
+    at, (one, two), distance = contact_of(which)
+    S = np.linspace(0, two.z * one.pitch, 4001)
+    turned = solve(one, two.displaced(-moved * np.sin(0.7), moved * np.cos(0.7)), distance, S).front.angle
+    assert np.diff(turned) == pytest.approx(float(at.ratio) * np.diff(S), rel=1.0)
+
+
+@PAIRS
 @pytest.mark.parametrize("gear", [0, 1])
 def test_flanks_that_lean_touch_as_their_outlines_do(which: Which, gear: int) -> None:
     at, wheels_drawn, distance = contact_of(which)

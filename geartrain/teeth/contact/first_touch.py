@@ -145,6 +145,7 @@ class FlankSegmentation:
 _ASIDE = 1e-5  # of a segment: where a slope is asked for if the end has none
 _FINE = 1e-14  # of u: G itself is flat where its slope is 0, and only the speed is as good as u
 _WIDE = 2.0  # bounds from tangents are doubled
+_LEFT = 1e-8  # of u: what an inversion leaves where a curve stands still, the square root of rounding
 
 
 class FirstTouches(NamedTuple):
@@ -195,13 +196,17 @@ class FirstTouchSearch(FlankSegmentation):
         piece = np.broadcast_to(segments.piece2, segments.u.shape)
         low, high = self.second.ends[:, segments.piece2]
         r = np.clip(segments.seen[0], low, high)
-        v = np.where(np.isnan(segments.v), self.second.guess(piece, r)[0], segments.v)
+        within = np.isnan(segments.v)
+        v = np.where(within, self.second.guess(piece, r)[0], segments.v)
+        # where the piece stands still a step of Newton's method leads anywhere
+        still = within & self.second.near_stall(piece, v)
+        v[still] = self.second.inverse(piece[still], r[still])
         radius, rise = value(self.second.radius, piece, v)
         azimuth, turn = value(self.second.azimuth, piece, v)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = turn / rise
-            # one step of Newton's method instead of the inversion; 0 where the piece stands still and has no slope
-            correction = np.nan_to_num(slant * (r - radius), nan=0.0, posinf=0.0, neginf=0.0)
+            # elsewhere one step of it instead of the inversion; at an end of the piece nothing is left to correct
+            correction = np.where(within & ~still, slant * (r - radius), 0.0)
             return segments.seen[1] - azimuth - correction, segments.seen[3] - slant * segments.seen[2]
 
     # ------------------------------------------------------------------------------------------------------ exactly
@@ -251,7 +256,10 @@ class FirstTouchSearch(FlankSegmentation):
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = np.where(corner, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
-            correction = np.nan_to_num(slant * (view.radius - r), nan=0.0, posinf=0.0, neginf=0.0)
+            off = view.radius - r
+            # more than rounding leaves is asked for only where the smooth side stands still and `slant` is noise
+            trusted = np.abs(off / np.where(corner, change, rise)) <= _LEFT
+            correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
         # `correction` takes off what the inversion left of the radius, so that the angle is good to rounding
         angle = view.azimuth - a - correction - couples.place[segments.couple]

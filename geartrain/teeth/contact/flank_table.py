@@ -138,6 +138,12 @@ class FlankTable:
             share = np.where(above > below, np.clip((r - below) / (above - below), 0, 1), 0.5)
         return left + share * (2 / _BINS), left, left + 2 / _BINS
 
+    def near_stall(self, piece: Indices, u: Floats) -> Bools:
+        """Whether u is in the last bin before an end at which a piece stands still."""
+        edge = 1 - 2 / _BINS
+        found: Bools = self.stalls[0][piece] & (u < -edge) | self.stalls[1][piece] & (u > edge)
+        return found
+
     def inverse(self, piece: Indices, r: Floats) -> Floats:
         """u at which pieces have radius r, by Newton's method kept inside a bracket; r within their ends."""
         u, low, high = self.guess(piece, r)

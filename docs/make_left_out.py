@@ -50,10 +50,10 @@ wheels and arbors weigh the same, so that a rank mostly is a range. Classes do n
 """
 
 FOUND = """
-There are {possible} such questions. {asked} were asked and {whole} finished in the time that each had; two arbors are
-not left out where one of them alone was not finished. The train itself was found in {found} of the finished ones{lost};
-{many} have too many explanations to list. In {first} it has none of more weight above it, and in {alone} it is the only
-one of the greatest weight. {more} have explanations with fewer wheels than were lost, which then weigh more.
+There are {possible} such questions. {asked} were asked and {whole} finished in the processor time that each had; two
+arbors are not left out where one of them alone was not finished. The train itself was found in {found} of the finished
+ones{lost}; {many} have too many explanations to list. In {first} it has none of more weight above it, and in {alone} it
+is the only one of the greatest weight. {more} have explanations with fewer wheels than were lost, which then weigh more.
 """
 
 
@@ -88,7 +88,9 @@ def from_command_line() -> None:
     asked = argparse.ArgumentParser(description="Write docs/left-out.md from its kept run.")
     asked.add_argument("--measure", action="store_true", help="ask anew, which takes minutes to hours")
     asked.add_argument("--quick", action="store_true", help="print the tables of a short run, and write nothing")
-    asked.add_argument("--limit", type=float, default=LIMIT, help="seconds for a question (default %(default)g)")
+    asked.add_argument(
+        "--limit", type=float, default=LIMIT, help="processor seconds for a question (default %(default)g)"
+    )
     asked.add_argument("--workers", type=int, default=1, help="questions at once (default %(default)s)")
     asked.add_argument("--train", action="append", default=[], help="ask of this train alone, and write nothing")
     given = asked.parse_args()

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import combinations
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 from geartrain.errors import GearTrainError
@@ -26,7 +26,7 @@ from studies.left_out_records import LeftOutRecord, LeftOutRecords, NotAskedReco
 from studies.measurement import gathered
 
 LIMIT = 60.0
-"""Seconds for a question."""
+"""Processor seconds for a question."""
 LISTED = 20_000
 """Explanations among which a train is looked for."""
 TITLE = "Trains found again"
@@ -41,7 +41,7 @@ def left_out(
 ) -> LeftOutRecords:
     """Ask of some shipped trains, by default of all.
 
-    limit    seconds for a question
+    limit    processor seconds for a question
     journal  what is finished is kept in two files beside it, for one and for two arbors, which `forget` removes
     """
     trees, not_asked = find_trees(names or tuple(shipped()))
@@ -93,9 +93,9 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
     evidence, original = lost_evidence(tree, lost), tree.arbor(lost)
     own = _wheels(tree, lost)
     for wheels in range(own + 1):
-        start = perf_counter()
+        start = process_time()
         found = find_reconstructions(evidence_question(evidence, wheels).problem, listed=LISTED)
-        seconds = perf_counter() - start
+        seconds = process_time() - start
         yield {
             "mechanisms": [count.mechanisms for count in found.counts],
             "classes": [count.classes for count in found.counts],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import multiprocessing
 import resource
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -100,23 +101,27 @@ class Gathered(NamedTuple):
 
 
 def gathered(items: Callable[[], Iterable[Any]], limit: float, gigabytes: float) -> Gathered:
-    """What an iterator yields in a forked process with so many seconds and so much memory (GB), as far as it comes."""
+    """What an iterator yields in a forked process, as far as it comes in some time and memory.
+
+    limit      seconds of its processor: what else runs beside it does not count
+    gigabytes  of memory
+    """
     context = multiprocessing.get_context("fork")
     here, there = context.Pipe(duplex=False)
-    process = context.Process(target=_gather, args=(there, items, gigabytes))
+    process = context.Process(target=_gather, args=(there, items, limit, gigabytes))
     process.start()
     there.close()
     found: list[Any] = []
-    end = time.monotonic() + limit
     try:
-        while here.poll(max(0.0, end - time.monotonic())):
+        while True:
             ended, item = here.recv()
             if ended:
                 return Gathered(found, item)
             found.append(item)
-        return Gathered(found, f"not within {limit:g} s")
     except EOFError:
-        return Gathered(found, f"more than {gigabytes:g} GB")
+        process.join()
+        late = process.exitcode == -signal.SIGPROF
+        return Gathered(found, f"not within {limit:g} s" if late else f"more than {gigabytes:g} GB")
     finally:
         process.kill()
         process.join()
@@ -128,7 +133,9 @@ def _addresses() -> int:
     return int(held.read_text().split()[0]) * resource.getpagesize() if held.exists() else 0
 
 
-def _gather(pipe: Connection, items: Callable[[], Iterable[Any]], gigabytes: float) -> None:
+def _gather(pipe: Connection, items: Callable[[], Iterable[Any]], limit: float, gigabytes: float) -> None:
+    # the signal ends the process
+    signal.setitimer(signal.ITIMER_PROF, max(limit, 1e-6))
     # a forked process begins with the addresses of the one that asks, which may be gigabytes that nobody uses
     most = _addresses() + int(gigabytes * 1e9)
     resource.setrlimit(resource.RLIMIT_AS, (most, most))

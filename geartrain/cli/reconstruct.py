@@ -16,6 +16,7 @@ from geartrain.cli.common import (
     Force,
     Json,
     Names,
+    Seed,
     as_json,
     emit,
     plural,
@@ -53,6 +54,8 @@ Evidence = Annotated[
 
 
 _EVIDENCE = "evidence.yaml"
+MOST_DRAWN = 100_000
+"""Trains that are drawn at most."""
 _ALL = 1_000_000
 _LOOKED_AT = 2000
 """Candidates whose meshes and counts are compared, also where fewer are listed."""
@@ -84,6 +87,11 @@ def run(
         Literal["mechanism", "class"],
         typer.Option("--per", help="What has a weight of its own: every train, or every class of equal ratios."),
     ] = "mechanism",
+    sample: Annotated[
+        int,
+        typer.Option("--sample", min=0, max=MOST_DRAWN, help="Draw so many trains, with the chance of their weight."),
+    ] = 0,
+    seed: Seed = 1,
     assumptions: Annotated[
         bool, typer.Option("--assumptions", help="Drop each hard fact in turn and count again; asks once for each.")
     ] = False,
@@ -96,6 +104,7 @@ def run(
     """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none."""
     from geartrain.numerics.files import check_folder
     from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
+    from geartrain.synthesis.reconstruction.drawn_candidates import draw_candidates
     from geartrain.synthesis.reconstruction.evidence_question import evidence_question
     from geartrain.synthesis.reconstruction.lost_arbors import rank_of
     from geartrain.synthesis.reconstruction.question_digest import question_digest
@@ -121,6 +130,7 @@ def run(
     if told:  # else this journal is taken up with the other
         close_journal(given.journal, not found.complete)
     listed = () if count else found.candidates if every else found.candidates[:best]
+    drawn = draw_candidates(found, question.problem, tuple(declared.outputs), sample, seed) if sample else ()
     report = ReconstructionReport(
         declared.name,
         question.problem,
@@ -133,6 +143,7 @@ def run(
         question.base,
         question.joined,
         expected,
+        tuple(_ranked(declared, drawn)),
     )
     if folder is not None and listed:
         extra = {FAMILY: family_text(report, question.problem)}

@@ -86,6 +86,8 @@ class ReconstructionReport(Result):
         What is declared and plays no part.
     best : tuple of RankedTrain
         The best, as many as were asked for.
+    drawn : tuple of RankedTrain
+        Trains drawn at random, as many as were asked for; `rank` counts them.
     original : tuple of int, optional
         First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
     findings : CandidateFindings
@@ -98,7 +100,18 @@ class ReconstructionReport(Result):
         What the search was expected to cost before it began.
     """
 
-    KEYS = ("name", "asked", "expected", "counts", "complete", "unused", "best", "original", Key("", "findings"))
+    KEYS = (
+        "name",
+        "asked",
+        "expected",
+        "counts",
+        "complete",
+        "unused",
+        "best",
+        "drawn",
+        "original",
+        Key("", "findings"),
+    )
 
     name: str
     problem: ReconstructionProblem
@@ -111,6 +124,7 @@ class ReconstructionReport(Result):
     base: BaseLink | None = None
     joined: Joined = field(default_factory=dict)
     expected: ExpectedCost | None = None
+    drawn: tuple[RankedTrain, ...] = ()
 
     @property
     def asked(self) -> AskedQuestion:
@@ -171,6 +185,8 @@ def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
         yield _best(found, turning)
+    if found.drawn:
+        yield _drawn(found)
     yield from family_section(findings.family, turning)
     yield from shared_sections(findings.marginals)
     yield from next_section(findings.next_facts)
@@ -225,10 +241,23 @@ def _best(found: ReconstructionReport, turning: int) -> Section:
     return Section("The best", more, [filled_table(header, rows, 4)])
 
 
+def _drawn(found: ReconstructionReport) -> Section:
+    rows = [
+        (str(one.rank), _rank_range(one), _teeth(one.wheels) or "none", ", ".join(one.meshes), _teeth(one.doubtful))
+        for one in found.drawn
+    ]
+    header = ("draw", "ranks", "added wheels", "meshes", "counts in doubt")
+    return Section("Drawn", ["Each with the chance of its weight among all."], [filled_table(header, rows, 4)])
+
+
+def _rank_range(one: RankedTrain) -> str:
+    first, last = one.ranks
+    return str(first) if first == last else f"{first}-{last}"
+
+
 def _rank(one: RankedTrain) -> str:
     """The rank, with those of all that weigh the same."""
-    first, last = one.ranks
-    return str(one.rank) if first == last else f"{one.rank} ({first}-{last})"
+    return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({_rank_range(one)})"
 
 
 def _teeth(wheels: dict[str, int]) -> str:

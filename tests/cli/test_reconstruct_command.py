@@ -272,3 +272,19 @@ def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> 
     mine = json.loads(call("reconstruct", "al-biruni-without-moon", "--json").stdout)
     assert mine["counts"] == theirs["counts"]
     assert sorted(each["meshes"] for each in mine["best"]) == sorted(each["meshes"] for each in theirs["best"])
+
+
+def test_trains_are_drawn_anew_with_another_seed() -> None:
+    asked = ("reconstruct", "back-train-moon", "--sample", 30, "--json")
+    first, again, other = (json.loads(call(*asked, "--seed", seed).stdout) for seed in (1, 1, 2))
+    holds("reconstruct", first)
+    assert first["drawn"] == again["drawn"] != other["drawn"]
+    assert [one["rank"] for one in first["drawn"]] == list(range(1, 31))
+    listed = [one["meshes"] for one in first["best"]]
+    assert all(one["meshes"] in listed for one in first["drawn"])
+
+
+def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
+    result = call("reconstruct", "back-train-modules", "--sample", 3)
+    assert isinstance(result.exception, QuestionError)
+    assert "weighed by itself" in str(result.exception)

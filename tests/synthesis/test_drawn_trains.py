@@ -8,8 +8,11 @@ from random import Random
 import pytest
 from concrete_trees import Node, concrete, explanations, random_problem, with_rings
 
+from geartrain.synthesis.reconstruction.drawn_candidates import draw_candidates
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
+from geartrain.train.declaration_files import read_evidence
 
 DRAWS = 60
 """For each train, on average."""
@@ -36,3 +39,17 @@ def test_each_train_of_a_skeleton_is_drawn_as_often(rings: bool) -> None:
             everything |= set(found)
             tried += each.mechanisms > 1
     assert tried > (3 if rings else 20)
+
+
+def test_trains_of_different_weights_are_drawn_by_them() -> None:
+    problem = evidence_question(read_evidence("isfahan-without-pivot"), 3).problem
+    found = find_reconstructions(problem, listed=10_000)
+    drawn = draw_candidates(found, problem, [dial.name for dial in problem.dials], DRAWS * 100, 2)
+    assert drawn == draw_candidates(found, problem, [dial.name for dial in problem.dials], DRAWS * 100, 2)
+    listed = {one.arbor: one for one in found.candidates}
+    assert sum(one.weight for one in listed.values()) == pytest.approx(1)
+    assert all(listed[one.arbor] == one for one in drawn)
+    for added in {one.added for one in listed.values()}:
+        share = sum(one.weight for one in listed.values() if one.added == added)
+        number = sum(one.added == added for one in drawn)
+        assert abs(number - share * len(drawn)) < 6 * (share * (1 - share) * len(drawn)) ** 0.5 + 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import groupby, islice
 from typing import Literal, TypeVar
@@ -122,10 +122,7 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]
     """The heaviest candidates, those of one weight by added wheels and their teeth."""
     weighed = [(skeleton_prior(each, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.mechanisms for weight, _, each in weighed)
-    alike = Counter[Fraction]()
-    for weight, _, each in weighed:
-        alike[weight] += each.mechanisms
-    ranks = _ranks(alike)
+    ranks = weight_ranks((weight, each.mechanisms) for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
     made, most = 0, max(listed, _LISTED)
     for (weight, added), equal in groupby(weighed, key=lambda one: one[:2]):
@@ -137,8 +134,11 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]
         yield from (Candidate(arbor, added, float(weight / whole), ranks[weight]) for arbor in arbors)
 
 
-def _ranks(alike: Mapping[_Weight, int]) -> dict[_Weight, tuple[int, int]]:
-    """First and last rank of candidates of each weight; `alike` says how many there are."""
+def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
+    """First and last rank of candidates of each weight, from weights and how many candidates have them."""
+    alike = Counter[_Weight]()
+    for weight, number in weighed:
+        alike[weight] += number
     found, before = {}, 0
     for weight in sorted(alike, reverse=True):
         found[weight] = before + 1, before + alike[weight]
@@ -176,7 +176,7 @@ def _all_weighed(
         weighed = [(weight / classes[ratio_class(arbor)], added, arbor) for weight, added, arbor in weighed]
     weighed.sort(key=lambda one: (-one[0], one[1], _order(one[2])))
     whole = sum(weight for weight, _, _ in weighed)
-    ranks = _ranks(Counter(weight for weight, _, _ in weighed))
+    ranks = weight_ranks((weight, 1) for weight, _, _ in weighed)
     candidates = tuple(Candidate(arbor, added, weight / whole, ranks[weight]) for weight, added, arbor in weighed)
     return Reconstructions(tuple(counts), complete, candidates)
 

@@ -53,7 +53,8 @@ FOUND = """
 There are {possible} such questions. {asked} were asked and {whole} finished in the processor time that each had; two
 arbors are not left out where one of them alone was not finished. The train itself was found in {found} of the finished
 ones{lost}; {many} have too many explanations to list. In {first} it has none of more weight above it, and in {alone} it
-is the only one of the greatest weight. {more} have explanations with fewer wheels than were lost, which then weigh more.
+is the only one of the greatest weight. {more} have explanations with fewer wheels than were lost, which then weigh
+more.
 """
 
 

@@ -14,6 +14,7 @@ speeds                propagation, exact elimination, floats
 relative_speeds       the speed of one link seen from another
 gridlock              locked subgraphs, and the fewest meshes to take out
 phasing               whether teeth meet when a train is put together
+buildability          what of a declared train cannot be built, and what is unwise
 judged_outputs, answer, verdict, lint   what is told of it all
 """
 

@@ -93,7 +93,7 @@ def run(
     else:
         assert to is not None
         _all(work, to, kinds, wheel, shown, force)
-    raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
+    raise typer.Exit(GOOD if is_sound(work.sized, state) else VERDICT)
 
 
 def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:

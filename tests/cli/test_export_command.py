@@ -173,3 +173,15 @@ def test_without_any_extra_the_rest_is_written_and_what_is_missing_is_said(tmp_p
         assert f"geartrain[{extra}]" in done.stderr
     suffixes = {path.suffix for path in (tmp_path / "set").rglob("*") if path.is_file()}
     assert suffixes == {".svg", ".stl", ".graphml", ".dot", ".rexsj", ".csv", ".md"}
+
+
+def test_play_in_mm_is_no_error_where_the_module_is_asked_for(tmp_path: Path) -> None:
+    train = tmp_path / "train.yaml"
+    train.write_text(
+        "extends: planetary-24-18-60\nname: thin\n"
+        "tooth_form: {form: involute, pressure_angle: 25 deg, backlash: 0.1 mm}\n",
+        encoding="utf-8",
+    )
+    done = call("export", train, "--to", tmp_path / "cut", "--as", "svg", "--module", "2mm")
+    assert done.exit_code == 0, done.output
+    assert "s~p: 0.1 mm" in (tmp_path / "cut" / "README.md").read_text(encoding="utf-8")

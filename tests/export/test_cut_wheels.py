@@ -369,6 +369,30 @@ def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
         assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
 
 
+@pytest.mark.parametrize(("said", "made", "plays"), [
+    ("", {}, (0.1, 0.1)),
+    ("", {"backlash": 0.03}, (0.03, 0.03)),
+    ("{form: cycloidal, backlash: 0.2 mm}", {}, (0.2, 0.1)),
+    ("{form: cycloidal, backlash: 0.2 mm}", {"backlash": 0.03}, (0.2, 0.03)),
+])  # fmt: skip
+def test_every_pair_is_cut_with_play_which_it_declares_or_the_maker_gives_or_a_twentieth_of_the_module(
+    said: str, made: dict[str, float], plays: tuple[float, float]
+) -> None:
+    train = GearTrain.declare(
+        yaml.safe_load(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 24}}}}, b: {{wheels: {{w: 36, q: 20}}}}, c: {{wheels: {{v: 30}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{id: G1, pair: [p, w], tooth_form: {said or "{form: cycloidal}"}}}, {{id: G2, pair: [q, v]}}]
+tooth_form: {{form: involute}}
+inputs: {{a: 1}}
+""")
+    )
+    work = SolidModel(train, ManufacturingSizes(module=2.0, bore=0.0, **made))
+    assert {each.pair: each.length for each in work.blanks.plays} == pytest.approx(
+        dict(zip(("G1", "G2"), plays, strict=True)), abs=1e-9
+    )
+
+
 def test_the_readme_states_the_play_of_every_pair() -> None:
     work = workpiece("planetary-24-18-60-involute", module=2.0, backlash=0.1)
     text = next(each for each in export_files(work, ["svg"]) if each.path == "README.md").make().decode()
@@ -465,7 +489,7 @@ inputs: {{a: 1}}
 def test_shifted_involutes_stand_where_they_run_without_play() -> None:
     """The layout used to leave them at the distance of their reference circles, where such teeth jam."""
     train = declared("{form: involute, shift: [0.4, 0.3]}")
-    work = SolidModel(train, ManufacturingSizes(bore=0.0))
+    work = SolidModel(train, ManufacturingSizes(bore=0.0, backlash=0.0))
     meshed = Meshed(work, train.declaration.gears[0])
     assert meshed.distance > 30.6
     assert max(meshed.overlap(t) for t in meshed.positions(8)) <= NOTHING

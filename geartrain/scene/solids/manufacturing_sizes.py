@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from math import isfinite
@@ -13,7 +13,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
 from geartrain.scene.layout import Layout
-from geartrain.teeth.standard_teeth import DEDENDUM
+from geartrain.teeth.standard_teeth import DEDENDUM, PLAY
 from geartrain.train import GearPair, Train
 
 
@@ -30,7 +30,8 @@ class ManufacturingSizes:
     bore : float, optional
         Diameter of the arbors, and so of the holes in wheels and plates [mm]; 0: no holes.
     backlash : float, optional
-        Play on the pitch circle of every pair that does not declare its own [mm], 0 or more.
+        Play on the pitch circle of every pair that does not declare its own [mm], 0 or more; by default a twentieth
+        of the module.
 
     Raises
     ------
@@ -71,8 +72,7 @@ def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearT
     modules = {name: Fraction(place.module) * Fraction(factor) for name, place in layout.wheels.items()}
     if making.module is not None:
         declared = _with_modules(declared, modules)
-    if making.backlash is not None:
-        declared = _with_backlash(declared, modules, Fraction(making.backlash))
+    declared = _with_backlash(declared, modules, making.backlash)
     return train if declared is train.declaration else GearTrain(declared)
 
 
@@ -110,29 +110,31 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
     return declared.changed(links=FrozenDict(links))
 
 
-def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: Fraction) -> Train:
-    if problems := list(_own_play(declared)):
-        raise QuestionError(problems)
-    gears = tuple(_thinned(declared, gear, modules, backlash) for gear in declared.gears)
+def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
+    """With the play asked for, in modules, on every pair whose form says nothing of it."""
+    own = {gear.name: problem for gear in declared.gears if (problem := _own_play(declared, gear)) is not None}
+    if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
+        places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
+        raise QuestionError(replace(problem, place=places[name]) for name, problem in own.items())
+    gears = tuple(gear if gear.name in own else _thinned(declared, gear, modules, backlash) for gear in declared.gears)
     if all(new is old for new, old in zip(gears, declared.gears, strict=True)):
         return declared  # no pair declares a form: standard teeth are thinned as they are cut, and nothing moves
     return declared.changed(gears=gears)
 
 
-def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: Fraction) -> GearPair:
+def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: float | None) -> GearPair:
     form = declared.form_of(gear)
     if form is None:
         return gear
-    play = backlash / modules[gear.pair[0]]
-    return gear.changed(tooth_form=form.thinned(Quantity(play, None, f"{float(play):.9g}")))
+    play = Fraction(str(PLAY)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
+    thinner = form.thinned(Quantity(play, None, f"{float(play):.9g}"))
+    return gear if thinner is form else gear.changed(tooth_form=thinner)
 
 
-def _own_play(declared: Train) -> Iterator[Problem]:
-    """Pairs whose play is not for a maker to say."""
-    for at, gear in enumerate(declared.gears):
-        form = declared.form_of(gear)
-        if form is not None and (problem := form.own_play(gear.name)) is not None:
-            yield replace(problem, place=declared.place("gears", at))
+def _own_play(declared: Train, gear: GearPair) -> Problem | None:
+    """Why the play of a pair is not for a maker to say; None where it is."""
+    form = declared.form_of(gear)
+    return None if form is None else form.own_play(gear.name)
 
 
 def thick(layout: Layout, making: ManufacturingSizes) -> Layout:

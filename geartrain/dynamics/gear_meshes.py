@@ -74,20 +74,34 @@ def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
         gear,
         place,
         (first.count or 0, second.count or 0),
-        (first.kind, second.kind),
+        (_kind(first), _kind(second)),
         (first.internal, second.internal),
         None if friction is None else friction.sliding,
         _pitch_distance(first, second),
         None if friction is None else friction.law,
+        helix=(first.helix, second.helix),
+        width=_width(train, first, second),
     )
+
+
+def _kind(wheel: Wheel) -> str:
+    """How its teeth stand; those that lean are no spur teeth."""
+    return "helical" if wheel.is_helical else wheel.kind
+
+
+def _width(train: Train, *wheels: Wheel) -> float | None:
+    """Of the narrower wheel (m); None where nothing says it."""
+    declared = [wheel.thickness or train.thickness for wheel in wheels]
+    given = [width.si for width in declared if width is not None]
+    return min(given) if len(given) == len(wheels) else None
 
 
 def _pitch_distance(*wheels: Wheel) -> float | None:
     """Half the modules times the teeth, summed (m); None unless all wheels declare a module with a unit."""
     halves = [
-        wheel.module.si * wheel.count / 2
+        wheel.transverse_module * wheel.count / 2
         for wheel in wheels
-        if wheel.module is not None and wheel.module.unit is not None and wheel.count is not None
+        if wheel.transverse_module is not None and wheel.count is not None
     ]
     return sum(halves) if len(halves) == len(wheels) else None
 

@@ -93,7 +93,7 @@ class _Unit:
         kind = _kind(wheel, place)
         attributes = [
             {"id": "number_of_teeth", "integer": wheel.count or 0},
-            *_sizes(kind, place, self.angle(name)),
+            *_sizes(kind, place, self.angle(name), wheel),
             *_frame(place.centre, along, 1),
         ]
         if axis is not None:
@@ -154,16 +154,16 @@ def _kind(wheel: Wheel, place: WheelPlace) -> str:
     return "ring_gear" if wheel.internal else "bevel_gear" if place.cone else "cylindrical_gear"
 
 
-def _sizes(kind: str, place: WheelPlace, angle: float) -> Iterator[dict[str, Any]]:
+def _sizes(kind: str, place: WheelPlace, angle: float, wheel: Wheel) -> Iterator[dict[str, Any]]:
     if kind == "bevel_gear":
         yield _mm("face_width", place.thickness)
         yield {"id": "pitch_angle", "unit": "deg", "floating_point": degrees(place.cone)}
     elif kind == "worm_gear":
         yield _mm("axial_module", place.module)
     else:
-        yield _mm("normal_module", place.module)
+        yield _mm("normal_module", place.module / wheel.slant)
         yield {"id": "normal_pressure_angle", "unit": "deg", "floating_point": angle}
-        yield {"id": "helix_angle_reference_diameter", "unit": "deg", "floating_point": 0.0}
+        yield {"id": "helix_angle_reference_diameter", "unit": "deg", "floating_point": degrees(wheel.helix)}
         yield _mm("face_width", place.thickness)
 
 

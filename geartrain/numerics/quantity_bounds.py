@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import pi
 from typing import Annotated
 
 from pydantic import AfterValidator
@@ -16,6 +17,17 @@ def above_zero(fix: str) -> AfterValidator:
     def check(given: Figure | Quantity) -> Figure | Quantity:
         if given.value <= 0:
             raise PydanticCustomError("bound", "{text} is not above 0", {"text": given.text, "fix": fix})
+        return given
+
+    return AfterValidator(check)
+
+
+def below_right_angle(fix: str) -> AfterValidator:
+    """An angle is less than 90 degrees."""
+
+    def check(given: Quantity) -> Quantity:
+        if given.si >= pi / 2:
+            raise PydanticCustomError("bound", "{text} is no less than 90 deg", {"text": given.text, "fix": fix})
         return given
 
     return AfterValidator(check)

@@ -173,6 +173,7 @@ def _wheel(
         doubt=_doubt(wheel),
         circuits=tuple(circuits),
         loss=loss,
+        helix=wheel.helix if wheel.is_helical else 0.0,
     )
 
 

@@ -130,6 +130,8 @@ class SceneWheel:
         Names of the gear pairs it belongs to.
     loss : float or None
         Part of the power put in that is lost at its meshes, where loads and friction are declared.
+    helix : float
+        Angle of its teeth from the axis [rad], of a right hand above 0.
 
     See Also
     --------
@@ -159,6 +161,7 @@ class SceneWheel:
     doubt: str
     circuits: Sequence[str]
     loss: float | None = None
+    helix: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,12 +42,14 @@ class MeshDirections:
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
-    """How the wheels of a pair meet; None for a worm, and for wheels about one axis."""
+    """How the wheels of a pair meet; None for skew axes, and for wheels about one axis."""
     wheels = [stage.train.declaration.wheels[name][1] for name in circuit.wheels]
     if "worm" in (wheels[0].kind, wheels[1].kind):
         return None
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
     axes = stage.reference(first.axis), stage.reference(second.axis)
+    if size(cross(*axes)) >= _NONE and any(wheel.is_helical for wheel in wheels):
+        return None
     if size(cross(*axes)) < _NONE:  # they are parallel
         between = across(minus(second.centre, first.centre), axes[0])
         if size(between) < _NONE:

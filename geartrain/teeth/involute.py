@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi, tan
+from math import atan, cos, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -122,6 +122,21 @@ class Involute(ConjugateToothForm):
         approach, recess = (forms.involute(max(X, 0.0), psi) for X in (first, last))
         return ConjugatePair(PathOfContact(pitch, approach, recess, (first, last)), (pitch.p / 4, pitch.p / 4))
 
+    def slant_pressure(self, wheels: WheelPair) -> float:
+        """Force on the teeth of helical wheels over its part across their axes.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            The two wheels.
+
+        Returns
+        -------
+        float
+            1 over the cosine of the base helix angle, whose sine is sin helix cos pressure angle.
+        """
+        return 1 / sqrt(1 - (sin(wheels.helix) * cos(self.pressure_angle.si)) ** 2)
+
     @property
     def rack_angle(self) -> float:
         """Pressure angle of the rack (rad)."""
@@ -197,12 +212,13 @@ class Involute(ConjugateToothForm):
     def _wheel(self, wheels: WheelPair, at: int) -> InvoluteWheel:
         from geartrain.teeth.conjugate.involute_geometry import InvoluteWheel
 
-        add, mate, ded = (
-            float(figure.value) for figure in (self.addendum[at], self.addendum[1 - at], self.dedendum[at])
-        )
-        z = wheels.z2 if at else wheels.z1
-        shift, ring = float(self.shift[at].value), bool(at and wheels.internal)
-        return InvoluteWheel(z, self.pressure_angle.si, shift, add, ded, min(mate, ded), ring)
+        # in the transverse section a rack that leans is as high, and wider
+        flat = cos(wheels.helix)
+        figures = self.addendum[at], self.addendum[1 - at], self.dedendum[at], self.shift[at]
+        add, mate, ded, shift = (float(figure.value) * flat for figure in figures)
+        z, ring = wheels.z2 if at else wheels.z1, bool(at and wheels.internal)
+        psi = atan(tan(self.pressure_angle.si) / flat)
+        return InvoluteWheel(z, psi, shift, add, ded, min(mate, ded), ring)
 
     def _spur(self, wheels: WheelPair) -> ConjugatePair:
         from geartrain.teeth.conjugate import optimal_sides as forms

@@ -65,11 +65,14 @@ class MeshingWheels:
     """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of.
 
     place      where the pair is declared
-    counts     tooth numbers; `kinds` of the wheels, and which of them are rings
+    counts     tooth numbers; `kinds` of the wheels, helical ones apart, and which of them are rings
     friction   None where none is declared
     friction_law   in place of a coefficient; then `friction` is None
     pitch_line   speed of the pitch line (m/s), which a law of friction needs; None where it is not known
-    distance   half the modules times the teeth, summed (m); None unless both wheels declare a module with a unit
+    distance   half the transverse modules times the teeth, summed (m); None unless both wheels declare a module with a
+               unit
+    helix      helix angles (rad), of right hands above 0
+    width      of the narrower wheel (m); None where it is not known
     """
 
     gear: DeclaredPair
@@ -81,10 +84,12 @@ class MeshingWheels:
     distance: float | None = None
     friction_law: FrictionLaw | None = None
     pitch_line: float | None = None
+    helix: tuple[float, float] = (0.0, 0.0)
+    width: float | None = None
 
     @property
     def module(self) -> float | None:
-        """Mean module (m); None where no length says it."""
+        """Mean transverse module (m); None where no length says it."""
         return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
 
     @property

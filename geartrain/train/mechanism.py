@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos
 from typing import Annotated, Any, Literal
 
 from pydantic import (
@@ -25,7 +26,13 @@ from geartrain.numerics.quantity import (
     MeasuredLength,
     TorsionalDamping,
 )
-from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness, above_zero, not_below_zero
+from geartrain.numerics.quantity_bounds import (
+    PairDamping,
+    PairStiffness,
+    above_zero,
+    below_right_angle,
+    not_below_zero,
+)
 from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.bearing_friction import DeclaredBearing
 from geartrain.train.efficiencies import DeclaredEfficiency
@@ -124,6 +131,9 @@ def _teeth_kind(raw: object) -> str:
     return "doubt" if isinstance(raw, dict | Teeth) else "count"
 
 
+HelixAngle = Annotated[
+    Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("give it from the axis")
+]
 Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
 MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3, that of bronze")]
 
@@ -148,8 +158,15 @@ class Wheel(Declared):
     facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
         1, description="Side of the axis to which the cone opens, -1 for the negative one (bevel, contrate)"
     )
-    hand: Literal["right", "left"] = Field("right", description="Hand of a worm's thread")
-    module: Length | None = Field(None, description="Pitch diameter over tooth count")
+    helix_angle: HelixAngle | None = Field(
+        None, description="Of helical teeth, and of a worm's thread: between its direction and the axis"
+    )
+    hand: Literal["right", "left"] | None = Field(
+        None, description="Hand of a worm's thread or of helical teeth; a worm's is right by default"
+    )
+    module: Length | None = Field(
+        None, description="Pitch diameter over tooth count; of helical teeth across them, the normal module"
+    )
     thickness: Thickness | None = Field(None, description="Of the wheel along its axis; default the train's")
     density: MaterialDensity | None = Field(None, description="Of what it is made of; default the train's")
     cutting: WheelManufacture | None = Field(None, description="How far its teeth are off; default the train's")
@@ -166,6 +183,38 @@ class Wheel(Declared):
     def doubt(self) -> Teeth | None:
         """The declared range or choices, where the count is uncertain."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
+
+    @model_validator(mode="after")
+    def _leans_where_it_may(self) -> Wheel:
+        if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
+            raise PydanticCustomError(
+                "helix_angle",
+                "a {kind} wheel has a helix angle",
+                {"kind": self.kind, "fix": "leave it out: teeth that lean are known of spur wheels, rings and worms"},
+            )
+        return self
+
+    @property
+    def is_helical(self) -> bool:
+        """Whether its teeth lean; a worm's thread does too, and is no such tooth."""
+        return self.kind == "spur" and self.helix_angle is not None and self.helix_angle.value > 0
+
+    @property
+    def helix(self) -> float:
+        """Helix angle (rad), of a right hand above 0; 0 of straight teeth, and where it is not declared."""
+        angle = 0.0 if self.helix_angle is None else self.helix_angle.si
+        return -angle if self.hand == "left" else angle
+
+    @property
+    def slant(self) -> float:
+        """Transverse module over normal module: 1 over the cosine of the helix angle."""
+        return 1 / cos(self.helix) if self.is_helical else 1.0
+
+    @property
+    def transverse_module(self) -> float | None:
+        """Pitch diameter over tooth count (m); None where no module is declared with a unit."""
+        declared = self.module is not None and self.module.unit is not None
+        return self.module.si * self.slant if self.module is not None and declared else None
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:

@@ -76,8 +76,11 @@ def test_pitch_circles_of_wheels_in_mesh_touch_and_roll(name: str) -> None:
         if "worm" in (kinds[0].kind, kinds[1].kind):
             if kinds[0].kind != "worm":
                 first, second, kinds, spins = second, first, kinds[::-1], spins[::-1]
-            starts = (kinds[0].count or 0) * (1 if kinds[0].hand == "right" else -1)
+            starts = (kinds[0].count or 0) * (-1 if kinds[0].hand == "left" else 1)
             rolls_on_a_worm(layout, first, second, starts, spins)
+            continue
+        if any(kind.is_helical for kind in kinds) and np.linalg.norm(np.cross(*spins)) > 1e-12:
+            slides_along_its_mate(layout, first, second, kinds[0].helix, spins)
             continue
         point, miss, parallel = touching(layout, first, second)
         if circuit.id in triangular and miss > 1e-6:
@@ -89,6 +92,21 @@ def test_pitch_circles_of_wheels_in_mesh_touch_and_roll(name: str) -> None:
         ]
         assert np.linalg.norm(speeds[0]) == pytest.approx(second.radius, rel=1e-6)
         assert speeds[0] == pytest.approx(speeds[1], abs=1e-6 * second.radius)
+
+
+def slides_along_its_mate(
+    layout: Layout, first: WheelPlace, second: WheelPlace, helix: float, spins: list[np.ndarray]
+) -> None:
+    """Helical wheels on skew axes touch where these pass each other, and are equally fast across their teeth."""
+    apart = np.array(second.centre) - np.array(first.centre)
+    assert np.linalg.norm(apart) == pytest.approx(first.radius + second.radius, rel=1e-9)
+    u, v = way(layout, first), way(layout, second)
+    assert abs(apart @ u) + abs(apart @ v) < 1e-9 * second.radius
+    out = apart / np.linalg.norm(apart)
+    across = np.cross(out, np.cos(helix) * u + np.sin(helix) * np.cross(u, out))
+    speeds = [np.cross(spins[0], first.radius * out) @ across, np.cross(spins[1], -second.radius * out) @ across]
+    assert speeds[0] == pytest.approx(speeds[1], abs=1e-6 * second.radius)
+    assert abs(speeds[0]) > 0.1
 
 
 def rolls_on_a_worm(layout: Layout, worm: WheelPlace, wheel: WheelPlace, starts: int, spins: list[np.ndarray]) -> None:
@@ -150,7 +168,9 @@ def test_a_tooth_stands_before_a_space_in_every_mesh(name: str) -> None:
     for gear in train.declaration.gears:
         first, second = (layout.wheels[wheel] for wheel in gear.pair)
         kinds = [train.declaration.wheels[wheel][1] for wheel in gear.pair]
-        if gear.name in layout.apart or "worm" in (kinds[0].kind, kinds[1].kind):
+        ways = way(layout, first), way(layout, second)
+        skew = any(kind.is_helical for kind in kinds) and np.linalg.norm(np.cross(*ways)) > 1e-12
+        if gear.name in layout.apart or skew or "worm" in (kinds[0].kind, kinds[1].kind):
             continue
         if any("teeth" in notice.what and f"'{gear.name}'" in notice.what for notice in layout.notices):
             continue
@@ -173,10 +193,12 @@ def test_declared_positions_and_modules_hold_and_notices_say_what_why_and_what_t
     for label, axis in train.declaration.axes.items():
         if axis.position is not None and label in layout.axes:
             assert layout.axes[label].how == "given"
-            assert layout.axes[label].point == pytest.approx([float(part.si) * 1000 for part in axis.position], abs=0)
+            assert layout.axes[label].point == pytest.approx(
+                [float(part.si) * 1000 for part in axis.position], rel=1e-15
+            )
     for wheel, (_, kind) in train.declaration.wheels.items():
         if kind.module is not None and kind.module.unit:
-            assert layout.wheels[wheel].module == pytest.approx(kind.module.si * 1000, rel=1e-15)
+            assert layout.wheels[wheel].module == pytest.approx(kind.module.si * 1000 * kind.slant, rel=1e-15)
             assert layout.wheels[wheel].given
         assert layout.wheels[wheel].radius > 0
     for notice in layout.notices:

@@ -142,8 +142,8 @@ class ToothYieldTable:
         mesh = self.meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
         module = mesh.wheels.module if mesh is not None else None
-        if module is None and own.module is not None and own.module.unit is not None:
-            module = own.module.si
+        if module is None:
+            module = own.transverse_module
         if module is None or own.count is None:
             return None
         radius = module * own.count / 2

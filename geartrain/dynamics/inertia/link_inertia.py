@@ -153,13 +153,16 @@ class _Bodies:
                 plates.append(plate_moments(self.teeth[name], self.modules[name], thickness.si, density.si))
         return plates, tuple(missing)
 
+    def _slant(self, wheel: str) -> float:
+        return self.declared.wheels[wheel][1].slant
+
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Modules (m) of wheels that declare one with a unit, and of all that hang together with one by meshes."""
+        """Transverse modules (m) of wheels that declare one with a unit, and of all that hang together with these."""
         found = {
-            name: wheel.module.si
+            name: wheel.transverse_module
             for name, (_, wheel) in self.declared.wheels.items()
-            if wheel.module is not None and wheel.module.unit is not None
+            if wheel.transverse_module is not None
         }
         mates: dict[str, list[str]] = {}
         for gear in self.declared.gears:
@@ -170,7 +173,7 @@ class _Bodies:
             name = waiting.popleft()
             for mate in mates.get(name, ()):
                 if mate not in found:
-                    found[mate] = found[name]
+                    found[mate] = found[name] * self._slant(mate) / self._slant(name)
                     waiting.append(mate)
         return found
 

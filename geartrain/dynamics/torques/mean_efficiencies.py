@@ -15,7 +15,8 @@ from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
-from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.circuits import Axes, Circuit
+from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency
 from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 _ROUNDING = 1e-9  # by so much the quadrature of a mean may pass 1
@@ -41,6 +42,8 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     if gear.efficiency is not None:
         declared = gear.efficiency.forward.base, gear.efficiency.backward.base
         return MeanEfficiencies(declared, declared)
+    if (screw := _of_screw(setting, circuit)) is not None:
+        return screw
     tooth = setting.meshes.get(circuit.id)
     if tooth is None or not tooth.rubs:
         return MeanEfficiencies()
@@ -50,6 +53,25 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
             return MeanEfficiencies()
         tooth = at_speed(tooth, speed.known())
     return _of_both(*(tooth.efficiency(wheel) for wheel in gear.pair))
+
+
+def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
+    """Of a worm or of helical wheels on skew axes, where both helix angles and a coefficient of friction are known."""
+    gear = setting.gears[circuit.id]
+    first, second = (setting.train.wheels[name][1] for name in gear.pair)
+    friction = setting.train.friction_of(gear)
+    if first.helix_angle is None or second.helix_angle is None or friction is None or friction.sliding is None:
+        return None
+    labels = [setting.tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
+    if Axes(setting.train, setting.tree).are_parallel(labels):
+        return None
+    form = setting.train.form_of(gear)
+    angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
+    found = [
+        Fraction(f"{screw_efficiency(*helix, friction.sliding, angle):.15g}")
+        for helix in ((first.helix, second.helix), (second.helix, first.helix))
+    ]
+    return MeanEfficiencies((found[0], found[1]), (found[0], found[1]))
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from math import atan2
 from typing import Any
 
+from geartrain.errors import GearTrainError, Problem
+from geartrain.kinematics.circuits.helical_pairs import check_parallel, crossed_sense
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.quantity import Figure
-from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel
+from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel, size
 from geartrain.train import Train, Wheel
 
 _Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
@@ -83,17 +86,36 @@ class Axes:
         parts = (*direction, *cross(_vector(here), direction))
         return {at: part for at, part in enumerate(parts) if part}
 
+    def _crossing(self, one: str, other: str) -> tuple[float, int]:
+        """The angle (rad) from the direction of one axis to that of another, 0 to pi, and its sense about the way back
+        from the other to the one: 0 where their positions do not tell."""
+        first, second = self.direction(one), self.direction(other)
+        upright = cross(first, second)
+        here, there = self.positions.get(one), self.positions.get(other)
+        side = 0 if here is None or there is None else dot(upright, minus(_vector(here), _vector(there)))
+        far = size((float(upright[0]), float(upright[1]), float(upright[2])))
+        return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
+
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """a and b of the circuit, and a note where a sign is a convention."""
+        """a and b of the circuit, and a note where a sign is a convention.
+
+        Raises `GearTrainError` for wheels whose axes let them not mesh.
+        """
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
             return self._worm(i, j, carrier, wheel_i, wheel_j)
         labels = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         side_by_side = self.are_parallel(labels)
+        if wheel_i.is_helical or wheel_j.is_helical:
+            if not side_by_side:
+                sense, note = crossed_sense((wheel_i, wheel_j), *self._crossing(*labels))
+                return z_i, sense * self.sign(labels[0]) * self.sign(labels[1]) * z_j, note
+            check_parallel(wheel_i, wheel_j)
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
-            raise ValueError("a ring on an axis that is not parallel to its mate's")
+            what = "a ring on an axis that is not parallel to its mate's"
+            raise GearTrainError(Problem(what, "a ring meshes about a parallel axis", "use a bevel pair"))
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
         if wheel_i.internal or wheel_j.internal:
@@ -104,7 +126,7 @@ class Axes:
         """Starts of the worm over teeth of the wheel; the sense follows from hand and positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
-        hand = 1 if (wheel_i if worm_first else wheel_j).hand == "right" else -1
+        hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
         label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
         here, there = self.positions.get(worm), self.positions.get(wheel)

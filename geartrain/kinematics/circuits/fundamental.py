@@ -8,10 +8,11 @@ axis nearest the frame gives the same answer for every equivalent tree of coaxia
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from geartrain.errors import DeclarationError, Problem
+from geartrain.errors import DeclarationError, GearTrainError, Problem
 from geartrain.kinematics.circuits.axes import Axes
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.containers import collector_paused
@@ -112,21 +113,18 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
         if wheel_i.count is None or wheel_j.count is None:
             problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
             continue
-        if axes.plain and wheel_i.kind == wheel_j.kind == "spur":  # nearly all pairs: no direction is looked at
+        straight = wheel_i.helix_angle is None and wheel_j.helix_angle is None
+        if axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur":  # nearly all: no direction is looked at
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
             circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
             continue
         try:
             a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
-        except ValueError as error:
-            problems.append(
-                Problem(
-                    f"gear pair '{gear.name}': {error}",
-                    "a ring meshes about a parallel axis",
-                    "use a bevel pair",
-                    train.place("gears", at),
-                )
-            )
+        except GearTrainError as error:
+            place = train.place("gears", at)
+            problems += [
+                replace(each, what=f"gear pair '{gear.name}': {each.what}", place=place) for each in error.problems
+            ]
             continue
         circuits.append(Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note))
     for at, coupling in enumerate(train.couplings):

@@ -150,6 +150,8 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
     kinds = {wheel.kind for wheel in wheels}
     if "worm" in kinds:
         return "a worm is set by shifting it along its axis"
+    if not parallel(first.way, second.way) and any(wheel.is_helical for wheel in wheels):
+        return "helical wheels on skew axes are set by shifting one along its axis"
     if parallel(first.way, second.way):
         if kinds != {"spur"}:
             return "a bevel pair on parallel axes has no pitch point"

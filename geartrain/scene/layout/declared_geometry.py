@@ -202,8 +202,10 @@ class DeclaredGeometry:
         return self.wheels[wheel][1].count or 1
 
     def radius(self, wheel: str) -> Fraction:
-        """Pitch radius over module."""
-        return WORM if self.wheel(wheel).kind == "worm" else Fraction(self.count(wheel), 2)
+        """Pitch radius over normal module."""
+        if self.wheel(wheel).kind == "worm":
+            return WORM
+        return Fraction(self.count(wheel), 2) * Fraction(self.wheel(wheel).slant)
 
     def distance(self, contact: PitchContact) -> Fraction:
         """Distance of the axes of a pair over its module, where they are parallel or pass each other."""
@@ -318,10 +320,11 @@ def _contact(
         shaped = next((each for each in kinds if each != "spur"), "")
         why = f"a {shaped} pair whose axes are declared parallel" if shaped else ""
         return PitchContact(circuit.id, circuit.wheels, ends, "ring" if ring else "side", why, stretch)
-    kind: ContactKind = "screw" if "worm" in kinds else "crown" if sorted(kinds) == ["contrate", "spur"] else "bevel"
+    screw = "worm" in kinds or any(wheel.is_helical for wheel in declared)
+    kind: ContactKind = "screw" if screw else "crown" if sorted(kinds) == ["contrate", "spur"] else "bevel"
     sense = _worm_sense(train, circuit, ends) if kind == "screw" else 0
     wheels = circuit.wheels
-    if kind != "bevel" and kinds[0] not in ("worm", "contrate"):
+    if {"worm", "contrate"} & set(kinds) and kinds[0] not in ("worm", "contrate"):
         wheels, ends = wheels[::-1], ends[::-1]
     return PitchContact(circuit.id, wheels, ends, kind, "", stretch, sense)
 

@@ -36,8 +36,8 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
     radii = [sizes[wheel].radius for wheel in contact.wheels]
     if contact.parallel:
         first, second = (found.points[axis] for axis in contact.axes)
-        module = {wheel: sizes[wheel].module for wheel in contact.wheels}
-        far = size(across(minus(second, first), lines[0].direction)) - pitch_distance(declared, module, contact)
+        apart = pitch_distance(declared, found.geometry.modules.module, contact)
+        far = size(across(minus(second, first), lines[0].direction)) - apart
         return -far if contact.kind == "ring" else far
     centres = [found.centres[wheel] for wheel in contact.wheels]
     if contact.kind == "screw":

@@ -95,6 +95,7 @@ class WheelSize:
     """Sizes of a wheel (mm).
 
     radius      of its pitch circle
+    module      transverse: its diameter over tooth count
     thickness   of its rim along the axis
     inner       within it all is free inside a ring; 0 of other wheels
     outer       the radius it needs
@@ -166,6 +167,7 @@ def _size(geometry: DeclaredGeometry, wheel: str, module: float) -> WheelSize:
     declared = geometry.wheel(wheel)
     radius = float(geometry.radius(wheel)) * module
     thickness = (_WORM if declared.kind == "worm" else _WIDE) * module
+    across_axis = module * declared.slant
     if declared.internal:
-        return WheelSize(radius, module, thickness, max(radius - _TIP * module, 0.0), radius + _RING * module)
-    return WheelSize(radius, module, thickness, 0.0, radius + _TIP * module)
+        return WheelSize(radius, across_axis, thickness, max(radius - _TIP * module, 0.0), radius + _RING * module)
+    return WheelSize(radius, across_axis, thickness, 0.0, radius + _TIP * module)

@@ -159,7 +159,7 @@ class _Parts:
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
             declared = self.work.train.declaration.wheels[wheel.id][1]
-            drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile], 1 if declared.hand == "right" else -1)
+            drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile], -1 if declared.hand == "left" else 1)
             return SolidPart(wheel.body, wheel.id, "wheel", drawn, turn, place, wheel.status)
         solid = wheel_solid(blank)
         return SolidPart(

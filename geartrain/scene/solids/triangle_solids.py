@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 FINE = 0.02  # mm, how far the chords of a solid may leave a curve
 _SAME = 7  # decimals of a mm to which points are one
 _STEPS = 24  # sides of an arbor
+_SLICE = 0.1  # rad: by how much helical teeth turn from one layer to the next
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +59,7 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
     line = _open(teeth, own, tolerance)
     tooth = line[simplified(line, tolerance)]
     pitch = _pitch(tooth, radius, blank.teeth, tolerance)
-    return raised(*_repeated(*fill(pitch), blank.teeth), blank.thickness)
+    return twisted(*_repeated(*fill(pitch), blank.teeth), blank.thickness, blank.twist)
 
 
 def _open(contour: Contour, count: int, tolerance: float) -> Floats:
@@ -90,15 +91,30 @@ def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
     )
 
 
+def twisted(points: Floats, triangles: Integers, thickness: float, twist: float) -> Solid:
+    """A flat shape (n, 2) raised half the thickness to either side, its upper face turned by `twist` (rad)."""
+    x, y = points.T
+    layers = []
+    for height in np.linspace(-0.5, 0.5, 1 + max(1, ceil(abs(twist) / _SLICE))).tolist():
+        c, s = np.cos(height * twist), np.sin(height * twist)
+        layers.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height * thickness)]))
+    return piled(layers, triangles)
+
+
 def between(low: Floats, high: Floats, triangles: Integers) -> Solid:
     """The solid between two copies (n, 3) of one flat shape."""
+    return piled((low, high), triangles)
+
+
+def piled(layers: Sequence[Floats], triangles: Integers) -> Solid:
+    """The solid through several copies (n, 3) of one flat shape, from the lowest to the highest."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     known = {(a, b) for a, b in edges.tolist()}
     rim = np.array([(a, b) for a, b in edges.tolist() if (b, a) not in known], dtype=np.int64)
-    n = len(low)
-    a, b = rim.T
+    n, top = len(layers[0]), len(layers[0]) * (len(layers) - 1)
+    a, b = (rim.T[:, None] + n * np.arange(len(layers) - 1)[:, None]).reshape(2, -1)
     walls = np.concatenate([np.stack([a, b, b + n], axis=1), np.stack([a, b + n, a + n], axis=1)])
-    return Solid(np.concatenate([low, high]), np.concatenate([triangles[:, ::-1], triangles + n, walls]))
+    return Solid(np.concatenate(layers), np.concatenate([triangles[:, ::-1], triangles + top, walls]))
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:

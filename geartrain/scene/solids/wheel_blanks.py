@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from math import degrees, tan
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.train_teeth import PairPlay, WheelTeeth, find_train_teeth
@@ -14,6 +15,7 @@ from geartrain.teeth.outlines.contour import Contour
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.scene.layout import Layout, WheelPlace
+    from geartrain.train import Wheel
 
 _LAND = 0.8  # of the root circle: the widest bore
 
@@ -25,6 +27,7 @@ class Blank:
     kind       external, ring or pins
     form       of its teeth, in words
     contours   the outer one first, then holes
+    helix      angle of its teeth from the axis (rad), of a right hand above 0
     """
 
     wheel: str
@@ -39,6 +42,12 @@ class Blank:
     root_radius: float
     thickness: float
     bore: float
+    helix: float = 0.0
+
+    @property
+    def twist(self) -> float:
+        """By how much its upper face is turned against the lower one (rad)."""
+        return self.thickness * tan(self.helix) / self.pitch_radius
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +69,9 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
     for name, toothing in toothed.wheels.items():
         place = layout.wheels[name]
         blank, told = _bored(_blank(toothing, place), diameters.get(place.axis, 0.0))
-        wheels[name] = blank
-        notices += told
+        wheel = train.declaration.wheels[name][1]
+        wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
+        notices += [*told, *_leaning(name, wheel)]
     return Blanks(wheels, tuple(notices), toothed.plays)
 
 
@@ -81,6 +91,15 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
         place.thickness,
         0.0,
     )
+
+
+def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
+    """A flat file cannot show that teeth lean."""
+    if wheel.is_helical:
+        what = f"wheel '{name}' is drawn flat: its teeth lean by {abs(degrees(wheel.helix)):.6g} deg"
+        fix = "print it from the .stl, or have it hobbed"
+        why = "a flat drawing is their section across the axis, and the .step has it raised straight"
+        yield Problem(what, why, fix)
 
 
 def _bored(blank: Blank, bore: float) -> tuple[Blank, list[Problem]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, pi, tan
 from typing import TYPE_CHECKING
 
 from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
+    from geartrain.teeth.meshing_wheels import MeshingWheels
 
 _WORDS = (
     "Conjugate teeth keep the ratio of tooth counts at every instant where their axes are as far apart as they are "
@@ -33,14 +34,26 @@ class ConjugateFigures(PairFigures):
     arcs             of the driver's approach and recess (pitches)
     pressure_angle   at the pitch point (rad)
     shaft_angle      between the axes (rad); None where they are parallel
+    helix_angle      of helical wheels (rad); None of straight teeth
+    overlap_ratio    pitches by which helical teeth lead along their width; None where that is not known
     """
 
-    KEYS = (*PairFigures.KEYS, "arcs", "contact_ratio", "pressure_angle", "shaft_angle")
+    KEYS = (
+        *PairFigures.KEYS,
+        "arcs",
+        "contact_ratio",
+        "pressure_angle",
+        "shaft_angle",
+        "helix_angle",
+        "overlap_ratio",
+    )
 
     arcs: tuple[float, float]
     contact_ratio: float
     pressure_angle: float
     shaft_angle: float | None
+    helix_angle: float | None = None
+    overlap_ratio: float | None = None
 
 
 def conjugate_account(mesh: ConjugateMesh) -> PairAccount:
@@ -63,7 +76,16 @@ def conjugate_figures(mesh: ConjugateMesh) -> ConjugateFigures:
         contact_ratio=path.contact_ratio,
         pressure_angle=float(path.at(0.0).psi),
         shaft_angle=pitch.R1 + pitch.R2 if pitch.bevel else None,
+        helix_angle=abs(mesh.wheels.helix[0]) or None,
+        overlap_ratio=_overlap_ratio(mesh.wheels),
     )
+
+
+def _overlap_ratio(wheels: MeshingWheels) -> float | None:
+    """Width times tan helix over the transverse pitch."""
+    if not wheels.helix[0] or wheels.width is None or wheels.module is None:
+        return None
+    return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
 
 
 def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:

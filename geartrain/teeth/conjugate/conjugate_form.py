@@ -11,9 +11,9 @@ from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import Length, Quantity
-from geartrain.teeth.conjugate.form_checks import check_lengths, check_order, refusal, shaft_angle_of
+from geartrain.teeth.conjugate.form_checks import check_lengths, check_order, check_wheels, shaft_angle_of
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused
+from geartrain.teeth.tooth_form import ShaftAngle, ToothForm, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -68,8 +68,7 @@ class ConjugateToothForm(ToothForm):
         """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
-        if why := refusal(wheels.kinds):
-            raise refused(f"it cannot have {self.words} teeth", why, IDEAL)
+        check_wheels(self, wheels, shaft_angle)
         ring_first = wheels.internal[0]
         if ring_first:
             check_order(self, wheels.gear.pair)
@@ -80,6 +79,7 @@ class ConjugateToothForm(ToothForm):
             pitch_distance=wheels.distance,
             internal=any(wheels.internal),
             shaft_angle=shaft_angle_of(self, wheels, shaft_angle),
+            helix=abs(wheels.helix[0]),
         )
         mesh = ConjugateMesh(wheels, self, wheels.driver, law)
         if not mesh.rigid:
@@ -109,6 +109,22 @@ class ConjugateToothForm(ToothForm):
             A copy.
         """
         return self.model_copy(update={"backlash": backlash})
+
+    def slant_pressure(self, wheels: WheelPair) -> float:
+        """Force on the teeth of helical wheels over its part across their axes.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            The two wheels.
+
+        Returns
+        -------
+        float
+            1 for straight teeth.
+        """
+        del wheels
+        return 1.0
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
         """Room under the mate's tip at the root of one gear.
@@ -211,6 +227,7 @@ class ConjugateToothForm(ToothForm):
         internal: bool = False,
         shaft_angle: float | None = None,
         pitch_distance: float | None = None,
+        helix: float = 0.0,
     ) -> PathOfContact:
         """The path of contact of a pair.
 
@@ -224,6 +241,8 @@ class ConjugateToothForm(ToothForm):
             Angle of the axes [rad], for bevels; parallel without.
         pitch_distance : float, optional
             Half the module of each wheel times its teeth, summed, for a ring too [m]; only lengths with a unit need it.
+        helix : float
+            Helix angle of helical wheels [rad], 0 or more; their lengths are in transverse modules.
 
         Returns
         -------
@@ -235,7 +254,7 @@ class ConjugateToothForm(ToothForm):
         GearTrainError
             Where the form gives no such pair.
         """
-        return conjugate_pair_of(self, WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance)).path
+        return conjugate_pair_of(self, WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)).path
 
     def law(
         self,
@@ -247,6 +266,7 @@ class ConjugateToothForm(ToothForm):
         pitch_distance: float | None = None,
         internal: bool = False,
         shaft_angle: float | None = None,
+        helix: float = 0.0,
     ) -> ConjugateTransmission | OffDesignTransmission:
         """The transmission function of a pair.
 
@@ -260,7 +280,7 @@ class ConjugateToothForm(ToothForm):
             Which gear drives.
         direction : {1, -1}
             -1 turns back, on the other flanks.
-        pitch_distance, internal, shaft_angle
+        pitch_distance, internal, shaft_angle, helix
             As in `path`.
 
         Returns
@@ -276,8 +296,9 @@ class ConjugateToothForm(ToothForm):
         """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
-        wheels = WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance)
+        wheels = WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)
         pair, distance = conjugate_pair_of(self, wheels), self.misplaced(wheels)
+        friction = friction * self.slant_pressure(wheels)
         if distance is None:
             return ConjugateTransmission(pair, friction, driver, direction)
         from geartrain.teeth.conjugate.off_design import OffDesignTransmission

@@ -77,8 +77,8 @@ class ConjugateMesh(GearMesh):
     @property
     def wheel_pair(self) -> WheelPair:
         """The two wheels as the form knows them, axes taken as parallel."""
-        pitch = self.law.path.pitch
-        return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module)
+        pitch, helix = self.law.path.pitch, abs(self.wheels.helix[0])
+        return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module, helix=helix)
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
         """Lengths of the law are modules already."""

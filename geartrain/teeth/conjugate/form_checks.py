@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import tau
 from typing import TYPE_CHECKING
 
+from geartrain.errors import RangeError
 from geartrain.numerics.quantity import Angle, Figure, Quantity
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
 
@@ -44,8 +45,20 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
         )
 
 
-def refusal(kinds: tuple[str, str]) -> str:
-    """Why a pair cannot have conjugate teeth; empty if it can."""
+def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
+    """Raises `GearTrainError` for wheels of kinds that cannot have conjugate teeth of this form."""
+    why, fix = _refusal(wheels.kinds), IDEAL
+    if "helical" in wheels.kinds:
+        if _are_skew(shaft_angle):
+            why = "helical teeth on skew axes touch at a point, and slide along each other"
+        elif form.form != "involute":
+            why = "its wheels are helical, and only involutes are known to work there"
+            fix = "give it `tooth_form: involute`"
+    if why:
+        raise refused(f"it cannot have {form.words} teeth", why, fix)
+
+
+def _refusal(kinds: tuple[str, str]) -> str:
     if "worm" in kinds:
         return "a worm's thread slides along the wheel, and rolls on no pitch surface"
     if set(kinds) >= {"bevel", "contrate"}:
@@ -71,9 +84,17 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
         )
 
 
+def _are_skew(shaft_angle: ShaftAngle) -> bool:
+    """Whether the axes of two helical wheels are not parallel."""
+    try:
+        return shaft_angle() is not None
+    except RangeError:
+        return True  # they pass each other, as those of helical wheels may
+
+
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
     """The angle of a bevel pair (rad); None for wheels that mesh as spur wheels do."""
-    if "contrate" in wheels.kinds:
+    if {"contrate", "helical"} & set(wheels.kinds):
         return None
     angle = shaft_angle()
     if angle is None and "bevel" in wheels.kinds:

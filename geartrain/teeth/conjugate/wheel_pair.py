@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import cos, pi
 from typing import TYPE_CHECKING
 
 from geartrain.teeth.tooth_form import refused
@@ -22,7 +22,8 @@ class WheelPair:
 
     z1, z2        tooth numbers; `internal`: the second is a ring
     shaft_angle   rad, for bevels; None for parallel axes
-    module        m, or None where no length says it
+    module        m, or None where no length says it; transverse, as all lengths of the pair are
+    helix         helix angle (rad) of helical wheels, 0 or more
     """
 
     z1: int
@@ -30,12 +31,21 @@ class WheelPair:
     internal: bool = False
     shaft_angle: float | None = None
     module: float | None = None
+    helix: float = 0.0
 
     @classmethod
-    def of(cls, z1: int, z2: int, internal: bool, shaft_angle: float | None, pitch_distance: float | None) -> WheelPair:
+    def of(
+        cls,
+        z1: int,
+        z2: int,
+        internal: bool,
+        shaft_angle: float | None,
+        pitch_distance: float | None,
+        helix: float = 0.0,
+    ) -> WheelPair:
         """Wheels by half the module of each times its teeth, summed (m), for a ring too; None where nothing says it."""
         module = None if pitch_distance is None or z1 + z2 < 1 else 2 * pitch_distance / (z1 + z2)
-        return cls(z1, z2, internal, shaft_angle, module)
+        return cls(z1, z2, internal, shaft_angle, module, helix)
 
     @property
     def bevel(self) -> bool:
@@ -88,9 +98,12 @@ class WheelPair:
             )
 
     def modules(self, length: Quantity, name: str) -> float:
-        """A declared length in modules; plain numbers are. Raises `GearTrainError` where no module is known."""
+        """A declared length in transverse modules, a plain number being in normal ones.
+
+        Raises `GearTrainError` where no module is known.
+        """
         if length.unit is None:
-            return float(length.value)
+            return float(length.value) * cos(self.helix)
         if self.module is None:
             raise refused(
                 f"the {name} {length.text} has nothing to be compared with",

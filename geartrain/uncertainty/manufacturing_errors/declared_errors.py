@@ -189,12 +189,13 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
     """What one of a fraction is: of an angle (rad), and of a length (m; None where no module says how great)."""
     deep = None
-    if wheel.module is not None and wheel.module.unit is not None:
+    module = wheel.transverse_module
+    if module is not None:
         if even.displaced is not None:
-            deep = even.depth * even.displaced.modules * wheel.module.si
+            deep = even.depth * even.displaced.modules * module
         else:
             # the pitch circle lies half way down the tooth
-            deep = even.depth * wheel.module.si * even.z / 2 / (1 - even.depth / 2)
+            deep = even.depth * module * even.z / 2 / (1 - even.depth / 2)
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
     return {"placement": even.pitch, "aperture": 2 * even.half_angle, **lengths}
 

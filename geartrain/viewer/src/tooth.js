@@ -11,9 +11,13 @@ const FINE = 0.02; // of a tooth's depth: bends of the outline that are too slig
  * apex   1 or -1: on which side of the wheel, along z, its cone runs together (or its crown's teeth stand)
  */
 export function blankOf(wheel, apex) {
-  const { radius, thickness, cone } = wheel;
+  const { radius, thickness, cone, helix } = wheel;
   if (!cone) {
-    return (rho, angle, end) => [rho * radius * Math.cos(angle), rho * radius * Math.sin(angle), (end - 0.5) * thickness];
+    const twist = (thickness * Math.tan(helix)) / radius;
+    return (rho, angle, end) => {
+      const turned = angle + (end - 0.5) * twist;
+      return [rho * radius * Math.cos(turned), rho * radius * Math.sin(turned), (end - 0.5) * thickness];
+    };
   }
   const height = cone > Math.PI / 2 - 1e-6 ? 0 : (apex * radius) / Math.tan(cone);
   const slant = radius / Math.sin(cone);

@@ -1,0 +1,246 @@
+"""Helical wheels: sense on crossed axes, what cannot mesh, teeth of the transverse section, efficiency of screws."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import acos, atan, cos, degrees, hypot, pi, radians, sin, sqrt, tan
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from commands import call
+
+from geartrain import GearTrain, GearTrainError
+from geartrain.scene import ManufacturingSizes, lay_out
+from geartrain.scene.solids.triangle_solids import twisted
+from geartrain.scene.solids.wheel_blanks import find_blanks
+from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency
+
+
+def train(first: dict[str, Any], second: dict[str, Any], **also: Any) -> GearTrain:
+    links = {"frame": {}, "a": {"wheels": {"a1": first}}, "b": {"wheels": {"b1": second}}}
+    revolutes = [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]
+    gears = [{"pair": ["a1", "b1"], **also.pop("pair", {})}]
+    given = {
+        "name": "pair",
+        "links": links,
+        "revolutes": revolutes,
+        "gears": gears,
+        "inputs": {"a": 1},
+        "outputs": {"b": {}},
+    }
+    return GearTrain.declare({**given, **also})
+
+
+def helical(teeth: int, angle: float, hand: str | None = None, **also: Any) -> dict[str, Any]:
+    return {"teeth": teeth, "helix_angle": f"{angle!r} deg", **({} if hand is None else {"hand": hand}), **also}
+
+
+def axes(first: list[Any], second: list[Any], place: list[Any] | None) -> dict[str, Any]:
+    found: dict[str, Any] = {"A": {"direction": first}, "B": {"direction": second}}
+    if place is not None:
+        found["A"]["position"], found["B"]["position"] = ["0 mm"] * 3, [f"{each} mm" for each in place]
+    return found
+
+
+def cross(a: list[float], b: list[float]) -> list[float]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def dot(a: list[float], b: list[float]) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def test_a_worm_is_a_helical_wheel_near_a_right_angle() -> None:
+    random, tried = Random(4), 0
+    while tried < 200:
+        first, second, place = ([random.randint(-3, 3) for _ in range(3)] for _ in range(3))
+        upright = cross(first, second)
+        if not any(upright) or dot(first, second) or not dot(upright, place):
+            continue
+        hand = random.choice(["right", "left"])
+        placed = axes(first, second, place)
+        worm = train({"teeth": 2, "kind": "worm", "hand": hand}, {"teeth": 40}, axes=placed)
+        screw = train(helical(2, 85, hand), helical(40, 5, hand), axes=placed)
+        assert screw.solve().speeds["b"] == worm.solve().speeds["b"] in (Fraction(1, 20), Fraction(-1, 20))
+        tried += 1
+
+
+def rolled(beta: tuple[float, float], first: list[float], second: list[float], place: list[float]) -> float | None:
+    """Speed of the second wheel of twice the teeth, from velocities of points of two surfaces; None if they cross.
+
+    Of threads drawn as curves about both axes: their directions and where they are a moment later at the contact.
+    """
+    unit = [[x / hypot(*way) for x in way] for way in (first, second)]
+    normal = cross(unit[0], unit[1])
+    normal = [x / hypot(*normal) for x in normal]
+    if dot(normal, place) < 0:
+        normal = [-x for x in normal]
+    threads, moved = [], []
+    for way, outward, lean in ((unit[0], normal, beta[0]), (unit[1], [-x for x in normal], beta[1])):
+        side = cross(way, outward)
+
+        def point(turn: float, along: float, way: Any = way, outward: Any = outward, side: Any = side) -> list[float]:
+            return [along * w + cos(turn) * o + sin(turn) * s for w, o, s in zip(way, outward, side, strict=True)]
+
+        step = 1e-6
+        start, later, turned = point(0, 0), point(step * sin(lean), step * cos(lean)), point(step, 0)
+        threads.append([(x - y) / step for x, y in zip(later, start, strict=True)])
+        moved.append([(x - y) / step for x, y in zip(turned, start, strict=True)])
+    if hypot(*cross(threads[0], threads[1])) > 1e-4:
+        return None
+    across = cross(normal, threads[0])
+    radii = 1 / cos(beta[0]), 2 / cos(beta[1])
+    return radii[0] * dot(moved[0], across) / (radii[1] * dot(moved[1], across))
+
+
+def test_the_sense_on_skew_axes_is_that_of_the_surfaces() -> None:
+    random, tried = Random(5), 0
+    while tried < 100:
+        first, second, place = ([random.randint(-3, 3) for _ in range(3)] for _ in range(3))
+        upright = cross(first, second)
+        if not any(upright) or not dot(upright, place):
+            continue
+        angle = degrees(acos(dot(first, second) / (hypot(*first) * hypot(*second)))) * (
+            -1 if dot(upright, place) > 0 else 1
+        )
+        one = random.uniform(-80, 80)
+        for other in (angle - one, angle - one + 180, angle - one - 180, 7.0):
+            if abs(other) >= 89:
+                continue
+            hands = ["left" if each < 0 else "right" for each in (one, other)]
+            wheels = helical(20, abs(one), hands[0]), helical(40, abs(other), hands[1])
+            expected = rolled((radians(one), radians(other)), first, second, place)
+            if expected is None:
+                with pytest.raises(GearTrainError, match="do not lie along each other"):
+                    train(*wheels, axes=axes(first, second, place)).solve()
+            else:
+                speed = train(*wheels, axes=axes(first, second, place)).solve().speeds["b"]
+                assert float(speed) == pytest.approx(expected, abs=1e-3)
+                tried += 1
+
+
+def test_without_places_the_hands_may_decide() -> None:
+    told = train(
+        helical(20, 40, "right"), helical(40, 20, "right"), axes=axes([1, 0, 0], ["1/2", "0.8660254038", 0], None)
+    )
+    assert told.solve().speeds["b"] == Fraction(-1, 2)
+    assert not told.circuits[0].note
+    open_ = train(helical(20, 45), helical(40, 45), axes=axes([1, 0, 0], [0, 1, 0], None))
+    assert open_.solve().speeds["b"] == Fraction(-1, 2)
+    assert "sense by convention" in open_.circuits[0].note
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "words"),
+    [
+        (helical(20, 15, "right"), helical(40, 20, "left"), "lean by 15 and 20 deg"),
+        (helical(20, 15, "right"), helical(40, 15, "right"), "a right hand in mesh with a right hand"),
+        (helical(20, 15, "right"), helical(60, 15, "left", internal=True), "of a ring and its wheel lean the same way"),
+        (helical(20, 15), {"teeth": 40}, "lean by 15 and 0 deg"),
+    ],
+)
+def test_teeth_that_do_not_lean_alike_are_refused(first: dict[str, Any], second: dict[str, Any], words: str) -> None:
+    with pytest.raises(GearTrainError, match=words):
+        train(first, second).solve()
+
+
+def test_wheels_that_lean_alike_run() -> None:
+    assert train(helical(20, 15, "right"), helical(40, 15, "left")).solve().speeds["b"] == Fraction(-1, 2)
+    assert train(helical(20, 15), helical(40, 15)).solve().speeds["b"] == Fraction(-1, 2)
+    ring = train(helical(20, 15, "left"), helical(60, 15, "left", internal=True))
+    assert ring.solve().speeds["b"] == Fraction(1, 3)
+
+
+@pytest.mark.parametrize("angle", ["90 deg", "-5 deg"])
+def test_an_angle_that_is_none_is_refused(angle: str) -> None:
+    with pytest.raises(GearTrainError, match="helix_angle"):
+        train({"teeth": 20, "helix_angle": angle}, {"teeth": 40})
+    with pytest.raises(GearTrainError, match="a bevel wheel has a helix angle"):
+        train({"teeth": 20, "kind": "bevel", "helix_angle": "20 deg"}, {"teeth": 40})
+
+
+def test_involutes_are_those_of_the_transverse_section() -> None:
+    """Contact ratios by the textbook's formulas for helical gears (Dudley; ISO 21771)."""
+    beta, alpha, m, z, width = radians(18), radians(20), 2.0, (21, 50), 25.0
+    wheels = [helical(each, 18, module="2 mm", thickness="25 mm") for each in z]
+    found = train(*wheels, tooth_form={"form": "involute"}, pair={"friction": 0.05})
+    figures = found.meshes[0].account().figures.to_dict()
+    transverse = atan(tan(alpha) / cos(beta))
+    mt = m / cos(beta)
+    r = [mt * each / 2 for each in z]
+    base, tip = [each * cos(transverse) for each in r], [each + m for each in r]
+    reach = sum(sqrt(t**2 - b**2) for t, b in zip(tip, base, strict=True)) - sum(r) * sin(transverse)
+    assert figures["contact_ratio"] == pytest.approx(reach / (pi * mt * cos(transverse)), rel=1e-12)
+    assert figures["overlap_ratio"] == pytest.approx(width * sin(beta) / (pi * m), rel=1e-12)
+    assert figures["pressure_angle"] == pytest.approx(transverse, rel=1e-12)
+    place = lay_out(found).wheels
+    assert place["a1"].radius == pytest.approx(r[0])
+    assert abs(place["a1"].centre[0] - place["b1"].centre[0]) ** 2 + (
+        place["a1"].centre[1] - place["b1"].centre[1]
+    ) ** 2 == pytest.approx(sum(r) ** 2)
+    straight = train({"teeth": 21}, {"teeth": 50}, tooth_form={"form": "involute"}, pair={"friction": 0.05})
+    losses = [1 - each.meshes[0].efficiency("a1").mean for each in (found, straight)]
+    assert losses[0] < losses[1]
+
+
+def test_other_teeth_do_not_lean() -> None:
+    with pytest.raises(GearTrainError, match="only involutes are known to work there"):
+        _ = train(helical(20, 15), helical(40, 15), tooth_form={"form": "cycloidal"}).meshes
+    skew = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
+    with pytest.raises(GearTrainError, match="touch at a point"):
+        _ = train(helical(20, 45), helical(20, 45), tooth_form={"form": "involute"}, axes=skew).meshes
+
+
+@pytest.mark.parametrize("lead", [2.0, 5.0, 20.0])
+def test_a_screw_has_the_efficiency_of_a_worm(lead: float) -> None:
+    rough = 0.12
+    friction, gamma, rho = rough * cos(NORMAL_ANGLE), radians(lead), atan(rough)
+    ahead, back = (
+        screw_efficiency(*radians_of, friction) for radians_of in ((pi / 2 - gamma, gamma), (gamma, pi / 2 - gamma))
+    )
+    assert ahead == pytest.approx(tan(gamma) / tan(gamma + rho))
+    assert back == pytest.approx(tan(gamma - rho) / tan(gamma))
+    # power in of forces on a thread pressed with 1: across and along it, with velocities of both
+    normal = (cos(NORMAL_ANGLE) * cos(pi / 2 - gamma) + friction * sin(pi / 2 - gamma)) * 1 / cos(pi / 2 - gamma)
+    out = (cos(NORMAL_ANGLE) * cos(gamma) - friction * sin(gamma)) / cos(gamma)
+    assert ahead == pytest.approx(out / normal)
+
+
+def test_torques_take_the_efficiency_of_screws() -> None:
+    placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
+    worm = {"teeth": 1, "kind": "worm", "helix_angle": "85 deg"}
+    given = {"axes": placed, "pair": {"friction": 0.1}, "loads": {"a": "1 N m"}}
+    found = train(worm, helical(40, 5), **given).torques()
+    assert float(found.efficiency) == pytest.approx(screw_efficiency(radians(85), radians(5), 0.1))
+    back = train(worm, helical(40, 5), **{**given, "loads": {"b": "-1 N m"}}).torques()
+    assert "lock" in str(back.verdict)
+
+
+def test_solids_turn_along_their_axis_by_the_helix() -> None:
+    """A corner of the upper face stands width tan(helix) / radius ahead of its place in the lower one."""
+    square = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
+    solid = twisted(square, np.array([[0, 1, 2], [0, 2, 3]]), 3.0, 0.5)
+    low, high = solid.vertices[:4], solid.vertices[-4:]
+    assert low[:, 2] == pytest.approx(-1.5)
+    assert high[:, 2] == pytest.approx(1.5)
+    ahead = np.angle((high[:, 0] + 1j * high[:, 1]) / (low[:, 0] + 1j * low[:, 1]))
+    assert ahead == pytest.approx(0.5)
+    a, b, c = (solid.vertices[solid.faces[:, at]] for at in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    assert volume == pytest.approx(12, rel=2e-3)  # slices bulge in by little
+    wheels = [
+        helical(17, 30, "right", module="2 mm", thickness="20 mm"),
+        helical(40, 30, "left", module="2 mm", thickness="20 mm"),
+    ]
+    pair = train(*wheels, tooth_form={"form": "involute"})
+    blanks = find_blanks(pair, lay_out(pair), ManufacturingSizes()).wheels
+    for name, sign in (("a1", 1), ("b1", -1)):
+        blank = blanks[name]
+        assert blank.twist == pytest.approx(sign * blank.thickness * tan(radians(30)) / blank.pitch_radius)
+
+
+def test_the_shipped_pair_runs() -> None:
+    assert call("check", "crossed-helical").exit_code == 0
+    assert "0.807635453" in call("torques", "crossed-helical").stdout

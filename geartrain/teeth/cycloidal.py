@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import pi
 from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
+from geartrain.errors import Problem
 from geartrain.numerics.quantity import Figure
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.form_checks import arcs_of, check_arcs
@@ -47,6 +49,11 @@ class Cycloidal(ConjugateToothForm):
     )
     arcs: TwoFigures | None = Field(None, description="Arcs of approach and recess in pitches; default half each")
     addendum: TwoFigures | None = Field(None, description="In place of arcs: addenda in modules; 0 for none")
+    thickness: TwoFigures | None = Field(
+        None,
+        description="In place of backlash: thickness on the pitch circle in modules, one or one a wheel; clockmakers "
+        "have wheels of pi/2 and leaves of 1.05 (BS 978)",
+    )
 
     @model_validator(mode="after")
     def _parameters_make_sense(self) -> Cycloidal:
@@ -61,6 +68,8 @@ class Cycloidal(ConjugateToothForm):
                 "a rolling circle as large as the pitch circle makes a dedendum of no length",
                 "give a fraction below 1; 1/2 makes the flanks radial, more undercuts them",
             )
+        if self.thickness is not None:
+            self._check_thickness(self.thickness)
         if self.arcs is not None and self.addendum is not None:
             raise bad("arcs", "arcs and addendum are both given", "give one of them: each follows from the other")
         if self.arcs is not None:
@@ -71,6 +80,29 @@ class Cycloidal(ConjugateToothForm):
             raise bad("height", "an addendum is no height", "write modules, 0 or more, not 0 for both wheels")
         return self
 
+    def _check_thickness(self, thickness: TwoFigures) -> None:
+        if "backlash" in self.model_fields_set:
+            raise bad("backlash", "thickness and backlash are both given", "give one of them")
+        if (least := min(thickness, key=lambda each: each.value)).value <= 0:
+            raise bad("length", f"a thickness of {least.text} is no tooth", "write modules above 0")
+        if (both := sum(float(each.value) for each in thickness)) > pi:
+            fix = f"give {pi:.6g} modules or less in all"
+            raise bad("length", f"teeth {both:.6g} modules thick in all do not fit into a pitch", fix)
+
+    def own_play(self, pair: str) -> Problem | None:
+        """As other forms say it; a declared thickness is a play too.
+
+        Returns
+        -------
+        Problem or None
+            None where neither is declared.
+        """
+        if self.thickness is None:
+            return super().own_play(pair)
+        why = f"it declares teeth {' and '.join(each.text for each in self.thickness)} modules thick"
+        fix = "leave --backlash out, or take the `thickness` out of the file"
+        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance.
 
@@ -80,13 +112,18 @@ class Cycloidal(ConjugateToothForm):
             Where these wheels cannot have such teeth, with what would let them.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch = wheels.pitch
         circles = self._circles(pitch, wheels)
         arcs = self._arcs(pitch, circles)
         approach, recess = (cycloid(pitch, X, rho) for X, rho in zip(arcs, circles, strict=True))
-        return self._standard(PathOfContact(pitch, approach, recess), wheels)
+        path = PathOfContact(pitch, approach, recess)
+        if self.thickness is None:
+            return self._standard(path, wheels)
+        first, second = (float(each.value) / 2 * pitch.p / pi for each in self.thickness)
+        return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Rolling circles of approach and recess: modules, or rad."""

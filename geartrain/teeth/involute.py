@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _MOST_MODULES = 1_000_000
+_PROPORTIONS = {"full": ("1", "1.25"), "deep": ("1", "1.4"), "stub": ("0.8", "1")}
 _PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 
@@ -58,6 +59,22 @@ class Involute(ConjugateToothForm):
     dedendum: TwoFigures = Field(
         "1.25", validate_default=True, description="Depth of the roots under the rack's pitch line, in modules"
     )
+    proportions: Literal["full", "deep", "stub"] | None = Field(
+        None,
+        description="In place of addendum and dedendum, in modules: full has 1 and 1.25 (ISO 53 A), deep 1 and 1.4, "
+        "stub 0.8 and 1",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _heights_by_name(cls, given: object) -> object:
+        heights = _PROPORTIONS.get(given.get("proportions", "")) if isinstance(given, dict) else None
+        if heights is None or not isinstance(given, dict):
+            return given
+        if twice := {"addendum", "dedendum"} & given.keys():
+            raise bad("height", f"{min(twice)} and proportions are both given", "give one of them")
+        rest = {name: value for name, value in given.items() if name != "proportions"}
+        return {**rest, "addendum": heights[0], "dedendum": heights[1]}
 
     @model_validator(mode="after")
     def _parameters_make_sense(self) -> Involute:

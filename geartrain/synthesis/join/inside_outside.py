@@ -1,9 +1,8 @@
 """Sums over all assignments of a recorded join: their weight, and that of those with each count of each wheel.
 
-The inside-outside algorithm (Baker 1979; on a chain forward-backward, Baum 1970): weights of what is below a row are
-summed from the leaves up, of what is beside it from the root down. Whole numbers stay exact. All sums are linear in the
-weights of each wheel, which may have either sign: with weights w(z) (z - mean) of one wheel in place of w(z), the sums
-of the others are their covariances with it.
+They are inside and outside sums over tables of `numerics.weighted_alternatives`; whole numbers stay exact. All sums are
+linear in the weights of each wheel, which may have either sign: with weights w(z) (z - mean) of one wheel in place of
+w(z), the sums of the others are their covariances with it.
 
 The best assignments, best first, by a search along the tree that knows the least that is to come (A*).
 """
@@ -12,31 +11,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 from heapq import heappop, heappush
 from typing import Any
 
 import numpy as np
 
 from geartrain.numerics.arrays import Floats
-from geartrain.synthesis.join.product_lists import Tallies
-from geartrain.synthesis.join.recorded_join import CountWeights, RecordedNode, sums_by
+from geartrain.numerics.weighted_alternatives import AlternativeRows, WeightedAlternatives
+from geartrain.synthesis.join.product_lists import ProductStep, Tallies
+from geartrain.synthesis.join.recorded_join import CountWeights, RecordedItem, RecordedNode
 
-
-@dataclass(frozen=True)
-class _Inside:
-    """Weights of all that is below.
-
-    own     of each transition: ways to its value, and how well it agrees
-    onward  for each child, of all below the row that each transition leads to
-    rows    of each row
-    """
-
-    node: RecordedNode
-    own: Tallies
-    onward: tuple[Tallies, ...]
-    below: tuple[_Inside, ...]
-    rows: Tallies
+_Table = RecordedNode | RecordedItem | ProductStep
 
 
 class AssignmentSums:
@@ -51,23 +36,26 @@ class AssignmentSums:
 
     def total(self, weights: CountWeights) -> Any:
         """The weight of all assignments."""
-        return self._inside(self.root, weights).rows.sum()
+        return self._sums(weights).total.sum()
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
         """Wheel -> the weight of all assignments with each of its counts."""
-        found: dict[str, Tallies] = {}
-        inside = self._inside(self.root, weights)
-        stack = [(inside, np.ones(self.root.size, dtype=inside.rows.dtype))]
-        while stack:
-            here, outside = stack.pop()
-            node, into = here.node, outside[here.node.parents]
-            beside = reduce(np.multiply, here.onward, self._with_grades(node, into))
-            found |= node.values.flows(weights, sums_by(node.places, beside, node.values.size))
-            for at, (child, to) in enumerate(node.children):
-                siblings = here.onward[:at] + here.onward[at + 1 :]
-                flow = reduce(np.multiply, siblings, into * here.own)
-                stack.append((here.below[at], sums_by(to, flow, child.size)))
-        return found
+        return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
+
+    def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
+        return WeightedAlternatives(self.root, lambda table: iter([self._alternatives(table, weights)]))
+
+    def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
+        """A row goes on with a value of its item and a row of each child; a value, and a product, by how it is made."""
+        if isinstance(table, RecordedNode):
+            grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)
+            return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
+        if isinstance(table, RecordedItem):
+            return AlternativeRows(1, table.size, None, tuple(table.sides))
+        own = weights[table.wheel]
+        told = ((table.wheel, len(own), table.choices),)
+        before = () if table.before is None else ((table.before, table.parents),)
+        return AlternativeRows(own[table.choices], table.size, table.children, before, told)
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
         """The covariance of the counts of every two wheels, in the order of `counts`, to rounding.
@@ -86,19 +74,6 @@ class AssignmentSums:
             for second in wheels[at + 1 :]:
                 found[first, second] = float((tilted[second] * steps[second]).sum()) / total
         return found
-
-    def _inside(self, node: RecordedNode, weights: CountWeights) -> _Inside:
-        own = self._with_grades(node, node.values.weights(weights)[node.places])
-        below = tuple(self._inside(child, weights) for child, _ in node.children)
-        onward = tuple(found.rows[to] for found, (_, to) in zip(below, node.children, strict=True))
-        rows = sums_by(node.parents, reduce(np.multiply, onward, own), node.size)
-        return _Inside(node, own, onward, below, rows)
-
-    def _with_grades(self, node: RecordedNode, values: Tallies) -> Tallies:
-        """Weights of transitions times how well each agrees."""
-        if not self.graded or node.misfit is None:
-            return values
-        return np.asarray(values * np.exp(-node.misfit / 2))
 
 
 @dataclass(frozen=True, slots=True)

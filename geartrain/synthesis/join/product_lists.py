@@ -7,7 +7,7 @@ products of counts, or of quotients of two such products. A wheel that a count c
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from math import prod
@@ -107,22 +107,29 @@ class ListCache(Generic[Made]):
         return self._kept[key]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
     """What the counts of one wheel make of the products of the wheels before it.
 
-    parents         product before, in parallel to the others
-    choices         index of the count
-    children        product after
-    before, after   how many products there are
+    choices    index of the count, in parallel to the next two
+    children   product after
+    parents    product before
+    size       how many products there are after
+    before     the wheels before it; None for the empty product
     """
 
     wheel: str
-    parents: Ints
     choices: Ints
     children: Ints
-    before: int
-    after: int
+    parents: Ints
+    size: int
+    before: ProductStep | None
+
+    def chain(self) -> Iterator[ProductStep]:
+        """This step, then those before it."""
+        yield self
+        if self.before is not None:
+            yield from self.before.chain()
 
 
 class CountProducts:
@@ -152,17 +159,18 @@ class CountProducts:
             found[self.wheels[level][0]] = self.counts[level][factor]
         return owner, found
 
-    def steps(self, indices: Ints) -> list[ProductStep]:
-        """How some products, each once, are made up: one step for each wheel, from the one empty product on."""
-        values, found = self.values[indices], []
-        for level in range(len(self.wheels) - 1, -1, -1):
-            children, choices, rest = _made(values, self.powers[level], self.levels[level])
-            before, parents = np.unique(rest, return_inverse=True)
-            found.append(
-                ProductStep(self.wheels[level][0], parents, choices, children, len(before), len(values)),
-            )
-            values = before
-        return found[::-1]
+    def last_step(self, indices: Ints) -> ProductStep | None:
+        """How some products, each once, are made up from the one empty product on; None where that is all."""
+        return self._step(len(self.wheels) - 1, self.values[indices])
+
+    def _step(self, level: int, values: Ints) -> ProductStep | None:
+        if level < 0:
+            return None
+        children, choices, rest = _made(values, self.powers[level], self.levels[level])
+        before, parents = np.unique(rest, return_inverse=True)
+        return ProductStep(
+            self.wheels[level][0], choices, children, parents, len(values), self._step(level - 1, before)
+        )
 
 
 def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:

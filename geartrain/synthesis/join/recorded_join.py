@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -24,91 +25,43 @@ CountWeights = Mapping[str, Tallies]
 """Wheel -> a weight for each of its counts, all of one dtype."""
 
 
-def sums_by(owners: Ints, values: Tallies, size: int) -> Tallies:
-    """Values added up by owner, (size,); whole numbers stay exact."""
-    found: Tallies = np.zeros(size, dtype=values.dtype)
-    np.add.at(found, owners, values)
-    return found
-
-
 class RecordedItem:
     """Some values of an item, and how the counts of its wheels make them up.
 
-    size   of these values
+    size    of these values
+    sides   of the products above, and below if there are any: the last step to them, and the product of each value
     """
 
     def __init__(self, item: Item, indices: Ints) -> None:
         self.size = len(indices)
-        self._sides: list[tuple[Ints, list[ProductStep]]] = []
+        self.sides: list[tuple[ProductStep, Ints]] = []
         for products, places in item.sides(indices):
             distinct, rows = np.unique(places, return_inverse=True)
-            self._sides.append((rows, products.steps(distinct)))
+            last = products.last_step(distinct)
+            self.sides += [] if last is None else [(last, rows)]
 
     @property
     def transitions(self) -> int:
         """How many there are in all steps."""
-        return sum(len(step.choices) for _, steps in self._sides for step in steps)
-
-    def weights(self, weights: CountWeights) -> Tallies:
-        """The weight of all ways to each value."""
-        (rows, steps), *others = self._sides
-        found: Tallies = _forward(steps, weights)[-1][rows]
-        for rows, steps in others:
-            found = found * _forward(steps, weights)[-1][rows]
-        return found
-
-    def flows(self, weights: CountWeights, outside: Tallies) -> dict[str, Tallies]:
-        """Wheel -> the weight of all with each of its counts; `outside`: of all that goes with each value."""
-        found: dict[str, Tallies] = {}
-        inside = [_forward(steps, weights) for _, steps in self._sides]
-        for side, (rows, steps) in enumerate(self._sides):
-            flow = outside
-            for other, (its, _) in enumerate(self._sides):
-                if other != side:
-                    flow = flow * inside[other][-1][its]
-            later = sums_by(rows, flow, len(inside[side][-1]))
-            for step, before in zip(reversed(steps), reversed(inside[side][:-1]), strict=True):
-                own = weights[step.wheel]
-                after = own[step.choices] * later[step.children]
-                found[step.wheel] = sums_by(step.choices, before[step.parents] * after, len(own))
-                later = sums_by(step.parents, after, step.before)
-        return found
+        return sum(len(step.choices) for last, _ in self.sides for step in last.chain())
 
     def ways(self, value: int) -> Iterator[dict[str, int]]:
         """Each way to one value: wheel -> index of its count."""
-        return _ways_of_sides([(steps, int(rows[value])) for rows, steps in self._sides])
+        for sides in product(*(list(_ways(last, int(rows[value]))) for last, rows in self.sides)):
+            yield {wheel: index for own in sides for wheel, index in own.items()}
 
 
-def _forward(steps: Sequence[ProductStep], weights: CountWeights) -> list[Tallies]:
-    """The weight of all ways to each row, before the first step and after each."""
-    dtype = next(iter(weights.values())).dtype
-    found: list[Tallies] = [np.ones(1, dtype=dtype)]
-    for step in steps:
-        own = found[-1][step.parents] * weights[step.wheel][step.choices]
-        found.append(sums_by(step.children, own, step.after))
-    return found
-
-
-def _ways_of_sides(sides: Sequence[tuple[Sequence[ProductStep], int]]) -> Iterator[dict[str, int]]:
-    if not sides:
-        yield {}
-        return
-    for own in _ways(*sides[0]):
-        yield from (own | more for more in _ways_of_sides(sides[1:]))
-
-
-def _ways(steps: Sequence[ProductStep], row: int) -> Iterator[dict[str, int]]:
+def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
     """Each way through the steps to a row."""
-    if not steps:
+    if last is None:
         yield {}
         return
-    last = steps[-1]
     for at in np.flatnonzero(last.children == row):
-        for before in _ways(steps[:-1], int(last.parents[at])):
+        for before in _ways(last.before, int(last.parents[at])):
             yield before | {last.wheel: int(last.choices[at])}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RecordedNode:
     """A node of a join's plan.
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
-from geartrain.synthesis.reconstruction.added_counts import AddedCounts, Counts
+from geartrain.synthesis.reconstruction.added_counts import Counts
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
-from geartrain.synthesis.reconstruction.ring_meshes import CountTokens, Rings, may_mesh, rings_limit, rings_mesh
+from geartrain.synthesis.reconstruction.ring_meshes import Rings, may_mesh, rings_mesh
 from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
 
 _Step = tuple[str | None, ArborPass]
@@ -58,57 +57,11 @@ def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
 # orders
 
 
-def count_orders(skeleton: Skeleton, facts: MeshFacts) -> int:
-    """How many orders agree with what is known of meshes."""
-    if not facts.are_any:
-        return skeleton.orders
-    return _orders_below(skeleton.root, facts)[facts.meshes]
-
-
-def count_trains(skeleton: Skeleton, facts: MeshFacts, counts: AddedCounts) -> int:
-    """How many trains it is: orders by choices of counts, which hang on the order where rings limit them."""
-    greatest = counts.range[1]
-    if not rings_limit(skeleton, facts.rings, greatest):
-        return count_orders(skeleton, facts) * counts.count(skeleton.added, skeleton.wanted)
-    tokens = CountTokens(skeleton.added)
-    orders = arranged(skeleton, tokens.counts, tokens.idle, facts)
-    limits = Counter(tokens.limits(arbor, facts.rings, greatest) for arbor in orders)
-    return sum(number * counts.count_limited(skeleton.added, skeleton.wanted, some) for some, number in limits.items())
-
-
-def _orders_below(joint: Joint, facts: MeshFacts) -> Counter[_Pairs]:
-    """Orders of all that hangs from an arbor, by the meshes among those that must be."""
-    found = Counter[_Pairs]({frozenset(): 1})
-    for driver, limbs in _hanging(joint):
-        found = _times(found, _orders_of(limbs, (joint.name, driver), facts))
-    return found
-
-
 def _hanging(joint: Joint) -> Iterator[tuple[PlacedWheel, tuple[Limb, ...]]]:
     yield from joint.drives
     if joint.passes:
         assert joint.driven is not None
         yield joint.driven, joint.passes
-
-
-def _orders_of(limbs: tuple[Limb, ...], driving: _Driving, facts: MeshFacts) -> Counter[_Pairs]:
-    found = Counter[_Pairs]({frozenset(): 1})
-    for limb in limbs:
-        here = Counter[_Pairs]()
-        for steps in sequences(limb):
-            met, last = _met_along(steps, driving, facts)
-            if met is None:
-                continue
-            if isinstance(limb.end, Joint):
-                at_end = facts.met(last, limb.end.name, limb.end.driven)
-                below = Counter[_Pairs]() if at_end is None else _orders_below(limb.end, facts)
-                met |= at_end or frozenset()
-            else:
-                below = _orders_of(limb.end, last, facts)
-            for pairs, number in below.items():
-                here[pairs | met] += number
-        found = _times(found, here)
-    return found
 
 
 def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
@@ -121,13 +74,6 @@ def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) ->
         assert each.driver is not None
         driving = name, each.driver
     return found, driving
-
-
-def _times(one: Counter[_Pairs], other: Counter[_Pairs]) -> Counter[_Pairs]:
-    found = Counter[_Pairs]()
-    for (some, first), (more, second) in product(one.items(), other.items()):
-        found[some | more] += first * second
-    return found
 
 
 def sequences(limb: Limb) -> Iterator[tuple[_Step, ...]]:

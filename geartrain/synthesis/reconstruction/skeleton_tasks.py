@@ -8,11 +8,11 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from geartrain.numerics.work import Execution
-from geartrain.synthesis.reconstruction.added_counts import AddedCounts
-from geartrain.synthesis.reconstruction.arrangements import MeshFacts, count_trains
+from geartrain.synthesis.reconstruction.added_count_sums import OpenCounts
 from geartrain.synthesis.reconstruction.question_digest import question_digest
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
+from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
 from geartrain.synthesis.reconstruction.skeletons import Skeleton, plain_skeleton, skeleton_of
 
 _QUICK = 2
@@ -73,13 +73,12 @@ def timed_part(task: SkeletonTask, clock: Callable[[], float]) -> float:
 
 
 def _counted(task: SkeletonTask) -> list[tuple[Any, int, int]]:
-    search, choices = _search(question_digest(task.problem), task.problem)
-    facts = MeshFacts.of(task.problem)
+    search, trains = _search(question_digest(task.problem), task.problem)
     found = []
     for skeleton in search.skeletons(task.added, task.part, task.parts):
-        number = choices.count(skeleton.added, skeleton.wanted)
-        if number and (trains := count_trains(skeleton, facts, choices)):
-            found.append((plain_skeleton(skeleton), number, trains))
+        choices = trains.counts.total(OpenCounts(skeleton.added, skeleton.wanted))
+        if choices and (number := trains.count(skeleton)):
+            found.append((plain_skeleton(skeleton), choices, number))
     return found
 
 
@@ -96,12 +95,11 @@ class _Known:
         return isinstance(other, _Known) and other.digest == self.digest
 
 
-def _search(digest: str, problem: ReconstructionProblem) -> tuple[SkeletonSearch, AddedCounts]:
+def _search(digest: str, problem: ReconstructionProblem) -> tuple[SkeletonSearch, SkeletonTrains]:
     return _made_search(_Known(digest, problem))
 
 
 @lru_cache(maxsize=2)
-def _made_search(known: _Known) -> tuple[SkeletonSearch, AddedCounts]:
+def _made_search(known: _Known) -> tuple[SkeletonSearch, SkeletonTrains]:
     """Lists of paths are made once a process."""
-    limits = known.problem.additions
-    return SkeletonSearch(known.problem), AddedCounts(limits.least, limits.greatest)
+    return SkeletonSearch(known.problem), SkeletonTrains(known.problem, [dial.name for dial in known.problem.dials])

@@ -51,6 +51,12 @@ class SkeletonTrains:
         links, wheels = {arbor.name for arbor in arbors}, {wheel.name for arbor in arbors for wheel in arbor.wheels}
         self._names = tuple(dials), links, wheels
 
+    def count(self, skeleton: Skeleton) -> int:
+        """How many trains it is."""
+        if not self._facts.are_any:
+            return skeleton.orders * self.counts.total(OpenCounts(skeleton.added, skeleton.wanted))
+        return sum(part.choices * part.orders.total for part in self.parts(skeleton))
+
     def parts(self, skeleton: Skeleton) -> list[OrderPart]:
         """All trains of a skeleton, every one in one part."""
         if not rings_limit(skeleton, self._facts.rings, self._greatest):

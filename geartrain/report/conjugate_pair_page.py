@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import degrees, isfinite
+from math import cos, degrees, isfinite
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
@@ -50,6 +50,11 @@ def _wheels(design: PairDesign) -> Section:
     header = ("wheel", "teeth", f"pitch {what}", f"flank from {what}", f"to {what}", "thickness", "top land (deg)")
     distance = "" if pitch.bevel else f"Centre distance {figure(abs(pitch.R1 + pitch.R2), 9)} modules. "
     text = f"{distance}Radii in modules; thickness of a tooth, or pin, on the pitch circle in pitches."
+    if helix := abs(design.mesh.wheels.helix[0]):
+        text += (
+            f" Teeth lean by {degrees(helix):.6g} deg: sizes and costs are those of straight teeth in the section "
+            f"across the axes, in transverse modules of {1 / cos(helix):.9g} normal ones, with more friction."
+        )
     if pitch.bevel:
         text = "Half-angles of cones; thickness of a tooth on the pitch cone in pitches."
     return Section("Wheels", (text,), (Table(header, rows),))

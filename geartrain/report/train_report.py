@@ -115,6 +115,8 @@ def _wheels(wheels: dict[str, Wheel]) -> str:
 
 def _mark(wheel: Wheel) -> str:
     words: list[str] = [] if wheel.kind == "spur" else [wheel.kind]
+    if wheel.is_helical:
+        words.append(f"helical {abs(degrees(wheel.helix)):.6g} deg {wheel.hand or ''}".rstrip())
     if wheel.internal:
         words.append("ring")
     if wheel.doubt:

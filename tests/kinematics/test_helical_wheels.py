@@ -249,3 +249,11 @@ def test_solids_turn_along_their_axis_by_the_helix() -> None:
 def test_the_shipped_pair_runs() -> None:
     assert call("check", "crossed-helical").exit_code == 0
     assert "0.807635453" in call("torques", "crossed-helical").stdout
+
+
+def test_a_pair_is_asked_for_by_its_helix() -> None:
+    told = call("mesh", "involute", "--teeth", "21", "50", "--helix", "18deg")
+    assert "in transverse modules of 1.05146222 normal ones" in told.stdout
+    assert "Contact ratio 1.5" in told.stdout
+    assert call("mesh", "involute", "--teeth", "21", "50", "--helix", "90deg").exception is not None
+    assert "No such option" in call("mesh", "cycloidal", "--teeth", "21", "50", "--helix", "18deg").stderr

@@ -26,6 +26,7 @@ from geartrain.cli.mesh.form_options import (
     form_command,
     pair_in_mesh,
     read_form,
+    read_helix,
     read_module,
     read_shaft_angle,
     two_wheels,
@@ -52,12 +53,16 @@ if TYPE_CHECKING:
 _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
 """Options of conjugate forms: for a ring, for cones, and for the root that their path of contact leaves open."""
 
+_LEANING = ("helix",)
+"""Options of the form whose teeth may lean."""
+
 
 def command(name: str, model: type[ToothForm]) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
     kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
     words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
-    return form_command(model, partial(_run, model), words, without=() if model.conjugate else _CONJUGATE)
+    without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _LEANING))
+    return form_command(model, partial(_run, model), words, without=without)
 
 
 def _run(
@@ -65,6 +70,9 @@ def _run(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
     internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
     bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
+    helix: Annotated[
+        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal ones.")
+    ] = None,
     friction: Friction = "0",
     rate: Rate = None,
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
@@ -102,7 +110,7 @@ def _run(
     to, picture, outlined = _sinks(out, plot, profile, force)
     angle, size = read_shaft_angle(internal, bevel), read_module(module, backlash)
     rub = read_pair_friction(friction)
-    wheels = two_wheels(teeth, rub.coefficient, size, internal, angle)
+    wheels = two_wheels(teeth, rub.coefficient, size, internal, angle, read_helix(helix, angle))
     form = read_form(model, own | {"backlash": backlash})
     try:
         mesh = rub.of(pair_in_mesh(form, wheels, angle, driver), rate)

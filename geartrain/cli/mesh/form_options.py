@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from inspect import Parameter, Signature
+from math import cos, pi
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
 
 import typer
@@ -139,6 +140,18 @@ def read_shaft_angle(internal: bool, bevel: str | None) -> float | None:
     return None if bevel is None else quantity("--bevel", bevel, "angle")
 
 
+def read_helix(helix: str | None, shaft_angle: float | None) -> float:
+    """The helix angle of a pair on parallel axes (rad); 0 of straight teeth. Raises `GearTrainError`."""
+    angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
+    if shaft_angle is not None and angle:
+        why = "teeth that lean are known of wheels on parallel axes"
+        raise GearTrainError(Problem("bevel wheels have no helix angle", why, "give --bevel or --helix", "--helix"))
+    if not 0 <= angle < pi / 2:
+        what = f"a helix angle of {helix} is outside 0 to 90 deg"
+        raise GearTrainError(Problem(what, "it is counted from the axis", "give for example --helix 20deg", "--helix"))
+    return angle
+
+
 def read_module(module: str | None, backlash: str | None = None) -> float | None:
     """The module (m), None if not given. Raises `GearTrainError`, too where a backlash with a unit would need one."""
     size = None if module is None else quantity("--module", module, "length")
@@ -188,12 +201,14 @@ def two_wheels(
     module: float | None,
     internal: bool = False,
     shaft_angle: float | None = None,
+    helix: float = 0.0,
 ) -> MeshingWheels:
-    """The wheels of a pair without a train; `module` in m."""
+    """The wheels of a pair without a train; `module`, the normal one, in m, `helix` of the first wheel in rad."""
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
 
-    kind = "spur" if shaft_angle is None else "bevel"
-    distance = None if module is None else module * sum(teeth) / 2
+    kind = "helical" if helix else "spur" if shaft_angle is None else "bevel"
+    distance = None if module is None else module / cos(helix) * sum(teeth) / 2
     pair = GearPair(pair=("wheel 1", "wheel 2"))
-    return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance)
+    lean = (helix, helix if internal else -helix)
+    return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)

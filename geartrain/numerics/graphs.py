@@ -6,6 +6,7 @@ A forest is given by the vertex above each one; None above a root. It may be as 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable
+from fractions import Fraction
 from itertools import pairwise
 from typing import Generic, TypeVar
 
@@ -62,6 +63,45 @@ class DisjointSets(Generic[V]):
     def are_apart(self, first: V, second: V) -> bool:
         """True if two things are in different groups."""
         return self.find(first) != self.find(second)
+
+
+class RatioSets(Generic[V]):
+    """Things whose sizes are known multiples of one another: a union-find with exact weights.
+
+    A thing not heard of before is known against itself only. What is said first counts: `join` changes no known ratio.
+
+    >>> sizes = RatioSets()
+    >>> sizes.join("inch", "foot", Fraction(12))
+    >>> sizes.join("yard", "foot", Fraction(1, 3))
+    >>> sizes.ratio("yard", "inch"), sizes.ratio("yard", "mile")
+    (Fraction(36, 1), None)
+    """
+
+    def __init__(self) -> None:
+        self._above: dict[V, tuple[V, Fraction]] = {}
+
+    def root(self, thing: V) -> tuple[V, Fraction]:
+        """The head of a thing's group, and how many times the head's size its own is."""
+        way = []
+        while (step := self._above.get(thing)) is not None:
+            way.append((thing, step[1]))
+            thing = step[0]
+        times = Fraction(1)
+        for passed, factor in reversed(way):  # all on the way hang on the head from now on
+            times *= factor
+            self._above[passed] = thing, times
+        return thing, times
+
+    def join(self, first: V, second: V, ratio: Fraction) -> None:
+        """Make the size of the second `ratio` times that of the first, where nothing says how large it is."""
+        (root, times), (other, multiple) = self.root(first), self.root(second)
+        if root != other:
+            self._above[other] = root, ratio * times / multiple
+
+    def ratio(self, first: V, second: V) -> Fraction | None:
+        """Size of the first over that of the second; None where it is not known."""
+        (root, times), (other, multiple) = self.root(first), self.root(second)
+        return times / multiple if root == other else None
 
 
 def joined_groups(things: Iterable[V], joints: Iterable[Iterable[V]]) -> list[list[V]]:

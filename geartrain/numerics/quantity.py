@@ -279,6 +279,15 @@ def in_unit(speed: Quantity, unit: str) -> Fraction:
     return speed.value if speed.unit == unit else speed.base / scale(unit)[1]
 
 
+def millimetres(length: Quantity) -> Fraction:
+    """A length in mm, exact; a plain number counts as mm.
+
+    >>> millimetres(Quantity.parse("1.5 cm", "length", plain=True))
+    Fraction(15, 1)
+    """
+    return length.value if length.unit is None else length.base * 1000
+
+
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     first = units_of(dimension).split(", ")[0]
     return PydanticCustomError(

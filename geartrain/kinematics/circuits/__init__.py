@@ -5,7 +5,7 @@ from __future__ import annotations
 from geartrain.kinematics.circuits.axes import Axes
 from geartrain.kinematics.circuits.fundamental import Circuit, find_circuits
 from geartrain.kinematics.circuits.joint_tree import Tree, find_tree
-from geartrain.kinematics.circuits.rigid_bodies import close_joints, lint_rigid_bodies
+from geartrain.kinematics.circuits.rigid_bodies import close_joints, rigid_across_axes, rigid_place
 
 __all__ = [
     "Axes",
@@ -14,5 +14,6 @@ __all__ = [
     "close_joints",
     "find_circuits",
     "find_tree",
-    "lint_rigid_bodies",
+    "rigid_across_axes",
+    "rigid_place",
 ]

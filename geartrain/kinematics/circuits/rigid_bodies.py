@@ -45,7 +45,7 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
     What was prescribed across several axes stands in them joint by joint, each with its cause in words. Raises
     `DeclarationError` for all that would be linkages, and for inputs whose link has no one axis in the frame.
     """
-    lines = _Lines(train, tree)
+    lines = JointLines(train, tree)
     problems = list(_driven_sums(train, cases, Axes(train, tree).joint_sums))
     closed = []
     for case in cases:
@@ -61,25 +61,17 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
     return closed
 
 
-def lint_rigid_bodies(train: Train, tree: Tree, cases: Sequence[StateCase]) -> Iterator[Problem]:
-    """What else stands still because links are held across several axes, once for each prescription."""
-    lines = _Lines(train, tree)
-    said = set()
-    for case in cases:
-        for rigid in rigid_connections(lines, case):
-            if len(rigid.joints) < 2 or rigid.links in said:
-                continue
-            said.add(rigid.links)
-            closed = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
-            yield Problem(
-                f"{case.says(*rigid.links)}, which closes the joints {closed}",
-                f"the axes {', '.join(rigid.labels)} lie between them, and one body needs all of them closed",
-                "hold or lock links that have their axis in common, if only that one is meant to be closed",
-                train.place(*_place(train, case, rigid.links)),
-            )
+def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
+    """The prescriptions of a case that a brake or clutch cannot make alone: two joints or more are left to close.
+
+    A link whose carrier is held, or locked to what it is locked to, has one joint left, as if its axis stood still.
+    """
+    lines = JointLines(train, tree)
+    bodies = _Bodies(lines, case)
+    return (rigid for rigid in rigid_connections(lines, case) if len(bodies.open(rigid)) > 1)
 
 
-class _Lines:
+class JointLines:
     """The axes of a train as lines: the way between two links, and whether axes lie on one line or may move."""
 
     def __init__(self, train: Train, tree: Tree) -> None:
@@ -113,7 +105,7 @@ class _Lines:
         return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
 
 
-def rigid_connections(lines: _Lines, case: StateCase) -> Iterator[Rigid]:
+def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
     """Every prescription of a case that makes two links one body."""
     for link in case.fixed:
         yield Rigid((link,), lines.joints(link, lines.frame))
@@ -124,7 +116,7 @@ def rigid_connections(lines: _Lines, case: StateCase) -> Iterator[Rigid]:
 class _Bodies:
     """Which links are one body; grows with every joint that is closed."""
 
-    def __init__(self, lines: _Lines, case: StateCase) -> None:
+    def __init__(self, lines: JointLines, case: StateCase) -> None:
         self._lines = lines
         self._bodies: DisjointSets[str] = DisjointSets()
         for rigid in rigid_connections(lines, case):
@@ -141,16 +133,17 @@ class _Bodies:
                 break
             rigid = able[0]
             waiting.remove(rigid)
-            for joint in self._open(rigid):
+            for joint in self.open(rigid):
                 self._bodies.join(*joint[:2])
                 closed.append((rigid, joint))
         return closed, waiting
 
-    def _open(self, rigid: Rigid) -> list[JointOnLine]:
+    def open(self, rigid: Rigid) -> list[JointOnLine]:
+        """The joints of a prescription that nothing has closed yet."""
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _labels(self, rigid: Rigid) -> list[str]:
-        return [labels[0] for _, _, labels in self._open(rigid)]
+        return [labels[0] for _, _, labels in self.open(rigid)]
 
 
 def _joint_by_joint(
@@ -190,11 +183,11 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
         f"a ring of {len(rigid.joints)} turning pairs may move, with a ratio that varies as it turns; a gear train "
         "has none such",
         f"hold or lock a link on the way ({', '.join(links)}), or lock links that have their axis in common",
-        train.place(*_place(train, case, rigid.links)),
+        train.place(*rigid_place(train, case, rigid.links)),
     )
 
 
-def _place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
+def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
     """Where a rigid connection is declared."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])

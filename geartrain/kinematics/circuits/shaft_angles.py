@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import atan2, sqrt
 
 from geartrain.errors import Problem, RangeError
@@ -29,16 +30,21 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     size = sqrt(dot(across, across))
     if not size:
         return None
-    here, there = (axes.positions.get(label) for label in labels)
-    if here is not None and there is not None:
-        apart = there[0].si - here[0].si, there[1].si - here[1].si, there[2].si - here[2].si
-        offset, reach = abs(dot(apart, across)) / size, sqrt(dot(apart, apart))
-        if offset > _MEET * reach:
-            raise RangeError(
-                Problem("its axes do not meet", "they pass each other", "correct the positions of its axes")
-            )
+    if passing_distance(axes, labels):
+        raise RangeError(Problem("its axes do not meet", "they pass each other", "correct the positions of its axes"))
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
     return atan2(size, facing * dot(u, v))  # not acos, which loses half the digits near 0 and pi
+
+
+def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
+    """How far from each other (m) two axes of different directions pass, 0 where they meet; None without positions."""
+    here, there = (axes.positions.get(label) for label in labels)
+    if here is None or there is None:
+        return None
+    across = cross(*(_floats(axes.direction(label)) for label in labels))
+    apart = there[0].si - here[0].si, there[1].si - here[1].si, there[2].si - here[2].si
+    offset, reach = abs(dot(apart, across)) / sqrt(dot(across, across)), sqrt(dot(apart, apart))
+    return offset if offset > _MEET * reach else 0.0
 
 
 def _floats(vector: ExactVector) -> Vector:

@@ -13,7 +13,7 @@ from geartrain.dynamics.gear_meshes import find_sizes
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.circuits.axes import Axes
-from geartrain.numerics.quantity import Quantity
+from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
 
@@ -245,11 +245,6 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         _dial_ends(declared, front),
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
     )
-
-
-def millimetres(length: Quantity) -> Fraction:
-    """A length in mm, exact; a plain number counts as mm."""
-    return length.value if length.unit is None else length.base * 1000
 
 
 def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:

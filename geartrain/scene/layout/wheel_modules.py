@@ -14,10 +14,11 @@ from functools import cached_property
 from itertools import pairwise
 from statistics import median
 
-from geartrain.numerics.graphs import joined_groups
+from geartrain.numerics.graphs import RatioSets, joined_groups
+from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import across, cross, dot, minus, size, unit
 from geartrain.scene.layout.closed_chains import AxisDistance, close_chains
-from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PinSlotTie, PitchContact, millimetres
+from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PinSlotTie, PitchContact
 
 _MODULE = Fraction(1)  # mm, where nothing of a train has a size
 
@@ -51,28 +52,6 @@ def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], cont
     """How far apart (mm) axes are whose wheels mesh: pitch circles touch, or are as far off as declared teeth want."""
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
     return float(contact.stretch) * (abs(first - second) if contact.kind == "ring" else first + second)
-
-
-class _ModuleRatios:
-    """Modules as exact multiples of that of a root: a weighted union-find; the first word on a ratio counts."""
-
-    def __init__(self, count: int) -> None:
-        self.above = list(range(count))
-        self.times = [Fraction(1)] * count
-
-    def root(self, at: int) -> tuple[int, Fraction]:
-        """The root of a cluster, and how many times the root's module its own is."""
-        times = Fraction(1)
-        while self.above[at] != at:
-            times *= self.times[at]
-            at = self.above[at]
-        return at, times
-
-    def join(self, first: int, second: int, ratio: Fraction) -> None:
-        """Make the module of the second `ratio` times that of the first."""
-        (root, times), (other, multiple) = self.root(first), self.root(second)
-        if root != other:
-            self.above[other], self.times[other] = root, ratio * times / multiple
 
 
 class _ModuleSearch:
@@ -119,7 +98,7 @@ class _ModuleSearch:
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
         """The root of each cluster, and how many times the root's module its own is."""
-        ratios = _ModuleRatios(len(self.clusters))
+        ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
                 self._join(ratios, first, second)
@@ -128,14 +107,14 @@ class _ModuleSearch:
                 self._join_nearby(ratios, tie)
         return [ratios.root(at) for at in self.clusters]
 
-    def _join(self, ratios: _ModuleRatios, first: PitchContact, second: PitchContact) -> None:
+    def _join(self, ratios: RatioSets[int], first: PitchContact, second: PitchContact) -> None:
         """Two pairs have axes equally far apart: that forces the ratio of their modules."""
         ends = self.cluster[first.wheels[0]], self.cluster[second.wheels[0]]
         far, other = self.geometry.distance(first), self.geometry.distance(second)
         if far and other and not (ends[0] in self.given and ends[1] in self.given):
             ratios.join(*ends, far / other)
 
-    def _join_nearby(self, ratios: _ModuleRatios, tie: PinSlotTie) -> None:
+    def _join_nearby(self, ratios: RatioSets[int], tie: PinSlotTie) -> None:
         """Axes of a pin inside its slot's circle stand close together, and so equally far from an axis both mesh with.
 
         That is chosen, not forced, so it comes after all that is.

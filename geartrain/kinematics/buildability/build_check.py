@@ -1,0 +1,31 @@
+"""The one pass over a declaration that says what of it cannot be built."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from geartrain.kinematics.buildability.axis_kinds import check_kinds
+from geartrain.kinematics.buildability.axis_triangles import check_triangles
+from geartrain.kinematics.buildability.build_findings import BuildFinding
+from geartrain.kinematics.buildability.clutch_axes import check_clutches
+from geartrain.kinematics.buildability.idle_wheels import check_mates
+from geartrain.kinematics.buildability.pitch_distances import PitchDistances
+from geartrain.kinematics.buildability.pitch_pairs import pitch_pairs
+from geartrain.kinematics.buildability.ring_mates import check_rings
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.circuits import Circuit, Tree
+    from geartrain.train import Train
+
+
+def check_build(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
+    """All that the declaration alone tells, rule by rule (docs/buildability.md)."""
+    pairs = pitch_pairs(train, tree, circuits)
+    yield from check_kinds(train, tree, pairs)
+    yield from check_rings(pairs)
+    sizes = PitchDistances(train, tree, circuits, pairs)
+    yield from sizes.findings
+    yield from check_triangles(sizes)
+    yield from check_clutches(train, tree)
+    yield from check_mates(train)

@@ -1,0 +1,242 @@
+"""Whether wheels that mesh have one pitch, and axes the distances that their wheels ask for.
+
+Modules and distances are known as multiples of one another: wheels in mesh share a module (1), the distance of two axes
+is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2), and declared modules, positions
+and offsets give some in mm. A weighted union-find in exact fractions holds what is said; each thing said of what is
+known already is judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from math import radians, sqrt, tan
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.kinematics.buildability.build_findings import BuildFinding
+from geartrain.kinematics.buildability.pitch_pairs import SLACK, PitchPair
+from geartrain.kinematics.circuits import Tree
+from geartrain.numerics.graphs import RatioSets
+from geartrain.numerics.quantity import millimetres
+from geartrain.numerics.vectors import cross, dot, minus
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.train import Train
+
+_EQUAL = Fraction(1, 10**6)  # of a distance: positions are rounded as they are written
+_MM = ("mm",)
+Node = tuple[str, ...]
+
+
+class PitchDistances:
+    """Modules and distances of axes of one train, as far as its declaration gives them."""
+
+    def __init__(self, train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]) -> None:
+        self.train, self.pairs = train, pairs
+        self.sizes: RatioSets[Node] = RatioSets()
+        self.placed: dict[Node, str] = {}
+        self.between: dict[Node, list[PitchPair]] = {}
+        self.findings = [*self._modules(), *self._offsets(tree, circuits), *self._distances()]
+
+    def module(self, wheel: str) -> Fraction | None:
+        """Module of a wheel (mm), its own or as its mates and its axes ask for; None where nothing gives it."""
+        return self.sizes.ratio(("wheel", wheel), _MM)
+
+    def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
+        """Distance of two axes as a multiple of something that distances it is compared with share."""
+        return self.sizes.root(("axes", *axes))
+
+    def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
+        """Words for a multiple of what the distance of a pair's axes is counted in: mm, else its modules."""
+        root, _ = self.distance(pair.axis_pair)
+        known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
+        return lambda size: _modules(size * module) if known is None else _mm(size * known)
+
+    # --------------------------------------------------------------------------------------------------------- modules
+
+    def _modules(self) -> Iterator[BuildFinding]:
+        for name, (_, wheel) in self.train.wheels.items():
+            if wheel.module is not None:
+                self.sizes.join(_MM, ("wheel", name), millimetres(wheel.module))
+        for pair in self.pairs:
+            first, second = (("wheel", wheel) for wheel in pair.wheels)
+            ratio = self.sizes.ratio(first, second)
+            if ratio is not None and ratio != 1:
+                yield self._two_pitches(pair)
+            self.sizes.join(first, second, Fraction(1))
+
+    def _two_pitches(self, pair: PitchPair) -> BuildFinding:
+        sides = []
+        for wheel, own in zip(pair.wheels, pair.modules, strict=True):
+            whose = "" if own is not None else " through its other mates"
+            sides.append(f"'{wheel}' has module {_mm(self.module(wheel))}{whose}")
+        return BuildFinding(
+            "M1",
+            "error",
+            Problem(
+                f"pair '{pair.name}': two modules meet",
+                f"{sides[0]} and {sides[1]}, and teeth of two pitches do not fit each other",
+                "give wheels that mesh the same `module`",
+                pair.place,
+            ),
+        )
+
+    # ------------------------------------------------------------------------------------------------------- distances
+
+    def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
+        """Distances that positions give, then those of pins in slots."""
+        offsets = {coupling.name: coupling.offset for coupling in self.train.couplings if coupling.offset is not None}
+        for pair in self.pairs:
+            if pair.parallel:
+                self._place(pair.axis_pair)
+        at = {coupling.name: number for number, coupling in enumerate(self.train.couplings)}
+        for circuit in circuits:
+            if circuit.id not in offsets:
+                continue
+            labels = [tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
+            axes, offset = (min(labels), max(labels)), millimetres(offsets[circuit.id])
+            node = ("axes", *axes)
+            self._place(axes)
+            apart = self.sizes.ratio(node, _MM)
+            if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
+                what = f"axes {_named(axes)} are {_mm(apart)} apart, and the offset of '{circuit.id}' is {_mm(offset)}"
+                why = "the offset of a pin is the distance of the two axes"
+                place = self.train.place("couplings", at[circuit.id])
+                yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
+            elif apart is None:
+                self.sizes.join(_MM, node, offset)
+                self.placed[node] = f"the offset of '{circuit.id}'"
+
+    def _place(self, axes: tuple[str, str]) -> None:
+        """The distance of two parallel axes whose positions are declared."""
+        declared = [self.train.axes[label] for label in axes if label in self.train.axes]
+        node = ("axes", *axes)
+        if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
+            return
+        here, there = (axis.position for axis in declared)
+        if here is None or there is None:
+            return
+        x, y, z = (figure.value for figure in declared[0].direction)
+        apart = minus(
+            (millimetres(there[0]), millimetres(there[1]), millimetres(there[2])),
+            (millimetres(here[0]), millimetres(here[1]), millimetres(here[2])),
+        )
+        across = cross(apart, (x, y, z))
+        far = sqrt(dot(across, across) / dot((x, y, z), (x, y, z)))
+        if far:
+            self.placed[node] = "the positions"
+            self.sizes.join(_MM, node, Fraction(far))
+
+    def _distances(self) -> Iterator[BuildFinding]:
+        for pair in self.pairs:
+            if not pair.has_distance:
+                continue
+            node, wheel = ("axes", *pair.axis_pair), ("wheel", pair.wheels[0])
+            found = self.sizes.ratio(node, wheel)
+            if found is None:
+                self.sizes.join(wheel, node, pair.distance)
+            elif node in self.placed:
+                yield from self._misplaced(pair, found, self.placed[node])
+            elif node in self.between:
+                yield from self._coaxial(pair)
+            self.between.setdefault(node, []).append(pair)
+
+    def _misplaced(self, pair: PitchPair, found: Fraction, by: str) -> Iterator[BuildFinding]:
+        """A pair on axes whose distance (modules) is declared."""
+        wanted, off = pair.distance, found - pair.distance
+        if abs(off) <= _EQUAL * sum(pair.counts) / 2:
+            return
+        low, high = pair.bounds
+        rule = "M2" if pair.modules.count(None) == 1 else "P1"
+        module = self.module(pair.wheels[0]) or Fraction(1)
+        first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
+        what = (
+            f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart by {by}, "
+            f"and {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
+        )
+        if low <= found <= high:
+            yield BuildFinding("P1", "note", Problem(what, _effect(pair, off, module), _ADJUST, pair.place))
+            return
+        why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
+            " apart" if off > 0 else ""
+        )
+        fits = found / wanted * module
+        fix = f"move an axis by {_mm(abs(off) * module)}, " + (
+            f"or drop the module: the distance asks for {_mm(fits)}"
+            if rule == "M2"
+            else f"or give both wheels module {_mm(fits)}"
+        )
+        yield BuildFinding(rule, "error", Problem(what, why, fix, pair.place))
+
+    def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
+        """A pair between axes that other pairs join, held against the one that asks for the most different distance."""
+        wheel = ("wheel", pair.wheels[0])
+        best: tuple[Fraction, PitchPair, Fraction] | None = None
+        for other in self.between[("axes", *pair.axis_pair)][:_MOST]:
+            scale = self.sizes.ratio(("wheel", other.wheels[0]), wheel)
+            if scale is None:
+                continue
+            off = abs(other.distance * scale - pair.distance)
+            if best is None or off > best[0]:
+                best = off, other, scale
+        if best is None or best[0] <= _EQUAL * sum(pair.counts) / 2:
+            return
+        off, other, scale = best
+        low, high = pair.bounds
+        least, most = (bound * scale for bound in other.bounds)
+        level = "note" if max(low, least) <= min(high, most) else "error"
+        yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
+
+    def _two_distances(self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, grave: bool) -> Problem:
+        module = self.module(pair.wheels[0])
+        wants = [self._length(each, module) for each in (other.distance * scale, pair.distance)]
+        shared = set(pair.wheels) & set(other.wheels)
+        what = (
+            f"pairs '{other.name}' and '{pair.name}' need two distances of axes {_named(pair.axis_pair)}: "
+            f"{wants[0]} and {wants[1]}"
+        )
+        why = f"two axes have one distance, and these differ by {self._length(off, module)}"
+        if not grave:
+            return Problem(what, why + ", which other teeth than standard ones bridge", _BRIDGE, pair.place)
+        teeth = 2 * off
+        fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
+        fix += ", or give each its own pinion with a module of its own" if shared else ", or give one another module"
+        return Problem(what, why, fix, pair.place)
+
+    @staticmethod
+    def _length(modules: Fraction, module: Fraction | None) -> str:
+        return _modules(modules) if module is None else _mm(modules * module)
+
+
+_MOST = 50  # pairs between two axes that a further one is held against
+_ADJUST = "move an axis, or shift the profiles"
+_BRIDGE = "shift profiles, give the pairs modules of their own, or change a tooth count"
+
+
+def _effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
+    """What a small step from the design does to the play, 2 da tan(alpha) of involutes (20 degrees without a form)."""
+    tight = (off < 0) != (pair.ring is not None)
+    if abs(off) <= SLACK and tight:
+        return f"they stand {_mm(abs(off) * module)} nearer than teeth without play allow"
+    if tight:
+        return "teeth cut to the standard jam there"
+    angle = getattr(pair.form, "rack_angle", None) or radians(20)
+    return f"teeth cut to the standard have {_mm(2 * abs(off) * module * Fraction(tan(angle)))} more play there"
+
+
+def _named(axes: Sequence[str]) -> str:
+    return " and ".join(f"'{label}'" for label in axes)
+
+
+def _mm(length: Fraction | None) -> str:
+    return "unknown" if length is None else f"{_shown(length)} mm"
+
+
+def _modules(size: Fraction) -> str:
+    return "1 module" if size == 1 else f"{_shown(size)} modules"
+
+
+def _shown(number: Fraction) -> str:
+    return f"{float(number):.6g}"

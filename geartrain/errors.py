@@ -89,6 +89,11 @@ class Problem:
     fix: str = ""
     place: str = ""
 
+    @property
+    def text(self) -> str:
+        """What, why and what to do on one line, without the place."""
+        return "; ".join(filter(None, (self.what, self.why, self.fix)))
+
     def __str__(self) -> str:
         head = f"{self.place}: {self.what}" if self.place else self.what
         lines = [head]

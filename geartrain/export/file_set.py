@@ -318,7 +318,7 @@ def readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str]) 
         lines += _plays(work)
     if found := notices(work, kinds):
         lines += ["", "## What could not be made", ""]
-        lines += [f"- {_cell(': '.join(part for part in (each.what, each.why) if part))}" for each in found]
+        lines += [f"- {_cell(each.text)}" for each in found]
     return "\n".join([*lines, ""])
 
 

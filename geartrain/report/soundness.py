@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
+from geartrain.kinematics.buildability import build_errors
 from geartrain.report.answers import expectations_met, result_words
 from geartrain.report.document import exact, figure
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 class Soundness:
     """What was found of a train in a file; true if nothing fails.
 
-    failures   verdicts that leave speeds open, figures that do not hold, teeth that cannot turn
+    failures   verdicts that leave speeds open, figures that do not hold, what cannot be built, teeth that cannot turn
     """
 
     train: GearTrain
@@ -42,6 +43,7 @@ class Soundness:
         if train.is_placed and train.closure.kind in ("misses", "unclear"):
             yield f"note {self.file}: {train.closure.text}"
         if whole:
+            yield from (f"note {found}" for found in train.build_findings if not found.is_error)
             for remark in train.remarks:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             yield from (f"note {self.file}: {line}" for line in _left_out(train))
@@ -55,8 +57,9 @@ def find_soundness(train: GearTrain, file: str) -> Soundness:
     """Judge every state of a train that was read from a file. Raises `GearTrainError` for teeth that cannot be made."""
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
+    failures += map(str, build_errors(train.build_findings))
     for fault in train.faults:
-        failures.append(f"{fault.place}: " + "; ".join(filter(None, (fault.what, fault.why, fault.fix))))
+        failures.append(f"{fault.place}: {fault.text}")
     return Soundness(train, file, answers, tuple(failures))
 
 

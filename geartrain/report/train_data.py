@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.errors import Problem
     from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.buildability import BuildFinding
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.gridlock.removal import Gridlock
     from geartrain.kinematics.phasing import MeshPhasing
@@ -100,8 +101,10 @@ class TrainReport(TrainAnswers):
         The fundamental circuit of each gear pair and coupling.
     adjacency : AdjacencyLetters or None
         Which links are joined; None for very large trains.
+    build_findings : tuple of BuildFinding
+        What of the train cannot be built, and what is unwise.
     remarks : tuple of Problem
-        Remarks on the declaration.
+        Conventions that the answers rest on.
     sensitivity : tuple of StateSensitivity
         What one tooth more or less on a wheel in doubt does.
     teeth : tuple of DrivenPair
@@ -123,7 +126,7 @@ class TrainReport(TrainAnswers):
     KEYS = (
         *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),
         Key("circuits", keys=("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")),
-        *("adjacency", Key("remarks", keys=("place", "what", "why")), "sensitivity"),
+        *("adjacency", "build_findings", Key("remarks", keys=("place", "what", "why")), "sensitivity"),
         *("teeth", "pins", "torques", "motion", "errata"),
     )
 
@@ -132,6 +135,7 @@ class TrainReport(TrainAnswers):
     sources: Mapping[str, str]
     circuits: tuple[Circuit, ...]
     adjacency: AdjacencyLetters | None
+    build_findings: tuple[BuildFinding, ...]
     remarks: tuple[Problem, ...]
     sensitivity: tuple[StateSensitivity, ...]
     teeth: tuple[DrivenPair, ...]
@@ -184,6 +188,7 @@ def collect_report(train: GearTrain) -> TrainReport:
         sources={key: source.cite for key, source in declared.sources.items()},
         circuits=train.circuits,
         adjacency=AdjacencyLetters(tuple(train.graph), adjacency_labels(train.graph)) if small else None,
+        build_findings=train.build_findings,
         remarks=train.remarks,
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
         teeth=driven_pairs(train),

@@ -49,6 +49,12 @@ def describe_train(found: TrainReport) -> Document:
     declared = train.declaration
     sections = [*_structure(train), _circuits(train), _mobility(train)]
     sections += _phasing(train)
+    if train.build_findings:
+        head = "Told by the declaration alone; an error cannot be built so, a note is unwise or open."
+        findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
+        sections.append(
+            Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
+        )
     if train.remarks:
         notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
         sections.append(Section("Remarks", notes))

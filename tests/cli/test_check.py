@@ -71,7 +71,7 @@ def test_a_ratio_that_there_is_not_is_said_to_be_none(tmp_path: Path) -> None:
 
 def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
     train = load("prague-orloj")
-    assert train.remarks
+    assert train.build_findings
     path = tmp_path / "t.yaml"
     name = next(iter(train.declaration.outputs))
     path.write_text(f"extends: prague-orloj\noutputs: {{{name}: {{expect: 77}}}}\n", encoding="utf-8")
@@ -79,7 +79,7 @@ def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
         done = call("check", path, *more)
         assert done.exit_code == 1
         notes = [line for line in done.stdout.splitlines() if line.startswith("note")]
-        assert all(any(remark.what in line for line in notes) for remark in load(path).remarks)
+        assert all(any(found.text in line for line in notes) for found in load(path).build_findings)
     assert call("check", "--quiet", "prague-orloj").stdout == ""
 
 

@@ -202,6 +202,7 @@ OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "expect", "publ
 TARGET = {"target", "speed", "compared", "ppm", "days_per_century", "degrees_per_unit", "met"}
 REPORT = {
     "closure",
+    "build_findings",
     "gridlock",
     "sources",
     "circuits",

@@ -98,13 +98,13 @@ def test_two_shafts_on_different_axes_that_are_locked_together_stand(axes: str) 
     assert (verdict.kind, verdict.prescriptions) == ("locked", ("'a' and 'b' are locked together", "a = 1"))
     assert "'a' and 'b' are locked together, which holds 'a' still" in verdict.text
     assert load(text).solve().verdict.kind == "locked"
-    assert "closes the joints a - frame, frame - b" in load(text).remarks[0].what
+    assert "close the joints a - frame, frame - b" in load(text).build_findings[0].problem.why
 
 
 def test_two_shafts_on_one_axis_that_are_locked_together_turn_as_one() -> None:
     train = load(SHAFTS.replace("axis: B", "axis: A") + "locks: [[a, b]]\ninputs: {a: 1}\n")
     assert train.solve()["b"] == 1
-    assert not train.remarks
+    assert not train.build_findings
 
 
 def test_two_labels_at_one_place_are_one_axis() -> None:

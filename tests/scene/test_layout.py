@@ -27,7 +27,8 @@ def load(name: str) -> tuple[geartrain.GearTrain, Layout]:
 
 
 def named(layout: Layout, *names: str) -> bool:
-    return any(all(f"'{name}'" in notice.what for name in names) for notice in layout.notices)
+    told = [notice for notice in layout.notices if "pitch circles of" in notice.what]
+    return any(all(f"'{name}'" in notice.what for name in names) for notice in told)
 
 
 def way(layout: Layout, wheel: WheelPlace) -> np.ndarray:

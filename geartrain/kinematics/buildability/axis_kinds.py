@@ -57,7 +57,9 @@ def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
     else:
         what = f"{shape} pair '{pair.name}' has no declared directions of axes"
         fix = f"declare the directions of '{first}' and '{second}' under `axes`, or drop `kind: {shape}`"
-    why = _NEEDS[shape] + ("" if declared else ", and axes without a direction count as parallel: it is drawn as spur")
+    why = _NEEDS[shape] + (
+        "" if declared else ", and axes without a direction count as parallel: its wheels are drawn as spur wheels"
+    )
     return Problem(what, why, fix, pair.place)
 
 

@@ -56,8 +56,8 @@ def _triangle(
     names = ", ".join(f"'{axis}'" for axis in axes)
     problem = Problem(
         f"axes {names} have no place: {sums} is less than {measure(long)}",
-        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, and two sides of a triangle are "
-        "together longer than the third",
+        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, and two sides of a triangle "
+        "are together longer than the third",
         "change a tooth count or a module, or take one of the pairs away",
         last.place,
     )

@@ -56,8 +56,7 @@ class BuildFinding(Result):
     @property
     def text(self) -> str:
         """What, why and what to do on one line, without the place."""
-        problem = self.problem
-        return "; ".join(filter(None, (problem.what, problem.why, problem.fix))) + f" [{self.rule}]"
+        return f"{self.problem.text} [{self.rule}]"
 
     def __str__(self) -> str:
         return f"{self.problem.place}: {self.text}" if self.problem.place else self.text

@@ -14,7 +14,7 @@ from math import radians, sqrt, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
-from geartrain.kinematics.buildability.build_findings import BuildFinding
+from geartrain.kinematics.buildability.build_findings import BuildFinding, BuildLevel
 from geartrain.kinematics.buildability.pitch_pairs import SLACK, PitchPair
 from geartrain.kinematics.circuits import Tree
 from geartrain.numerics.graphs import RatioSets
@@ -186,7 +186,7 @@ class PitchDistances:
         off, other, scale = best
         low, high = pair.bounds
         least, most = (bound * scale for bound in other.bounds)
-        level = "note" if max(low, least) <= min(high, most) else "error"
+        level: BuildLevel = "note" if max(low, least) <= min(high, most) else "error"
         yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
 
     def _two_distances(self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, grave: bool) -> Problem:
@@ -197,9 +197,10 @@ class PitchDistances:
             f"pairs '{other.name}' and '{pair.name}' need two distances of axes {_named(pair.axis_pair)}: "
             f"{wants[0]} and {wants[1]}"
         )
-        why = f"two axes have one distance, and these differ by {self._length(off, module)}"
         if not grave:
-            return Problem(what, why + ", which other teeth than standard ones bridge", _BRIDGE, pair.place)
+            why = f"two axes have one distance, and teeth off the standard must bridge {self._length(off, module)}"
+            return Problem(what, why, _BRIDGE, pair.place)
+        why = f"two axes have one distance, and these differ by {self._length(off, module)}"
         teeth = 2 * off
         fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
         fix += ", or give each its own pinion with a module of its own" if shared else ", or give one another module"

@@ -104,7 +104,6 @@ class PitchContact:
 
     kind            side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its
                     first wheel is the worm) about others
-    drawn_as_spur   why it is drawn as spur wheels, where it cannot be drawn as declared
     stretch         how much farther apart than touching pitch circles declared teeth want the axes, as a factor
     worm_sense      1 where both axes of a worm and its wheel turn the pitch point the same way for positive angles, -1
                     where against each other; 0 of other pairs
@@ -114,7 +113,6 @@ class PitchContact:
     wheels: tuple[str, str]
     axes: tuple[str, str]
     kind: ContactKind
-    drawn_as_spur: str = ""
     stretch: Fraction = Fraction(1)
     worm_sense: int = 0
 
@@ -312,16 +310,14 @@ def _contact(
     kinds = [wheel.kind for wheel in declared]
     if lines[ends[0]].group == lines[ends[1]].group:
         ring = any(wheel.internal for wheel in declared)
-        shaped = next((each for each in kinds if each != "spur"), "")
-        why = f"a {shaped} pair whose axes are declared parallel" if shaped else ""
-        return PitchContact(circuit.id, circuit.wheels, ends, "ring" if ring else "side", why, stretch)
+        return PitchContact(circuit.id, circuit.wheels, ends, "ring" if ring else "side", stretch)
     screw = "worm" in kinds or any(wheel.is_helical for wheel in declared)
     kind: ContactKind = "screw" if screw else "crown" if sorted(kinds) == ["contrate", "spur"] else "bevel"
     sense = _worm_sense(train, circuit, ends) if kind == "screw" else 0
     wheels = circuit.wheels
     if {"worm", "contrate"} & set(kinds) and kinds[0] not in ("worm", "contrate"):
         wheels, ends = wheels[::-1], ends[::-1]
-    return PitchContact(circuit.id, wheels, ends, kind, "", stretch, sense)
+    return PitchContact(circuit.id, wheels, ends, kind, stretch, sense)
 
 
 def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:

@@ -56,11 +56,12 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
 def notices(
     train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """All that a reader of a picture must know.
+    """All that a reader of a picture must know: what cannot be built first.
 
     gaps     of pairs whose pitch circles do not touch (mm)
     misses   of pairs whose teeth do not meet (pitches)
     """
+    yield from (each.problem for each in train.build_findings)
     declared = found.geometry.declared
     place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}
     for contact in declared.contacts:
@@ -92,15 +93,7 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
 
 
 def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
-    """Pairs and wheels that are not drawn as they are declared."""
-    for contact in declared.contacts:
-        if contact.drawn_as_spur:
-            yield Problem(
-                f"'{contact.name}' is drawn as spur wheels",
-                f"it is {contact.drawn_as_spur}",
-                "declare directions under `axes`",
-                place[contact.name],
-            )
+    """Wheels that are not drawn as they are declared."""
     for stray in declared.strays:
         yield Problem(
             f"wheel '{stray.wheel}' is drawn on axis '{declared.axis[stray.wheel]}' only",

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, localcontext
 from fractions import Fraction
-from math import cos, pi
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.kinematics.buildability.ring_mates import tip_room
 from geartrain.synthesis.constraints.count_conditions import Condition, counts_of, free_of
 from geartrain.synthesis.constraints.decimal_sines import decimal, is_positive, sine
 
@@ -56,39 +57,13 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 
 
-def tip_room(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """Angle by which the corner of a planet's tooth passes that of a ring's on its way out (rad, about the ring).
-
-    z1, z2     teeth of the planet and the ring, arrays; z2 > z1
-    pressure   rad; h1, h2 addenda in modules. Teeth without play; negative where the corners meet
-    Known as trochoid interference (Elements of Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the
-    planet's corner stands on the ring's tip circle, at theta1 about its own axis and theta2 about the ring's (both from
-    the line of centres), the planet has turned from where its flank met the pitch point by
-    phi = theta1 + inv(alpha_a1) - inv(alpha), for the tooth is thinner at its tip, and the ring by phi z1/z2; the
-    corner of the ring's tooth ahead is then at phi z1/z2 + inv(alpha) - inv(alpha_a2).
-    -inf where the ring's tip circle lies within its base circle, or within the planet's tip circle. At 20 degrees and
-    full depth a ring of 34 to 77 teeth wants 9 more than the planet, a larger one 8; the source says "larger than 9".
-    """
-    z1, z2 = np.asarray(z1, dtype=float), np.asarray(z2, dtype=float)
-    r1, r2, a = z1 / 2 + h1, z2 / 2 - h2, (z2 - z1) / 2
-    C = cos(pressure)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        out = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1)
-        # clipped: sets whose tip circles do not cross are set aside at the end
-        theta1 = np.arccos(np.clip(out, -1, 1))
-        theta2 = np.arccos(np.clip((a * a + r2 * r2 - r1 * r1) / (2 * a * r2), -1, 1))
-        tip1 = np.arccos(z1 * C / (2 * r1))
-        tip2 = np.arccos(np.clip(z2 * C / (2 * r2), -1, 1))
-        phi = theta1 + involute(tip1) - involute(pressure)
-        room = phi * z1 / z2 + involute(pressure) - involute(tip2) - theta2
-    possible = (a > 0) & (r2 > r1 - a) & (2 * r2 >= z2 * C)
-    # a planet whose tips never reach the ring's tip circle has nothing to pass
-    return np.asarray(np.where(out > 1, np.where(a > 0, np.inf, -np.inf), np.where(possible, room, -np.inf)))
-
-
-def involute(angle: Any) -> Floats:
-    """inv(alpha) = tan(alpha) - alpha (rad)."""
-    return np.asarray(np.tan(angle) - angle)
+def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
+    """`tip_room` of each candidate (rad); arguments as there, tooth counts as arrays of one shape."""
+    planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
+    # many candidates share a few pairs of counts
+    pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
+    rooms = np.array([tip_room(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
+    return np.asarray(rooms[which.ravel()].reshape(planets.shape))
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +99,7 @@ class InRing:
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
         angle = float(self.pressure) * 2 * pi
-        return np.asarray(fits & (tip_room(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
+        return np.asarray(fits & (tip_rooms(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
 
 
 def _square(pressure: Fraction) -> Decimal:

@@ -1,0 +1,373 @@
+"""What of a declared train cannot be built: each rule by trains that break it and trains that keep it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from commands import call, imported_by
+
+from geartrain import load, shipped
+
+PAIR = """
+links: {{frame: {{}}, a: {{wheels: {{a20: {first}}}}}, b: {{wheels: {{b40: {second}}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [a20, b40]}}]
+inputs: {{a: 1}}
+{more}
+"""
+COAXIAL = """
+links:
+  frame: {{}}
+  a: {{wheels: {{a20: {a20}, a30: {a30}}}}}
+  b: {{wheels: {{b40: {b40}}}}}
+  c: {{wheels: {{c50: {c50}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: B}}]
+gears: [{{pair: [a20, b40]}}, {{pair: [a30, c50]}}]
+inputs: {{a: 1}}
+{more}
+"""
+PLANETARY = """
+links:
+  frame: {{wheels: {{ring: {{teeth: {ring}, internal: true}}}}}}
+  sun: {{wheels: {{s: {sun}}}}}
+  planet: {{wheels: {{p: {planet}}}}}
+  carrier: {{}}
+revolutes:
+  - {{pair: [frame, sun], axis: main}}
+  - {{pair: [frame, carrier], axis: main}}
+  - {{pair: [carrier, planet], axis: P}}
+gears: [{{pair: [s, p]}}, {{pair: [p, ring]}}]
+inputs: {{sun: 1}}
+{more}
+"""
+RING = """
+links: {{frame: {{}}, a: {{wheels: {{p: {planet}}}}}, b: {{wheels: {{r: {{teeth: {ring}, internal: true}}}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, r]}}]
+inputs: {{a: 1}}
+{more}
+"""
+
+
+def pair(first: object = 20, second: object = 40, more: str = "") -> str:
+    return PAIR.format(first=first, second=second, more=more)
+
+
+def coaxial(a20: object = 20, b40: object = 40, a30: object = 30, c50: object = 50, more: str = "") -> str:
+    return COAXIAL.format(a20=a20, b40=b40, a30=a30, c50=c50, more=more)
+
+
+def planetary(sun: int = 24, planet: int = 18, ring: int = 60, more: str = "") -> str:
+    return PLANETARY.format(sun=sun, planet=planet, ring=ring, more=more)
+
+
+def found(text: str) -> list[tuple[str, str]]:
+    """Rules that a train breaks, with their level; each has a place, a reason and a cure."""
+    findings = load(text).build_findings
+    for finding in findings:
+        problem = finding.problem
+        assert all((problem.place, problem.what, problem.why, problem.fix)), finding
+    return [(finding.rule, finding.level) for finding in findings]
+
+
+def words(text: str) -> str:
+    return " ".join(map(str, load(text).build_findings))
+
+
+def sized(teeth: int, module: str) -> str:
+    return f"{{teeth: {teeth}, module: {module}}}"
+
+
+def places(**x: str) -> str:
+    entries = (f"{label}: {{position: [{value}, 0 mm, 0 mm]}}" for label, value in x.items())
+    return f"axes: {{{', '.join(entries)}}}"
+
+
+# --------------------------------------------------------------------------------------------------------------- M1, M2
+
+
+def test_mates_have_one_module() -> None:
+    assert found(pair(sized(20, "1 mm"), sized(40, "2 mm"))) == [("M1", "error")]
+    assert "'a20' has module 1 mm and 'b40' has module 2 mm" in words(pair(sized(20, "1 mm"), sized(40, "2 mm")))
+    assert found(pair(sized(20, "1 mm"), sized(40, "0.1 cm"))) == []
+    assert found(pair(sized(20, "1 mm"))) == []
+    # without a unit a module is in mm, as a layout takes it
+    assert found(pair(sized(20, "1"), sized(40, "1 mm"))) == []
+
+
+CHAIN = """
+links: {{frame: {{}}, a: {{wheels: {{a: {a}}}}}, b: {{wheels: {{b: 30}}}}, c: {{wheels: {{c: {c}}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{pair: [a, b]}}, {{pair: [b, c]}}{more}]
+inputs: {{a: 1}}
+"""
+
+
+def test_a_wheel_between_two_has_the_module_of_both() -> None:
+    text = CHAIN.format(a=sized(20, "1 mm"), c=sized(40, "2 mm"), more="")
+    assert found(text) == [("M1", "error")]
+    assert "'b' has module 1 mm through its other mates and 'c' has module 2 mm" in words(text)
+    assert found(CHAIN.format(a=sized(20, "1 mm"), c=sized(40, "1 mm"), more="")) == []
+
+
+def test_one_declared_module_is_held_against_the_distance_of_the_axes() -> None:
+    text = pair(sized(20, "1 mm"), more=places(A="0 mm", B="40 mm"))
+    assert found(text) == [("M2", "error")]
+    assert "40 mm apart" in words(text)
+    assert "need 30 mm" in words(text)
+    assert "asks for 1.33333 mm" in words(text)
+    assert found(pair(sized(20, "1 mm"), more=places(A="0 mm", B="30 mm"))) == []
+    assert found(pair(more=places(A="0 mm", B="40 mm"))) == []
+
+
+# ------------------------------------------------------------------------------------------------------------------- P1
+
+
+def test_declared_places_agree_with_radii() -> None:
+    text = pair(sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B="100 mm"))
+    assert found(text) == [("P1", "error")]
+    assert "their pitch circles are 70 mm apart" in words(text)
+    near = pair(sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B="20 mm"))
+    assert found(near) == [("P1", "error")]
+    assert "their pitch circles overlap by 10 mm" in words(near)
+
+
+@pytest.mark.parametrize(
+    ("distance", "form", "said"),
+    [
+        ("30 mm", "", []),
+        ("30.00002 mm", "", []),  # a millionth of the radii, as positions are rounded
+        ("30.01 mm", "", [("P1", "note")]),
+        ("30.5 mm", "", [("P1", "note")]),  # half a module: shifted profiles
+        ("30.6 mm", "", [("P1", "error")]),
+        ("29.5 mm", "", [("P1", "note")]),
+        ("29.4 mm", "", [("P1", "error")]),
+        ("30.05 mm", "tooth_form: {form: involute}", [("P1", "note")]),
+        ("29.99 mm", "tooth_form: {form: involute}", [("P1", "note")]),
+        ("29.95 mm", "tooth_form: {form: involute}", [("P1", "error")]),  # such teeth jam
+        ("30.01 mm", "tooth_form: {form: cycloidal}", [("P1", "note")]),
+        ("30.05 mm", "tooth_form: {form: cycloidal}", [("P1", "error")]),
+        ("30.5 mm", "tooth_form: {form: involute, centre_distance: 30.5 mm}", []),
+        ("30.5 mm", "tooth_form: {form: involute, centre_distance: 30.5}", []),
+        ("30.05 mm", "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}", [("P1", "note")]),
+    ],
+)
+def test_how_far_teeth_may_stand_from_their_distance(distance: str, form: str, said: list[tuple[str, str]]) -> None:
+    text = pair(sized(20, "1 mm"), sized(40, "1 mm"), more=f"{places(A='0 mm', B=distance)}\n{form}")
+    assert found(text) == said
+
+
+def test_more_distance_is_more_play_of_involutes() -> None:
+    """2 da tan(20 deg) = 0.0364 at da = 0.05; the play measured on outlines is 0.0352 on the pitch circle."""
+    text = pair(
+        sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B="30.05 mm") + "\ntooth_form: {form: involute}"
+    )
+    assert "0.036397 mm more play" in words(text)
+
+
+def test_shifted_involutes_are_held_against_their_own_distance() -> None:
+    """x1 + x2 = 0.5 on 20 and 40 teeth: inv a_w = inv 20 deg + 2 tan 20 deg 0.5/60, so a = 30.4826 (by hand)."""
+    form = "\ntooth_form: {form: involute, shift: [0.5, 0]}"
+    at = {far: found(pair(sized(20, "1 mm"), sized(40, "1 mm"), more=places(A="0 mm", B=far) + form)) for far in
+          ("30 mm", "30.4826 mm", "30.47 mm")}  # fmt: skip
+    assert at["30 mm"] == [("P1", "error")]
+    assert at["30.47 mm"] == [("P1", "note")]
+    assert at["30.4826 mm"] in ([], [("P1", "note")])
+
+
+def test_pairs_of_one_pitch_on_declared_axes_agree_with_each_other() -> None:
+    """No module is declared: the first two axes give it."""
+    right = CHAIN.format(a=20, c=40, more="") + places(A="0 mm", B="50 mm", C="120 mm")
+    assert found(right) == []
+    assert found(right.replace("120 mm", "150 mm")) == [("P1", "error")]
+
+
+# --------------------------------------------------------------------------------------------------------------- P2, P3
+
+
+def test_pairs_between_two_axes_have_one_distance() -> None:
+    one = {"a20": sized(20, "1 mm"), "b40": sized(40, "1 mm"), "a30": sized(30, "1 mm"), "c50": sized(50, "1 mm")}
+    assert found(coaxial(**one)) == [("P2", "error")]
+    assert "30 mm and 40 mm" in words(coaxial(**one))
+    assert "by 20 in sum" in words(coaxial(**one))
+    assert found(coaxial(**one | {"c50": sized(30, "1 mm")})) == []
+    assert found(coaxial(**one | {"c50": sized(31, "1 mm")})) == [("P2", "note")]
+    assert found(coaxial(**one | {"c50": sized(32, "1 mm")})) == [("P2", "note")]
+    assert found(coaxial(**one | {"c50": sized(33, "1 mm")})) == [("P2", "error")]
+    # wheels that do not mesh are free to have two modules
+    assert found(coaxial()) == []
+    assert found(coaxial(a20=sized(20, "1 mm"), a30=sized(30, "0.75 mm"))) == []
+    assert found(coaxial(a20=sized(20, "1 mm"), a30=sized(30, "1 mm"))) == [("P2", "error")]
+
+
+def test_a_planet_has_one_distance_to_sun_and_ring() -> None:
+    assert found(planetary()) == []
+    assert found(planetary(ring=62)) == [("P2", "note")]
+    assert found(planetary(ring=70)) == [("P2", "error")]
+    assert "pinion" in words(planetary(ring=70))
+    assert found(planetary(ring=62, more="tooth_form: {form: involute}")) == [("P2", "note")]
+    # with declared involutes the sun wants them at least 21 apart, and the ring at most 20
+    assert found(planetary(ring=58, more="tooth_form: {form: involute}")) == [("P2", "error")]
+
+
+def test_three_axes_keep_the_triangle_inequality() -> None:
+    loop = ", {pair: [c, a]}"
+    assert found(CHAIN.format(a=20, c=40, more=loop)) == []
+    text = (
+        CHAIN.format(a=20, c=40, more="")
+        .replace("{b: 30}", "{b: 4}")
+        .replace("c: {wheels: {c: 40}}", "c: {wheels: {c: 4}}")
+    )
+    text = (
+        text.replace("gears: [", "gears: [{pair: [a9, c9]}, ")
+        .replace("{a: 20}", "{a: 4, a9: 60}")
+        .replace("{c: 4}", "{c: 4, c9: 60}")
+    )
+    assert found(text) == []  # a9 and c9 may have a module of their own
+    text = text.replace("a: 4,", "a: {teeth: 4, module: 1 mm},").replace("a9: 60", "a9: {teeth: 60, module: 1 mm}")
+    assert found(text) == [("P3", "error")]
+    assert "4 mm + 4 mm is less than 60 mm" in words(text)
+
+
+# --------------------------------------------------------------------------------------------------------------- R1, R2
+
+
+@pytest.mark.parametrize("ring", [3, 16, 20])
+def test_a_ring_is_larger_than_its_planet(ring: int) -> None:
+    assert found(RING.format(planet=20, ring=ring, more="")) == [("R1", "error")]
+    assert f"ring 'r' {ring} does not hold 'p' 20" in words(RING.format(planet=20, ring=ring, more=""))
+
+
+@pytest.mark.parametrize(
+    ("planet", "ring", "passes"), [(51, 60, True), (53, 60, False), (20, 60, True), (92, 100, True)]
+)
+def test_standard_tips_pass_the_tips_of_the_ring(planet: int, ring: int, passes: bool) -> None:
+    assert found(RING.format(planet=planet, ring=ring, more="")) == ([] if passes else [("R2", "note")])
+
+
+def test_declared_teeth_are_judged_by_their_own_outlines() -> None:
+    assert found(RING.format(planet=53, ring=60, more="tooth_form: {form: involute}")) == []
+
+
+# --------------------------------------------------------------------------------------------------------------- K1, K2
+
+FLAT = "axes: {A: {direction: [0, 0, 1]}, B: {direction: [0, 0, 1]}}"
+CROSSED = "axes: {A: {direction: [1, 0, 0]}, B: {direction: [0, 0, 1]}}"
+MEET = "axes: {A: {direction: [1, 0, 0], position: [9 mm, 0 mm, 0 mm]}, B: {position: [0 mm, 0 mm, 4 mm]}}"
+PASS = MEET.replace("9 mm, 0 mm", "9 mm, 7 mm")
+
+
+def kind(name: str, teeth: int = 20) -> str:
+    return f"{{teeth: {teeth}, kind: {name}}}"
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "axes", "said"),
+    [
+        (20, 40, "", []),
+        (20, 40, FLAT, []),
+        (20, 40, CROSSED, [("K1", "error")]),
+        (kind("bevel"), kind("bevel", 40), FLAT, [("K1", "error")]),
+        (kind("bevel"), kind("bevel", 40), "", [("K1", "note")]),
+        (kind("bevel"), kind("bevel", 40), CROSSED, []),
+        (kind("bevel"), kind("bevel", 40), MEET, []),
+        (kind("bevel"), kind("bevel", 40), PASS, [("K1", "error")]),
+        (kind("contrate"), 40, CROSSED, []),
+        (kind("contrate"), 40, FLAT, [("K1", "error")]),
+        (kind("worm", 1), 40, PASS, []),
+        (kind("worm", 1), 40, MEET, [("K1", "error")]),
+        (kind("worm", 1), 40, FLAT, [("K1", "error")]),
+        (kind("bevel"), 40, CROSSED, [("K2", "error")]),
+        (kind("bevel"), 40, "", [("K2", "error")]),
+        (kind("contrate"), kind("contrate", 40), CROSSED, [("K2", "error")]),
+        (kind("contrate"), kind("bevel", 40), CROSSED, [("K2", "error")]),
+        (kind("worm", 1), kind("bevel", 40), PASS, [("K2", "error")]),
+    ],
+)
+def test_kinds_go_with_axes_and_with_each_other(first: object, second: object, axes: str, said: list) -> None:
+    assert found(pair(first, second, axes)) == said
+
+
+def test_how_far_axes_pass_is_told() -> None:
+    assert "pass each other at 7 mm" in words(pair(kind("bevel"), kind("bevel", 40), PASS))
+
+
+# --------------------------------------------------------------------------------------------------------------- G1, G2
+
+
+def test_locks_join_links_of_one_axis() -> None:
+    assert found(coaxial(more="locks: [[b, c]]")) == []
+    assert found(coaxial(more="locks: [[a, b]]")) == [("G1", "error")]
+    assert "across the axes 'A' and 'B'" in words(coaxial(more="locks: [[a, b]]"))
+    assert found(planetary(more="locks: [[planet, carrier]]")) == []
+    assert found(planetary(more="locks: [[sun, carrier]]")) == []
+    assert found(planetary(more="locks: [[planet, sun]]")) == [("G1", "error")]
+
+
+def test_brakes_hold_what_turns_about_an_axis_of_the_frame() -> None:
+    assert found(planetary(more="fixed: [carrier]")) == []
+    assert found(planetary(more="fixed: [planet]")) == [("G2", "error")]
+    assert "hold 'carrier'" in words(planetary(more="fixed: [planet]"))
+    assert found(planetary(more="fixed: [planet, carrier]")) == []  # its axis stands still then
+
+
+def test_a_clutch_is_told_once_for_all_states_with_its_place() -> None:
+    more = "clutches: {K: {locks: [planet, sun]}}\nstates: {low: {engaged: [K]}, high: {engaged: [K]}}"
+    (finding,) = load(planetary(more=more)).build_findings
+    assert finding.rule == "G1"
+    assert "by K" in finding.problem.what
+    assert finding.problem.place.startswith("text:")
+
+
+# ------------------------------------------------------------------------------------------------------------------- W1
+
+
+def test_a_wheel_that_meshes_nothing_is_noted() -> None:
+    spare = pair().replace("a20: 20}", "a20: 20, spare: 33}")
+    assert found(spare) == [("W1", "note")]
+    assert "wheel 'spare' 33 meshes nothing" in words(spare)
+    assert found(spare.replace("33", "{teeth: 33, note: survives without a mate}")) == []
+    assert found(spare + "escapement: {link: a, teeth: 33, beat: 1 s}") == []
+    assert found(spare + "escapement: {link: a, teeth: 30, beat: 1 s}") == [("W1", "note")]
+
+
+# ------------------------------------------------------------------------------------------------------- the same words
+
+
+@pytest.mark.parametrize(("text", "code"), [
+    (pair(sized(20, "1 mm"), sized(40, "2 mm")), 1),
+    (pair(sized(20, "1 mm"), sized(40, "1 mm"), places(A="0 mm", B="100 mm")), 1),
+    (pair(20, 40, CROSSED), 1),
+    (RING.format(planet=20, ring=16, more=""), 1),
+    (RING.format(planet=53, ring=60, more=""), 0),
+    (pair(), 0),
+])  # fmt: skip
+def test_check_report_and_pictures_use_the_same_words(text: str, code: int, tmp_path: Path) -> None:
+    path = tmp_path / "t.yaml"
+    path.write_text(text, encoding="utf-8")
+    told = call("check", path)
+    assert told.exit_code == code
+    findings = load(path).build_findings
+    assert bool(code) == any(finding.is_error for finding in findings)
+    report, (data,) = call("report", path).stdout, json.loads(call("report", path, "--json").stdout)
+    for finding in findings:
+        assert f"{'FAIL' if finding.is_error else 'note'} {finding}" in told.stdout
+        assert finding.problem.what in report
+        assert finding.to_dict() in data["build_findings"]
+    assert len(data["build_findings"]) == len(findings)
+    page = tmp_path / "t.html"
+    assert call("view", path, "-o", page).exit_code == 0
+    drawn = page.read_text(encoding="utf-8")
+    assert all(json.dumps(finding.problem.what)[1:-1] in drawn for finding in findings)
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_no_shipped_train_is_impossible(name: str) -> None:
+    assert [finding for finding in load(name).build_findings if finding.is_error] == []
+
+
+def test_the_check_of_a_plain_train_brings_no_array_library() -> None:
+    used = imported_by("import geartrain; assert geartrain.load('norton-compound').build_findings")
+    assert not used & {"scipy", "matplotlib", "networkx", "numpy"}

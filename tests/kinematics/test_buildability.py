@@ -177,6 +177,17 @@ def test_shifted_involutes_are_held_against_their_own_distance() -> None:
     assert at["30.4826 mm"] in ([], [("P1", "note")])
 
 
+def test_the_module_of_helical_wheels_is_that_across_their_teeth() -> None:
+    """Axes 2 (20 + 40)/2 / cos 30 deg = 69.282 mm apart."""
+    lean = "helix_angle: 30 deg, hand: "
+    wheels = (f"{{teeth: {z}, module: 2 mm, {lean}{hand}}}" for z, hand in ((20, "right"), (40, "left")))
+    text = pair(*wheels, more=places(A="0 mm", B="69.282032 mm"))
+    assert found(text) == []
+    assert found(text.replace("69.28", "60")) == [("P1", "error")]
+    shifted = text + "\ntooth_form: {form: involute, shift: [0.3, -0.3]}"
+    assert found(shifted) == []
+
+
 def test_pairs_of_one_pitch_on_declared_axes_agree_with_each_other() -> None:
     """No module is declared: the first two axes give it."""
     right = CHAIN.format(a=20, c=40, more="") + places(A="0 mm", B="50 mm", C="120 mm")
@@ -259,6 +270,9 @@ MEET = "axes: {A: {direction: [1, 0, 0], position: [9 mm, 0 mm, 0 mm]}, B: {posi
 PASS = MEET.replace("9 mm, 0 mm", "9 mm, 7 mm")
 
 
+HELICAL = "{teeth: 20, helix_angle: 45 deg, hand: right}"
+
+
 def kind(name: str, teeth: int = 20) -> str:
     return f"{{teeth: {teeth}, kind: {name}}}"
 
@@ -284,6 +298,8 @@ def kind(name: str, teeth: int = 20) -> str:
         (kind("contrate"), kind("contrate", 40), CROSSED, [("K2", "error")]),
         (kind("contrate"), kind("bevel", 40), CROSSED, [("K2", "error")]),
         (kind("worm", 1), kind("bevel", 40), PASS, [("K2", "error")]),
+        (HELICAL, HELICAL.replace("20", "40"), PASS, []),
+        (HELICAL, HELICAL.replace("20", "40"), MEET, [("K1", "error")]),
     ],
 )
 def test_kinds_go_with_axes_and_with_each_other(first: object, second: object, axes: str, said: list) -> None:

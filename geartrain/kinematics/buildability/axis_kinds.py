@@ -20,6 +20,7 @@ _NEEDS = {
     "bevel": "cones roll on each other where their axes meet",
     "contrate": "the teeth of a contrate stand along its axis, across that of its mate",
     "worm": "a worm's axis passes that of its wheel at a distance",
+    "helical": "crossed helical wheels touch between axes that pass each other at a distance",
 }
 
 
@@ -27,7 +28,7 @@ def check_kinds(train: Train, tree: Tree, pairs: Sequence[PitchPair]) -> Iterato
     """Rules K1 and K2: kinds and axes, kinds and mates."""
     axes = Axes(train, tree)
     for pair in pairs:
-        shape = next((kind for kind in pair.kinds if kind != "spur"), "spur")
+        shape = next((kind for kind in pair.kinds if kind != "spur"), "helical" if pair.is_crossed else "spur")
         if set(pair.kinds) not in _MATES:
             yield BuildFinding("K2", "error", _strange_mates(pair))
         elif pair.parallel and shape != "spur":
@@ -70,10 +71,10 @@ def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | No
         return Problem(
             f"pair '{pair.name}': spur wheels on axes '{first}' and '{second}' that are not parallel",
             "spur teeth are parallel to their axes, and touch along their width only where axes are parallel",
-            "declare both wheels `kind: bevel`, one `kind: contrate` or `kind: worm`, or make the axes parallel",
+            "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
             pair.place,
         )
-    if offset is None or (shape == "worm") == (offset > 0):
+    if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
     far = f"pass each other at {offset * 1000:.6g} mm" if offset else "meet"
     fix = "move one of the axes" + (", or declare one wheel `kind: worm`" if offset else ", or declare both `bevel`")

@@ -55,6 +55,11 @@ class PitchPair:
         return self.declared[0].kind, self.declared[1].kind
 
     @property
+    def is_crossed(self) -> bool:
+        """True for spur wheels on axes that are not parallel, one at least with a helix angle: crossed helical ones."""
+        return not self.parallel and any(wheel.is_helical for wheel in self.declared)
+
+    @property
     def modules(self) -> tuple[Fraction | None, Fraction | None]:
         """Declared modules (mm)."""
         first, second = (None if wheel.module is None else millimetres(wheel.module) for wheel in self.declared)
@@ -72,11 +77,16 @@ class PitchPair:
 
     @property
     def touching(self) -> Fraction:
-        """Distance (modules) at which pitch circles touch: (z1 + z2)/2, or the ring's z less its mate's, over 2."""
-        first, second = self.counts
+        """Distance (modules) at which pitch circles touch: (z1 + z2)/2, or the ring's z less its mate's, over 2.
+
+        Over the cosine of the helix angle, where there is one.
+        """
+        first, second = (Fraction(wheel.count or 0, 2) for wheel in self.declared)
+        if self.declared[0].is_helical:  # a module is that of the section across the teeth
+            first, second = (half * Fraction(self.declared[0].slant) for half in (first, second))
         if self.ring is None:
-            return Fraction(first + second, 2)
-        return Fraction(first - second if self.ring == 0 else second - first, 2)
+            return first + second
+        return first - second if self.ring == 0 else second - first
 
     @property
     def distance(self) -> Fraction:
@@ -115,10 +125,12 @@ def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
         return pair.touching
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
+    lean = pair.declared[0].helix if pair.declared[0].is_helical else 0.0
     counts = pair.counts[::-1] if pair.ring == 0 else pair.counts
     unplaced = form.model_copy(update={"centre_distance": None})
     try:
-        return Fraction(unplaced.involutes(WheelPair(*counts, internal=pair.ring is not None)).distance)
+        wheels, slant = WheelPair(*counts, internal=pair.ring is not None, helix=abs(lean)), pair.declared[0].slant
+        return Fraction(unplaced.involutes(wheels).distance * slant)
     except GearTrainError:  # there are no such teeth, as is said of them
         return pair.touching
 

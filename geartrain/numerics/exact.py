@@ -1,8 +1,9 @@
-"""Fractions of long integers without the gcds that their making would cost, and the floats nearest to them."""
+"""Fractions of long integers without the gcds that their making would cost, their multiples, and the nearest floats."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from fractions import Fraction
 
 
@@ -34,6 +35,17 @@ def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
         a //= right
         d //= right
     return n * a, d * b
+
+
+def whole_multiple(values: Iterable[Fraction | int]) -> list[int]:
+    """The shortest multiple in whole numbers, with the same signs."""
+    some = list(values)
+    if all(abs(value) == 1 for value in some):
+        return [int(value) for value in some]
+    scale = math.lcm(*(value.denominator for value in some))
+    whole = [int(value * scale) for value in some]
+    common = math.gcd(*whole) or 1
+    return [value // common for value in whole]
 
 
 def log10(value: Fraction) -> float:

@@ -8,8 +8,9 @@ from fractions import Fraction
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, ReducedSystem, reduce_components
-from geartrain.kinematics.phasing.cycle_basis import mesh_coefficient, primitive_row
+from geartrain.kinematics.phasing.cycle_basis import mesh_coefficient
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
+from geartrain.numerics.exact import whole_multiple
 
 _BUDGET = 10**7  # operations; past it, trains of coupled planetaries are judged loop by loop
 
@@ -91,7 +92,7 @@ def find_carrier_coupling(
                 _follow(parts, circuits, ends, node, factor, total)
                 if link not in reduced.own:
                     _follow(parts, circuits, ends, parts.nodes_of[link][0], -factor, total)
-            weights = primitive_row(list(total.values()))
+            weights = whole_multiple(total.values())
             rows.append({mesh: weight for mesh, weight in zip(total, weights, strict=True) if weight})
     return CarrierCoupling(reduced, circuits, ends, tuple(rows), forms)
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components
 from geartrain.numerics.containers import collector_paused
+from geartrain.numerics.exact import whole_multiple
 
 Row = Mapping[int, int]
 """Whole weights of meshes."""
@@ -137,17 +138,8 @@ def cycle_weights(
             weights.append(-weights[-1] if came == goes else weights[-1])
         else:
             weights.append(Fraction(-came, goes) * weights[-1])
-    return tuple(primitive_row(weights, weights[-1] < 0))
-
-
-def primitive_row(weights: Sequence[Fraction | int], flip: bool = False) -> list[int]:
-    """The shortest multiple in whole numbers."""
-    if all(abs(weight) == 1 for weight in weights):
-        return [-int(weight) if flip else int(weight) for weight in weights]
-    scale = math.lcm(*(weight.denominator for weight in weights))
-    whole = [int(weight * scale) for weight in weights]
-    common = math.gcd(*whole) * (-1 if flip else 1)
-    return [weight // common for weight in whole]
+    sign = -1 if weights[-1] < 0 else 1
+    return tuple(sign * weight for weight in whole_multiple(weights))
 
 
 def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], mesh: int, node: int) -> int:

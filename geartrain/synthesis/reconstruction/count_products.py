@@ -17,6 +17,8 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.weighted_alternatives import sums_by
+
 Range = tuple[int, int]
 """Least and greatest count of an added wheel."""
 
@@ -110,8 +112,7 @@ class QuotientTable:
         """The table of quotients that may come several times, not in lowest terms."""
         common = np.gcd(tops, bottoms)
         pairs, at = np.unique(np.stack([tops // common, bottoms // common]), axis=1, return_inverse=True)
-        number = np.zeros(pairs.shape[1], dtype=np.int64)
-        np.add.at(number, at.ravel(), choices)
+        number = sums_by(at.ravel(), choices, pairs.shape[1])
         # two of them differ by more than rounding: their denominators are short
         values = pairs[0] / pairs[1]
         order = np.argsort(values)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import lcm
 from random import Random
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.weighted_alternatives import draw_index
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, Reconstructions
@@ -44,14 +44,14 @@ def draw_candidates(
         fix = "list them instead (--all), or ask without measured sizes and with `--per mechanism`"
         raise QuestionError(Problem(what, "they are drawn from sums over trains that weigh the same", fix))
     weights = [skeleton_prior(each, problem) for each in found.skeletons]
-    whole = lcm(*(weight.denominator for weight in weights))
-    shares = [int(weight * whole) * each.mechanisms for weight, each in zip(weights, found.skeletons, strict=True)]
+    whole = whole_multiple(weights)
+    shares = [weight * each.mechanisms for weight, each in zip(whole, found.skeletons, strict=True)]
     ranks = weight_ranks((weight, each.mechanisms) for weight, each in zip(weights, found.skeletons, strict=True))
     trains, chance = SkeletonTrains(problem, dials), Random(seed)
     drawn = []
     for _ in range(number):
         at = draw_index(shares, chance)
         skeleton, weight = found.skeletons[at].skeleton, weights[at]
-        share = float(Fraction(int(weight * whole), sum(shares)))
+        share = float(Fraction(whole[at], sum(shares)))
         drawn.append(Candidate(trains.draw(skeleton, chance), skeleton.added.number, share, ranks[weight]))
     return tuple(drawn)

@@ -11,9 +11,9 @@ from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
 from typing import Literal, NamedTuple, get_args
 
+from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.information import entropy
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.reconstruction.named_train import NamedArbor
@@ -139,9 +139,7 @@ class WeighedTrains:
     @classmethod
     def of(cls, trains: Iterable[NamedArbor], weights: Iterable[Fraction | float]) -> WeighedTrains:
         """Candidates with weights of any sum."""
-        exact = [Fraction(weight) for weight in weights]
-        common = lcm(*(weight.denominator for weight in exact))
-        return cls(tuple(trains), tuple(int(weight * common) for weight in exact))
+        return cls(tuple(trains), tuple(whole_multiple([Fraction(weight) for weight in weights])))
 
     @cached_property
     def whole(self) -> int:

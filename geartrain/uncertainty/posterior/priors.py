@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
+from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.plain_data import Result
 from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
@@ -129,15 +129,9 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""
     source = f" ({teeth.source})" if teeth.source else ""
-    return ToothCountPrior(name, tuple(kept), _whole(list(kept.values())), teeth.value, f"{kind}{source}{said}")
-
-
-def _whole(weights: Sequence[Fraction]) -> tuple[int, ...]:
-    """Weights as whole numbers without a common divisor."""
-    scale = math.lcm(*(weight.denominator for weight in weights))
-    whole = [int(weight * scale) for weight in weights]
-    common = math.gcd(*whole)
-    return tuple(weight // common for weight in whole)
+    return ToothCountPrior(
+        name, tuple(kept), tuple(whole_multiple(kept.values())), teeth.value, f"{kind}{source}{said}"
+    )
 
 
 def _too_wide(name: str, count: int, place: str) -> RangeError:

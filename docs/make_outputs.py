@@ -31,6 +31,7 @@ NAMES = (
     "theory",
     "teeth",
     "torques",
+    "strength",
     "motion",
     "dynamics",
     "closure",

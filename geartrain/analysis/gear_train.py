@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from geartrain.analysis.train_in_time import TrainInTime
+from geartrain.analysis.train_strength import TrainUnderLoad
 from geartrain.train import declare
 
 if TYPE_CHECKING:
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing import MeshPhasing
 
 
-class GearTrain(TrainInTime):
+class GearTrain(TrainUnderLoad):
     """A declared train that answers questions. Parts are made once, when first asked for, and kept.
 
     Parameters

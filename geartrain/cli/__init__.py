@@ -21,7 +21,19 @@ class VerbGroup(EndingGroup, LazyGroup):
     verbs = Verbs(
         "geartrain.cli",
         (
-            *("report", "view", "draw", "export", "compare", "check", "solve", "equations", "graph", "torques"),
+            *(
+                "report",
+                "view",
+                "draw",
+                "export",
+                "compare",
+                "check",
+                "solve",
+                "equations",
+                "graph",
+                "torques",
+                "strength",
+            ),
             *(
                 "motion",
                 "dynamics",

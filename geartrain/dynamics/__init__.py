@@ -28,6 +28,13 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
+    from geartrain.dynamics.strength.strength_results import (
+        ArborStrength,
+        FlankWear,
+        PairStrength,
+        TrainStrength,
+        WheelStrength,
+    )
     from geartrain.dynamics.time.run_parts import (
         ContactInTime,
         EnergyAccount,
@@ -48,6 +55,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.torque_cycle import TorqueCycle
 
 __all__ = [
+    "ArborStrength",
     "BearingTorque",
     "ContactInTime",
     "CornerPositions",
@@ -56,6 +64,7 @@ __all__ = [
     "EnergyAccount",
     "ErrorEstimates",
     "ErrorSamples",
+    "FlankWear",
     "HoldingTorque",
     "ImpactList",
     "LinkInertia",
@@ -65,6 +74,7 @@ __all__ = [
     "OutputLead",
     "PairCycle",
     "PairSeparation",
+    "PairStrength",
     "PairTorque",
     "PlaceInRun",
     "PowerFlow",
@@ -85,11 +95,14 @@ __all__ = [
     "TorqueExtreme",
     "TorqueVerdict",
     "Torques",
+    "TrainStrength",
     "TransmissionErrorCurve",
     "VibrationModes",
+    "WheelStrength",
 ]
 
 _PLACES = {
+    "ArborStrength": "strength.strength_results",
     "BearingTorque": "torques.member_torques",
     "ContactInTime": "time.run_parts",
     "CornerPositions": "motion.corner_positions",
@@ -98,6 +111,7 @@ _PLACES = {
     "EnergyAccount": "time.run_parts",
     "ErrorEstimates": "motion.superposition",
     "ErrorSamples": "motion.error_composition",
+    "FlankWear": "strength.strength_results",
     "HoldingTorque": "torques.member_torques",
     "ImpactList": "time.run_parts",
     "LinkInertia": "inertia.link_inertia",
@@ -107,6 +121,7 @@ _PLACES = {
     "OutputLead": "time.run_parts",
     "PairCycle": "turn.cycle_parts",
     "PairSeparation": "inertia.separation_rate",
+    "PairStrength": "strength.strength_results",
     "PairTorque": "torques.member_torques",
     "PlaceInRun": "turn.cycle_parts",
     "PowerFlow": "torques.power_flow",
@@ -127,8 +142,10 @@ _PLACES = {
     "TorqueExtreme": "turn.cycle_parts",
     "TorqueVerdict": "torques.torque_results",
     "Torques": "torques.torque_results",
+    "TrainStrength": "strength.strength_results",
     "TransmissionErrorCurve": "motion.error_curve",
     "VibrationModes": "time.vibration_modes",
+    "WheelStrength": "strength.strength_results",
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -17,7 +17,7 @@ _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST = Fraction("1e300")  # what a float holds, with room for units
 _LEAST_MEASURE = Fraction(1, 10**30)  # of base units: up to the tenth power such a measure is a float
 _IN_FLOATS = (
-    *("length", "angle", "velocity", "inertia", "mass", "density"),
+    *("length", "angle", "velocity", "inertia", "mass", "density", "pressure"),
     *("torsional stiffness", "torsional stiffness or stiffness"),
     *("torsional damping", "torsional damping or damping"),
 )
@@ -218,8 +218,8 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             Such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, velocity, torque, inertia, mass, density, torsional stiffness, stiffness,
-            torsional damping, damping or fraction; "time or length" allows two.
+            length, angle, time, speed, velocity, torque, inertia, mass, density, pressure, torsional stiffness,
+            stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             Whether a plain number will do. 0 always does.
 
@@ -332,6 +332,7 @@ Torque = Annotated[Quantity, Dimension("torque", plain=True)]
 Inertia = Annotated[Quantity, Dimension("inertia")]
 Mass = Annotated[Quantity, Dimension("mass")]
 Density = Annotated[Quantity, Dimension("density")]
+Pressure = Annotated[Quantity, Dimension("pressure")]
 TorsionalStiffness = Annotated[Quantity, Dimension("torsional stiffness")]
 MeshStiffness = Annotated[Quantity, Dimension("torsional stiffness or stiffness")]
 TorsionalDamping = Annotated[Quantity, Dimension("torsional damping")]

@@ -1,6 +1,6 @@
 """Units of measure: what dimension each has, and how many base units it is, exactly.
 
-Base units are m, turn, s, turn/s, m/s, N m, kg m2, kg, kg/m3, N m/rad, N/m, N m s/rad, N s/m and 1. A radian is no
+Base units are m, turn, s, turn/s, m/s, N m, kg m2, kg, kg/m3, Pa, N m/rad, N/m, N m s/rad, N s/m and 1. A radian is no
 rational part of a turn: its scale holds to 50 digits, and what is for each radian is kept so.
 """
 
@@ -50,6 +50,9 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "g cm2": ("inertia", Fraction(1, 10**7)),
     "kg": ("mass", Fraction(1)),
     "g": ("mass", Fraction(1, 1000)),
+    "Pa": ("pressure", Fraction(1)),
+    "MPa": ("pressure", Fraction(10**6)),
+    "GPa": ("pressure", Fraction(10**9)),
     "kg/m3": ("density", Fraction(1)),
     "g/cm3": ("density", Fraction(1000)),
     "N m/rad": ("torsional stiffness", Fraction(1)),
@@ -92,6 +95,8 @@ SPELT = {
     "g/cm^3": "g/cm3",
     "Nm/rad": "N m/rad",
     "Nmm/rad": "N mm/rad",
+    "N/mm2": "MPa",
+    "N/mm^2": "MPa",
     "N/µm": "N/um",
     "N/μm": "N/um",
     "Nms/rad": "N m s/rad",

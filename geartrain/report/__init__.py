@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from geartrain.report.posterior_report import describe_posterior as describe_posterior
     from geartrain.report.reconstruction_comparison import describe_comparison as describe_comparison
     from geartrain.report.shared_page import describe_shared_page as describe_shared_page
+    from geartrain.report.strength_report import StrengthReport as StrengthReport
+    from geartrain.report.strength_report import collect_strength_report as collect_strength_report
+    from geartrain.report.strength_report import describe_strength as describe_strength
     from geartrain.report.text import to_markdown as to_markdown
     from geartrain.report.time_report import TimeReport as TimeReport
     from geartrain.report.time_report import collect_time_report as collect_time_report
@@ -46,6 +49,7 @@ if TYPE_CHECKING:
 _PLACES = {
     **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
     **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
+    **dict.fromkeys(("StrengthReport", "collect_strength_report", "describe_strength"), "strength_report"),
     **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time_report"),
     **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
     **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
@@ -67,6 +71,7 @@ __all__ = [
     "MotionFigures",
     "Picture",
     "Section",
+    "StrengthReport",
     "Table",
     "TimeReport",
     "TorqueReport",
@@ -74,6 +79,7 @@ __all__ = [
     "answer_schema",
     "collect_motion",
     "collect_report",
+    "collect_strength_report",
     "collect_time_report",
     "collect_torque_report",
     "describe_budget",
@@ -82,6 +88,7 @@ __all__ = [
     "describe_motion",
     "describe_posterior",
     "describe_shared_page",
+    "describe_strength",
     "describe_time_run",
     "describe_torques",
     "describe_train",

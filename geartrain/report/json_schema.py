@@ -38,6 +38,7 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.accuracy_report import AccuracyReport
     from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.motion_figures import MotionFigures
+    from geartrain.report.strength_report import StrengthReport
     from geartrain.report.time_report import TimeReport
     from geartrain.report.torque_figures import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
@@ -51,6 +52,7 @@ def _of_trains() -> dict[str, Schema]:
         "report": _list(report),
         "compare": _list(report),
         "torques": shape_of(TorqueReport),
+        "strength": shape_of(StrengthReport),
         "motion": shape_of(MotionFigures),
         "dynamics": shape_of(TimeReport),
         "optimise": shape_of(BestTrainSizes),

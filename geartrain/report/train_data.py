@@ -10,6 +10,7 @@ from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import TrainStrength
     from geartrain.errors import Problem
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.buildability import BuildFinding
@@ -113,6 +114,8 @@ class TrainReport(TrainAnswers):
         Couplings with dimensions.
     torques : tuple of TorqueFigures
         Of every state with loads, or friction of bearings.
+    strength : tuple of TrainStrength
+        Of every state with loads in units, where a train says what its wheels are made of.
     motion : tuple of MotionFigures or UnfollowedMotion
         Of every state of a train with real teeth or pins; where it cannot be followed, the `error`.
     errata : tuple of Erratum
@@ -127,7 +130,7 @@ class TrainReport(TrainAnswers):
         *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),
         Key("circuits", keys=("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")),
         *("adjacency", "build_findings", Key("remarks", keys=("place", "what", "why")), "sensitivity"),
-        *("teeth", "pins", "torques", "motion", "errata"),
+        *("teeth", "pins", "torques", "strength", "motion", "errata"),
     )
 
     gridlock: Gridlock
@@ -141,6 +144,7 @@ class TrainReport(TrainAnswers):
     teeth: tuple[DrivenPair, ...]
     pins: tuple[DrivenPin, ...]
     torques: tuple[TorqueFigures, ...]
+    strength: tuple[TrainStrength, ...]
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
     errata: tuple[Erratum, ...]
 
@@ -180,7 +184,7 @@ def collect_report(train: GearTrain) -> TrainReport:
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     doubts = ((answer, change) for answer in answers if answer.verdict for change in train.sensitivity(answer))
-    loaded = (state for state in train.states or (None,) if declared.is_loaded(state))
+    loaded = tuple(state for state in train.states or (None,) if declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
         gridlock=train.gridlock,
@@ -194,6 +198,7 @@ def collect_report(train: GearTrain) -> TrainReport:
         teeth=driven_pairs(train),
         pins=driven_pins(train),
         torques=tuple(collect_torques(train, train.torques(state)) for state in loaded),
+        strength=tuple(train.strength(state) for state in loaded if train.tells_strength(state)),
         motion=tuple(collect_motions(train)),
         errata=tuple(declared.errata),
     )

@@ -25,7 +25,7 @@ _CIRCUITS_ABREAST = 6
 
 
 def describe_train(found: TrainReport) -> Document:
-    """The report on one train: structure, circuits, mobility, speeds, outputs, torques, motion, doubts and errata.
+    """The report on one train: structure, circuits, speeds, outputs, torques, strength, motion, doubts and errata.
 
     Parameters
     ----------
@@ -64,6 +64,10 @@ def describe_train(found: TrainReport) -> Document:
         sections += answer_sections(train, answer)
     sections += teeth_sections(train, found.teeth)
     sections += loaded_sections(found.torques)
+    for strength in found.strength:
+        from geartrain.report.strength_report import strength_sections
+
+        sections += strength_sections(strength)
     sections += moving_sections(train, found.motion)
     sections += doubtful_wheels(train, answers)
     if declared.errata:

@@ -8,7 +8,7 @@ declaration, mechanism, outputs, states, manufacturing   the models; state_case:
 efficiencies, bearing_friction, friction_in_force        what is lost; drives: what drives a train in time
 fields, validation, references, unit_consistency         strictness, problems in words, names, units
 yaml_nodes, declaration_files, inheritance               YAML with line numbers, shipped trains, `extends`
-periods                                                  the table of periods of the sky
+periods, materials                                       the tables of periods of the sky, and of materials
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from geartrain.train.declaration import Train
 from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
 from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
+from geartrain.train.materials import Arbor, Material, material_table
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
 from geartrain.train.state_case import StateCase
@@ -25,6 +26,7 @@ from geartrain.train.states import Clutch, State
 from geartrain.train.validation import declare
 
 __all__ = [
+    "Arbor",
     "Axis",
     "BearingFriction",
     "Clutch",
@@ -36,6 +38,7 @@ __all__ = [
     "GearPair",
     "HandDrive",
     "Link",
+    "Material",
     "Output",
     "PairMounting",
     "Published",
@@ -52,4 +55,5 @@ __all__ = [
     "Wheel",
     "WheelManufacture",
     "declare",
+    "material_table",
 ]

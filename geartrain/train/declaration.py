@@ -19,16 +19,8 @@ from geartrain.train.drives import Drive, Escapement
 from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, Id, Nothing
 from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.mechanism import (
-    Axis,
-    GearPair,
-    Link,
-    MaterialDensity,
-    Revolute,
-    Source,
-    Thickness,
-    Wheel,
-)
+from geartrain.train.materials import FaceWidth, Material
+from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolute, Source, Thickness, Wheel
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import period_table
 from geartrain.train.reconstruction import Reconstruction
@@ -85,6 +77,11 @@ class Train(Declared):
     damping: PairDamping | None = Field(None, description="Of the teeth of every pair that has none of its own")
     thickness: Thickness | None = Field(None, description="Of every wheel that has none of its own")
     density: MaterialDensity | None = Field(None, description="Of every wheel that has none of its own")
+    face_width: FaceWidth | None = Field(None, description="Width of the teeth of every wheel that has none of its own")
+    material: Id | None = Field(None, description="Of every wheel that has none of its own: a name of the table")
+    materials: ByName[Material] = Field(
+        {}, validate_default=True, description="Materials by name, beside those of the table"
+    )
     cutting: WheelManufacture | None = Field(
         None, description="How far the teeth of every wheel are off that says nothing of its own"
     )

@@ -50,6 +50,7 @@ from geartrain.train.fields import (
     side,
 )
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
+from geartrain.train.materials import Arbor, FaceWidth
 
 
 class Source(Declared):
@@ -169,6 +170,12 @@ class Wheel(Declared):
     )
     thickness: Thickness | None = Field(None, description="Of the wheel along its axis; default the train's")
     density: MaterialDensity | None = Field(None, description="Of what it is made of; default the train's")
+    face_width: FaceWidth | None = Field(
+        None, description="Width of its teeth along the axis; default the train's, or its thickness"
+    )
+    material: Id | None = Field(
+        None, description="What it is made of: a name of the table (docs/strength.md) or of `materials`"
+    )
     cutting: WheelManufacture | None = Field(None, description="How far its teeth are off; default the train's")
     status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
     source: str | None = Field(None, description="Key of the source")
@@ -244,6 +251,7 @@ class Link(Declared):
     drag: Annotated[TorsionalDamping, not_below_zero("it acts against the turning: give its magnitude")] | None = Field(
         None, description="Viscous drag: torque against its turning for each radian a second"
     )
+    arbor: Arbor | None = Field(None, description="Its arbor between two bearings, where its strength is asked for")
     angle: Angle | None = Field(None, description="Angle at the start")
     note: str | None = Field(None, description="A remark for the reader")
 

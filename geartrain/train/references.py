@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
+from geartrain.train.materials import material_table
 from geartrain.train.outputs import Output
 from geartrain.train.reconstruction import NEW_ARBOR
 from geartrain.train.unit_consistency import declared_units, mixed_inputs, mixed_torques, rates, target_units
@@ -19,6 +20,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
         yield Problem("`remove` without `extends`", why, "say what the train extends", train.place("remove"))
     yield from _links(train)
     yield from _wheels(train)
+    yield from _materials(train)
     yield from _couplings(train)
     yield from _prescriptions(train)
     yield from _outputs(train)
@@ -61,6 +63,23 @@ def _links(train: Train) -> Iterator[Problem]:
     for label in train.axes:
         if label not in labels:
             yield _unknown(train, "turning pair with the axis", label, labels, "axes", label)
+
+
+def _materials(train: Train) -> Iterator[Problem]:
+    """Names of materials that stand neither in the table nor in the declaration."""
+    named: list[tuple[str, Loc]] = [(train.material, ("material",))] if train.material is not None else []
+    for link, part in train.links.items():
+        if part.arbor is not None:
+            named.append((part.arbor.material, ("links", link, "arbor", "material")))
+        for name, wheel in part.wheels.items():
+            if wheel.material is not None:
+                named.append((wheel.material, ("links", link, "wheels", name, "material")))
+    for name, loc in named:
+        if name not in train.materials and name not in material_table():
+            known = [*train.materials, *material_table()]
+            otherwise = f"declare it in `materials`, or take one of: {', '.join(known)}"
+            what, why = f"no material '{name}'", f"`{dotted(loc)}` names it"
+            yield Problem(what, why, suggest(name, known, otherwise=otherwise), train.place(*loc))
 
 
 def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:

@@ -7,19 +7,18 @@ its carrier adds m r^2 to it; its own inertia counts about its own axis.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
-from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth, find_train_teeth
-from geartrain.errors import GearTrainError
+from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
+from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth
 from geartrain.numerics.plain_data import Result
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
-    from geartrain.train import StateCase, Wheel
+    from geartrain.train import StateCase
 
 _MILLIMETRES = 1e-3
 
@@ -92,11 +91,6 @@ def find_link_inertias(train: MovingTrain, case: StateCase, with_inputs: bool = 
     return tuple(bodies.whole(link) for link in declared.links if link not in prescribed)
 
 
-class _Place(NamedTuple):
-    module: float
-    cone: float
-
-
 class _Bodies:
     """The links of a train as bodies."""
 
@@ -153,43 +147,15 @@ class _Bodies:
                 plates.append(plate_moments(self.teeth[name], self.modules[name], thickness.si, density.si))
         return plates, tuple(missing)
 
-    def _slant(self, wheel: str) -> float:
-        return self.declared.wheels[wheel][1].slant
-
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Transverse modules (m) of wheels that declare one with a unit, and of all that hang together with these."""
-        found = {
-            name: wheel.transverse_module
-            for name, (_, wheel) in self.declared.wheels.items()
-            if wheel.transverse_module is not None
-        }
-        mates: dict[str, list[str]] = {}
-        for gear in self.declared.gears:
-            for one, other in (gear.pair, gear.pair[::-1]):
-                mates.setdefault(one, []).append(other)
-        waiting = deque(found)
-        while waiting:
-            name = waiting.popleft()
-            for mate in mates.get(name, ()):
-                if mate not in found:
-                    found[mate] = found[name] * self._slant(mate) / self._slant(name)
-                    waiting.append(mate)
-        return found
+        """Transverse modules (m) by wheel."""
+        return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
         """The teeth of all wheels that lie in a plane."""
-        places = {name: _Place(1.0, self._cone(wheel, name)) for name, (_, wheel) in self.declared.wheels.items()}
-        try:
-            return find_train_teeth(self.train, places).wheels
-        except GearTrainError:
-            return {}
-
-    def _cone(self, wheel: Wheel, name: str) -> float:
-        """0 of a wheel that meets spur wheels only."""
-        mates = (mate for gear in self.declared.gears if name in gear.pair for mate in gear.pair)
-        return float(any(self.declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")
+        return find_cut_teeth(self.train)
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
         """Distance (m) of a planet's axis from its carrier's: that of a pair with a wheel about the carrier's axis."""

@@ -1,0 +1,53 @@
+"""The wheels of a train as they are cut, without a layout: their modules, and their teeth in modules."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth, find_train_teeth
+from geartrain.errors import GearTrainError
+from geartrain.train import Train, Wheel
+
+
+class _Place(NamedTuple):
+    module: float
+    cone: float
+
+
+def find_modules(declared: Train) -> Mapping[str, float]:
+    """Transverse modules (m) of wheels that declare one with a unit, and of all that hang together with these."""
+    found = {
+        name: wheel.transverse_module
+        for name, (_, wheel) in declared.wheels.items()
+        if wheel.transverse_module is not None
+    }
+    mates: dict[str, list[str]] = {}
+    for gear in declared.gears:
+        for one, other in (gear.pair, gear.pair[::-1]):
+            mates.setdefault(one, []).append(other)
+    waiting = deque(found)
+    while waiting:
+        name = waiting.popleft()
+        for mate in mates.get(name, ()):
+            if mate not in found:
+                found[mate] = found[name] * declared.wheels[mate][1].slant / declared.wheels[name][1].slant
+                waiting.append(mate)
+    return found
+
+
+def find_cut_teeth(train: ToothedTrain) -> Mapping[str, WheelTeeth]:
+    """The teeth (modules) of all wheels that lie in a plane; none where they cannot be made."""
+    declared = train.declaration
+    places = {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
+    try:
+        return find_train_teeth(train, places).wheels
+    except GearTrainError:
+        return {}
+
+
+def _cone(declared: Train, wheel: Wheel, name: str) -> float:
+    """0 of a wheel that meets spur wheels only."""
+    mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
+    return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

@@ -1,0 +1,168 @@
+"""The strength of every gear pair of a train under its torque, and of its arbors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
+from geartrain.dynamics.strength.arbor_strength import arbor_strength
+from geartrain.dynamics.strength.loaded_pair import LoadedPair, LoadedWheel
+from geartrain.dynamics.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
+from geartrain.dynamics.torques.torque_results import NeglectedEffect
+from geartrain.train import Material, Train, material_table
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.dynamics.torques.torque_results import Torques
+    from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.train import GearPair, Wheel
+
+
+@dataclass(frozen=True)
+class StrengthQuestion:
+    """What is asked of a loaded train.
+
+    train     as it answers; `setting`, its case; `torques`, what was found there
+    meshes    pairs with real teeth as they are driven in this case
+    scale     turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input
+    wear      least and greatest wear coefficient
+    elements  whether stresses are checked by finite elements
+    """
+
+    train: ToothedTrain
+    setting: LoadCase
+    torques: Torques
+    meshes: Sequence[GearMesh]
+    scale: float | None
+    turns: float | None
+    wear: WearRange
+    elements: bool = False
+    left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
+
+    @property
+    def declared(self) -> Train:
+        """The declaration."""
+        return self.train.declaration
+
+    @cached_property
+    def modules(self) -> Mapping[str, float]:
+        """Modules (m) by wheel."""
+        return find_modules(self.declared)
+
+    @cached_property
+    def teeth(self) -> Mapping[str, WheelTeeth]:
+        """Teeth by wheel, as they are cut for all mates."""
+        return find_cut_teeth(self.train)
+
+    def answer(self) -> TrainStrength:
+        """All pairs and arbors."""
+        meshes = {mesh.name: mesh for mesh in self.meshes}
+        found: dict[str, PairStrength] = {}
+        for gear in self.declared.gears:
+            torque = self.torques.pairs[gear.name]
+            pair = self._pair(gear, meshes.get(gear.name), torque)
+            if pair is not None:
+                found[gear.name] = pair.strength()
+        arbors = tuple(self._arbors(found))
+        return TrainStrength(
+            self.torques.state,
+            self.torques.verdict,
+            found,
+            arbors,
+            self.turns,
+            self.wear,
+            tuple(self.left_out.values()),
+        )
+
+    # ------------------------------------------------------------------------------------------------------- pairs
+
+    def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> LoadedPair | None:
+        wheels = [self.declared.wheels[name][1] for name in gear.pair]
+        lacking = list(self._lacking(gear, mesh, wheels, torque))
+        if lacking or mesh is None:
+            self.left_out[gear.name] = NeglectedEffect("strength", (gear.name,), "; ".join(lacking))
+            return None
+        widths = [self._width(wheel) for wheel in wheels]
+        found = [
+            LoadedWheel(
+                name,
+                mesh.gears.index(name) + 1,
+                self.teeth[name],
+                self._material_name(wheel),
+                self._material(self._material_name(wheel)),
+                float(torque.torques[at]),
+                self._turns(torque, at),
+            )
+            for at, (name, wheel) in enumerate(zip(gear.pair, wheels, strict=True))
+        ]
+        module = 1e3 * self.modules[gear.pair[0]]
+        return LoadedPair(mesh, (found[0], found[1]), module, 1e3 * min(widths), self.wear, self.elements)
+
+    def _lacking(
+        self, gear: GearPair, mesh: GearMesh | None, wheels: Sequence[Wheel], torque: PairTorque
+    ) -> Iterator[str]:
+        """What is not known of a pair, or is not worked out for it."""
+        if mesh is None:
+            yield "it declares no tooth form: give it `tooth_form`"
+        elif mesh.path is not None and mesh.path.pitch.bevel:
+            yield "its axes meet, and only teeth of parallel axes are worked out"
+        elif mesh.path is None and mesh.size({}) is None:
+            yield "its axes are not parallel"
+        elif any(wheel.is_helical for wheel in wheels):
+            yield "its teeth lean, and only straight ones are worked out"
+        elif faults := mesh.faults:
+            yield f"its teeth do not turn: {faults[0].what}"
+        if not torque.multiplier and not torque.loose:
+            yield "it carries no torque"
+            return
+        if torque.loose:
+            yield "how it shares its torque with others is not declared: give `share`"
+        for name, wheel in zip(gear.pair, wheels, strict=True):
+            if not self._width(wheel):
+                yield f"'{name}' has no `face_width`"
+            if not self._material_name(wheel):
+                yield f"'{name}' has no `material`"
+            if name not in self.modules:
+                yield f"'{name}' has no `module`"
+            if mesh is not None and name not in self.teeth:
+                yield f"'{name}' has no flat outline"
+
+    def _width(self, wheel: Wheel) -> float:
+        """Width of its teeth (m), 0 where nothing says it."""
+        declared = self.declared
+        found = wheel.face_width or wheel.thickness or declared.face_width or declared.thickness
+        return 0.0 if found is None else found.si
+
+    def _material_name(self, wheel: Wheel) -> str:
+        return wheel.material or self.declared.material or ""
+
+    def _material(self, name: str) -> Material:
+        return self.declared.materials.get(name) or material_table()[name]
+
+    def _turns(self, torque: PairTorque, at: int) -> float | None:
+        """Turns of one wheel as the carrier sees it, over the time that was given."""
+        if self.scale is None:
+            return None
+        relative = self.setting.relative(torque.links[at], torque.links[2])
+        return None if relative is None else abs(float(relative)) * self.scale
+
+    # ------------------------------------------------------------------------------------------------------ arbors
+
+    def _arbors(self, pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
+        for link, part in self.declared.links.items():
+            if part.arbor is None:
+                continue
+            force = torque = 0.0
+            for gear in self.declared.gears:
+                for at, name in enumerate(gear.pair):
+                    if name in part.wheels and gear.name in pairs:
+                        found = pairs[gear.name]
+                        steepest = max((each.force for each in found.contact if each.couples == 1), default=0.0)
+                        force += max(steepest, found.tangential)
+                        torque = max(torque, 1e3 * abs(found.wheels[at].torque))
+            yield arbor_strength(link, part.arbor, self._material(part.arbor.material), force, torque)

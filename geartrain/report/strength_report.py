@@ -1,0 +1,243 @@
+"""Strength of a train, as a page: each figure under the assumption it stands on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.plain_data import Result
+from geartrain.report.document import Document, Section, Table, figure, filled_table
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import ArborStrength, PairStrength, TrainStrength
+    from geartrain.dynamics.strength.strength_results import WearRange
+
+_CONTACT = (
+    "Hertz pressure of smooth flanks under the mean torque; couples that touch at once carry the same force, as rigid "
+    "exact teeth of equal stiffness do. Positions in pitches past the pitch point."
+)
+_ROOT = (
+    "Bending by Lewis on the outline that is cut, without the stress concentration of its round: at the tip one couple "
+    "bears all, as where teeth are not exact to the thousandth; shared, couples carry the same force. Safety is the "
+    "strength of the material over the stress at the tip, and 5/3 of the strength over the pressure where one couple "
+    "bears all, at which yielding begins below the flank (static; pitting by fatigue is not worked out)."
+)
+_ISO = (
+    "ISO 6336-2 and -3, method B, all load factors K 1, for wheels as a hob cuts them (corner of the rack 0.38 "
+    "modules, no backlash); the root of an exported outline is another one. Length in modules, stresses in MPa."
+)
+_WEAR = (
+    "Archard's law with the coefficient K anywhere in its range: depths go with K, and the range is wider than all "
+    "else that is not known. Each flank is worn by its own hardness, evenly along its width; grit, corrosion, changes "
+    "of shape and of load on the way are not in it."
+)
+_ARBOR = (
+    "The forces of all meshes as if they pulled one way in the middle of the span, and the whole of it on one pivot: "
+    "where wheels stand is not looked at, so that this is an upper bound. Pivots: force over diameter times length."
+)
+
+
+@dataclass(frozen=True)
+class StrengthReport(Result):
+    """Strength of a train in every state that was asked for.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the train.
+    states : tuple of TrainStrength
+        In the order asked.
+
+    See Also
+    --------
+    describe_strength : Its page.
+    """
+
+    name: str
+    title: str
+    states: tuple[TrainStrength, ...]
+
+
+def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:
+    """The strength of a train in some states, to be told.
+
+    Parameters
+    ----------
+    train : GearTrain
+        The train.
+    found : sequence of TrainStrength
+        What `train.strength` gave, one for each state.
+
+    Returns
+    -------
+    StrengthReport
+        Its `to_dict` is the answer of `geartrain strength --json`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load("longcase-clock-loaded")
+    >>> data = collect_strength_report(train, [train.strength()]).to_dict()
+    >>> data["states"][0]["weakest"]["what"]
+    'arbor'
+    """
+    return StrengthReport(train.name, train.declaration.title, tuple(found))
+
+
+def describe_strength(found: StrengthReport) -> Document:
+    """Strength state by state: what is weakest, pressures, stresses, factors of ISO 6336, wear, arbors.
+
+    Parameters
+    ----------
+    found : StrengthReport
+        From `collect_strength_report`.
+
+    Returns
+    -------
+    Document
+        Forces in N, stresses in MPa, lengths in mm; the assumption of each table stands over it.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load("longcase-clock-loaded")
+    >>> page = describe_strength(collect_strength_report(train, [train.strength()]))
+    >>> [section.title for section in page.sections]
+    ['Strength', 'Contact pressure', 'Teeth', 'Arbors']
+    """
+    sections = [section for each in found.states for section in strength_sections(each)]
+    return Document(f"Strength of {found.name}", (f"Train '{found.name}'.",), tuple(sections))
+
+
+def strength_sections(found: TrainStrength) -> Iterator[Section]:
+    """Sections of one state."""
+    head = "" if found.state is None else f"State {found.state}: "
+    yield Section(_title(head, "Strength"), tuple(_verdict(found)))
+    if not found.pairs and not found.arbors:
+        return
+    pairs = tuple(found.pairs.values())
+    contacts = [_contact(pair) for pair in pairs if pair.contact]
+    if contacts:
+        yield Section(_title(head, "Contact pressure"), (_CONTACT,), tuple(contacts))
+    notes = [f"{pair.pair}: {note}." for pair in pairs for note in pair.notes]
+    if pairs:
+        yield Section(_title(head, "Teeth"), (_ROOT, *notes), (_teeth(pairs),))
+    if any(pair.iso is not None for pair in pairs):
+        yield Section(_title(head, "ISO 6336"), (_ISO,), tuple(_iso(pairs)))
+    if found.turns is not None:
+        yield Section(_title(head, "Wear"), tuple(_wear_words(found)), (_wear(pairs),))
+    if found.arbors:
+        yield Section(_title(head, "Arbors"), (_ARBOR,), (_arbors(found.arbors),))
+
+
+def _title(head: str, name: str) -> str:
+    return f"{head}{name[0].lower() if head and name != 'ISO 6336' else name[0]}{name[1:]}"
+
+
+def _verdict(found: TrainStrength) -> Iterator[str]:
+    if not found.verdict:
+        yield f"Verdict: {found.verdict.kind}: {found.verdict.text}."
+    weakest = found.weakest
+    if weakest is not None:
+        where = {"root": "at the root of its teeth", "contact": "on its flanks", "arbor": "in its arbor"}[weakest.what]
+        yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
+    for each in found.left_out:
+        yield f"Left out: {', '.join(each.where)}: {each.why}."
+    if found.verdict and not found.pairs and not found.left_out:
+        yield "There is no gear pair."
+
+
+def _contact(pair: PairStrength) -> Table:
+    rows = [
+        (
+            each.where,
+            figure(each.position, 3),
+            str(each.couples),
+            figure(each.force, 4),
+            figure(each.pressure, 4) if each.pressure < float("inf") else "no bound",
+        )
+        for each in pair.contact
+    ]
+    return Table((pair.pair, "position", "couples", "force (N)", "pressure (MPa)"), rows)
+
+
+def _teeth(pairs: Sequence[PairStrength]) -> Table:
+    header = (
+        *("pair", "wheel", "material", "module", "width", "force (N)", "Y", "at the tip (MPa)", "shared (MPa)"),
+        *("elements (MPa)", "pressure (MPa)", "strength (MPa)", "safety of root", "safety of flank"),
+    )
+    rows = [
+        (
+            *(pair.pair, wheel.wheel, wheel.material, figure(pair.module, 4), figure(pair.face_width, 4)),
+            *(figure(pair.tangential, 4), figure(wheel.lewis or None, 4), figure(wheel.tip_stress, 4)),
+            *(figure(wheel.shared_stress, 4), "" if wheel.elements is None else figure(wheel.elements, 4)),
+            *(figure(wheel.pressure, 4), _strength(wheel.strength, wheel.spread)),
+            *(figure(wheel.root_safety, 3), figure(wheel.contact_safety, 3)),
+        )
+        for pair in pairs
+        for wheel in pair.wheels
+    ]
+    return filled_table(header, rows, 9)
+
+
+def _strength(strength: float | None, spread: float | None) -> str:
+    if strength is None:
+        return "-"
+    return figure(strength, 4) + (f" +- {100 * spread:.0f} %" if spread else "")
+
+
+def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
+    covered = [pair for pair in pairs if pair.iso is not None]
+    rows = []
+    for pair in covered:
+        own = pair.iso
+        assert own is not None
+        figures = (own.ZH, own.ZE, own.Zeps, own.M1, own.M2, own.nominal, *own.stress)
+        rows.append((pair.pair, *(figure(each, 5) for each in figures)))
+    yield Table(("pair", "ZH", "ZE", "Zeps", "M1", "M2", "sH0", "sH first", "sH second"), rows)
+    roots = [
+        (
+            wheel.wheel,
+            *(figure(getattr(wheel.iso, name), 5) for name in ("chord", "radius", "lever", "YF", "YS", "stress")),
+        )
+        for pair in covered
+        for wheel in pair.wheels
+    ]
+    yield Table(("wheel", "s/m", "rF/m", "h/m", "YF", "YS", "sF0"), roots)
+
+
+def _wear_words(found: TrainStrength) -> Iterator[str]:
+    K = found.wear_coefficients
+    yield f"Over {figure(found.turns, 6)} turns of the input; K from {K.least:g} to {K.greatest:g}."
+    yield _WEAR
+
+
+def _wear(pairs: Sequence[PairStrength]) -> Table:
+    rows = [
+        (
+            *(pair.pair, wheel.wheel, figure(wheel.wear.passages, 6), _range(wheel.wear.volume)),
+            *(_range(wheel.wear.mean_depth), "-" if wheel.wear.depth is None else _range(wheel.wear.depth)),
+        )
+        for pair in pairs
+        for wheel in pair.wheels
+        if wheel.wear is not None
+    ]
+    return Table(("pair", "wheel", "passages", "volume (mm3)", "mean depth (mm)", "greatest depth (mm)"), rows)
+
+
+def _range(found: WearRange) -> str:
+    return f"{figure(found.least, 3)} to {figure(found.greatest, 3)}"
+
+
+def _arbors(arbors: Sequence[ArborStrength]) -> Table:
+    rows = [
+        (
+            *(each.link, each.material, figure(each.force, 4), figure(each.bending, 4), figure(each.torsion, 4)),
+            *(figure(each.stress, 4), figure(each.pivot_pressure, 4), figure(each.safety, 3)),
+        )
+        for each in arbors
+    ]
+    header = ("arbor", "material", "force (N)", "bending", "torsion", "both (MPa)", "pivot (MPa)", "safety")
+    return Table(header, rows)

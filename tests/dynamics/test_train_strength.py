@@ -1,0 +1,168 @@
+"""Strength of a train: what is declared reaches the formulas, and what is not is named."""
+
+from __future__ import annotations
+
+import json
+from math import cos, pi, radians, sqrt
+
+import pytest
+from commands import ended
+from hypothesis import given
+from hypothesis import strategies as st
+
+import geartrain
+from geartrain.errors import DeclarationError, QuestionError
+from geartrain.report import collect_report, collect_strength_report, describe_strength
+
+PAIR = """
+links:
+  frame: {}
+  a: {wheels: {p: {teeth: 17, module: 2 mm}}, arbor: {diameter: 12 mm, span: 80 mm, pivot: 8 mm, pivot_length: 10 mm}}
+  b: {wheels: {w: 51}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+tooth_form: {form: involute}
+material: steel
+face_width: 20 mm
+inputs: {a: 1}
+loads: {b: 60 N m}
+"""
+
+
+def changed(old: str, new: str) -> geartrain.GearTrain:
+    assert old in PAIR
+    return geartrain.load(PAIR.replace(old, new))
+
+
+def test_a_declared_pair_has_the_stresses_of_the_example() -> None:
+    # building.md, case A: 1176.47 N, 638.33 and 706.85 MPa, 87.99 and 80.33 MPa
+    pair = geartrain.load(PAIR).strength().pairs["p~w"]
+    assert pair.tangential == pytest.approx(1176.47, abs=0.01)
+    assert pair.iso is not None
+    assert (pair.iso.nominal, *pair.iso.stress) == pytest.approx((638.33, 706.85, 638.33), abs=0.01)
+    roots = [wheel.iso.stress for wheel in pair.wheels if wheel.iso is not None]
+    assert roots == pytest.approx([87.99, 80.33], abs=0.01)
+    assert [wheel.pressure for wheel in pair.wheels] == pytest.approx([796.35, 796.35], abs=0.01)
+
+
+def test_stress_and_lewis_factor_are_one_statement() -> None:
+    pair = geartrain.load(PAIR).strength().pairs["p~w"]
+    for wheel in pair.wheels:
+        assert wheel.tip_stress == pytest.approx(pair.tangential / (20 * 2 * wheel.lewis), rel=1e-9)
+        assert wheel.shared_stress is not None
+        assert wheel.shared_stress < wheel.tip_stress
+
+
+@given(st.floats(0.01, 50), st.floats(0.2, 10))
+def test_scaling(more: float, wider: float) -> None:
+    one = geartrain.load(PAIR).strength().pairs["p~w"]
+    train = PAIR.replace("60 N m", f"{60 * more:.12f} N m").replace("20 mm", f"{20 * wider:.12f} mm")
+    other = geartrain.load(train).strength().pairs["p~w"]
+    for first, second in zip(one.wheels, other.wheels, strict=True):
+        assert second.tip_stress == pytest.approx(first.tip_stress * more / wider, rel=1e-6)
+        assert first.pressure is not None
+        assert second.pressure == pytest.approx(first.pressure * sqrt(more / wider), rel=1e-6)
+
+
+def test_safety_is_strength_over_stress() -> None:
+    train = changed(
+        "material: steel", "material: mine\nmaterials: {mine: {youngs_modulus: 206 GPa, strength: 400 MPa}}"
+    )
+    for wheel in train.strength().pairs["p~w"].wheels:
+        assert wheel.material == "mine"
+        assert wheel.root_safety == pytest.approx(400 / wheel.tip_stress)
+        assert wheel.contact_safety == pytest.approx(5 / 3 * 400 / wheel.pressure)
+
+
+def test_the_weakest_part_has_the_least_safety_of_all() -> None:
+    found = geartrain.load(PAIR).strength()
+    safeties = [s for w in found.pairs["p~w"].wheels for s in (w.root_safety, w.contact_safety) if s is not None]
+    safeties += [arbor.safety for arbor in found.arbors if arbor.safety is not None]
+    assert found.weakest is not None
+    assert found.weakest.safety == min(safeties)
+
+
+def test_an_arbor_is_a_round_bar_bent_in_its_middle() -> None:
+    (arbor,) = geartrain.load(PAIR).strength().arbors
+    force = 1176.4706 / cos(radians(20))
+    bending, torsion = 32 * force * 20 / (pi * 12**3), 16 * 20_000 / (pi * 12**3)
+    assert (arbor.force, arbor.bending, arbor.torsion) == pytest.approx((force, bending, torsion), rel=1e-6)
+    assert arbor.stress == pytest.approx(sqrt(bending**2 + 3 * torsion**2), rel=1e-6)
+    assert arbor.pivot_pressure == pytest.approx(force / 80, rel=1e-6)
+
+
+def test_worn_volume_is_coefficient_times_force_times_way_over_hardness() -> None:
+    found = geartrain.load(PAIR).strength(turns=1000, wear=(1e-6, 1e-4))
+    # Ohlendorf's loss over friction times the energy through the pair; 190 HV
+    law = geartrain.load(PAIR).meshes[0].path
+    assert law is not None
+    one, two = (arc / law.pitch.p for arc in law.arcs)
+    loss = pi * (1 / 17 + 1 / 51) * (1 - one - two + one**2 + two**2)
+    slid = 20_000 * 2 * pi * 1000 * loss
+    wear = found.pairs["p~w"].wheels[0].wear
+    assert wear is not None
+    assert wear.passages == 1000
+    assert wear.volume == pytest.approx([1e-6 * slid / (190 * 9.80665), 1e-4 * slid / (190 * 9.80665)], rel=2e-3)
+
+
+def test_years_are_turns_by_the_unit_of_speeds() -> None:
+    train = changed("inputs: {a: 1}", "unit: {per: 1 d}\ninputs: {a: 2}")
+    found = train.strength(years=10)
+    assert found.turns == pytest.approx(2 * 3652.5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "lacking"),
+    [
+        ("material: steel\n", "", "'p' has no `material`"),
+        ("face_width: 20 mm\n", "", "'w' has no `face_width`"),
+        (", module: 2 mm", "", "'p' has no `module`"),
+        ("tooth_form: {form: involute}\n", "", "it declares no tooth form"),
+    ],
+)
+def test_what_is_lacking_is_named(old: str, new: str, lacking: str) -> None:
+    found = changed(old, new).strength()
+    assert not found.pairs
+    assert lacking in found.left_out[0].why
+
+
+def test_loads_without_units_are_refused() -> None:
+    with pytest.raises(QuestionError, match="with a unit"):
+        changed("60 N m", "60").strength()
+
+
+def test_an_unknown_material_is_refused_with_its_line() -> None:
+    with pytest.raises(DeclarationError, match="no material 'stel'"):
+        changed("material: steel", "material: stel")
+
+
+@pytest.mark.parametrize(("given", "told"), [((1, 2), "twice"), ((-1, None), "wear nothing")])
+def test_times_that_mean_nothing_are_refused(given: tuple[float, float | None], told: str) -> None:
+    with pytest.raises(QuestionError, match=told):
+        geartrain.load(PAIR).strength(turns=given[0], years=given[1])
+
+
+def test_the_report_tells_strength_where_material_and_loads_are_declared_and_only_there() -> None:
+    assert len(collect_report(geartrain.load(PAIR)).strength) == 1
+    assert collect_report(changed("material: steel\n", "")).strength == ()
+    assert collect_report(changed("60 N m", "60")).strength == ()
+
+
+def test_pins_and_triangles_are_told_without_hertz_or_lewis() -> None:
+    form = "tooth_form: {form: triangular, gear1: {tip_radius: 50 mm}}"
+    del form
+    train = changed("form: involute", "form: lantern, pin_diameter: 1.5")
+    pins = train.strength().pairs["p~w"].wheels[1]
+    diameter = 3.0
+    pair = train.strength().pairs["p~w"]
+    assert pins.tip_stress == pytest.approx(pair.tangential * 20 / 12 * 32 / (pi * diameter**3), rel=1e-6)
+
+
+def test_the_command_tells_the_same_as_the_library() -> None:
+    done = ended("strength", "longcase-clock-loaded", "--json")
+    train = geartrain.load("longcase-clock-loaded")
+    report = collect_strength_report(train, [train.strength()])
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout) == json.loads(json.dumps(report.to_dict()))
+    titles = [section.title for section in describe_strength(report).sections]
+    assert titles == ["Strength", "Contact pressure", "Teeth", "Arbors"]

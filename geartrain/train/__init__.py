@@ -18,15 +18,16 @@ from geartrain.train.declaration import Train
 from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
 from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import Arbor, Material, material_table
-from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
+from geartrain.train.materials import ArborSizes, Material, material_table
+from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
 from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
 from geartrain.train.state_case import StateCase
 from geartrain.train.states import Clutch, State
+from geartrain.train.tooth_counts import Teeth
 from geartrain.train.validation import declare
 
 __all__ = [
-    "Arbor",
+    "ArborSizes",
     "Axis",
     "BearingFriction",
     "Clutch",

@@ -85,7 +85,7 @@ class Material(Declared):
 FaceWidth = Annotated[MeasuredLength, above_zero("give a length such as 3 mm")]
 
 
-class Arbor(Declared):
+class ArborSizes(Declared):
     """The arbor of a link between its two bearings.
 
     See Also

@@ -50,7 +50,8 @@ from geartrain.train.fields import (
     side,
 )
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import Arbor, FaceWidth
+from geartrain.train.materials import ArborSizes, FaceWidth
+from geartrain.train.tooth_counts import Teeth
 
 
 class Source(Declared):
@@ -68,64 +69,6 @@ class Source(Declared):
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return also({"type": "string"}, handler(schema))
-
-
-class Teeth(Declared):
-    """A tooth count with its doubt: a best value, and a range or choices.
-
-    See Also
-    --------
-    Wheel : an example
-    """
-
-    value: Count | None = Field(None, description="The count used")
-    range: tuple[Count, Count] | None = Field(
-        None, description="Least and greatest count the evidence allows, inclusive"
-    )
-    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="The counts the evidence allows")
-    weights: tuple[Figure, ...] | None = Field(
-        None, fail_fast=True, description="Relative weight of each count in range or choices"
-    )
-    source: str | None = Field(None, description="Key of the source")
-    search: tuple[Count, Count] | None = Field(None, description="The count is to be found within these bounds")
-    note: str | None = Field(None, description="A remark for the reader")
-
-    @model_validator(mode="after")
-    def _makes_sense(self) -> Teeth:
-        bounds = self.range or self.search
-        if bounds and bounds[0] > bounds[1]:
-            raise PydanticCustomError(
-                "teeth",
-                "the range {low} to {high} is empty",
-                {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"},
-            )
-        if self.value is None and self.search is None:
-            raise PydanticCustomError(
-                "teeth", "the tooth count has no value", {"fix": "give `value`, or `search` bounds"}
-            )
-        counts = self.allowed
-        if self.value is not None and counts and self.value not in counts:
-            raise PydanticCustomError(
-                "teeth",
-                "the value {value} lies outside what its evidence allows",
-                {"value": self.value, "fix": "widen the range or choices, or correct the value"},
-            )
-        if self.weights is not None and len(self.weights) != len(counts):
-            raise PydanticCustomError(
-                "teeth",
-                "{given} weights for {count} counts",
-                {"given": len(self.weights), "count": len(counts), "fix": "give one weight for each count"},
-            )
-        return self
-
-    @property
-    def allowed(self) -> tuple[int, ...]:
-        """All counts the evidence allows; empty where no doubt is declared."""
-        if self.choices is not None:
-            return self.choices
-        if self.range is None or self.range[1] - self.range[0] > 10**6:
-            return ()
-        return tuple(range(self.range[0], self.range[1] + 1))
 
 
 def _teeth_kind(raw: object) -> str:
@@ -251,7 +194,9 @@ class Link(Declared):
     drag: Annotated[TorsionalDamping, not_below_zero("it acts against the turning: give its magnitude")] | None = Field(
         None, description="Viscous drag: torque against its turning for each radian a second"
     )
-    arbor: Arbor | None = Field(None, description="Its arbor between two bearings, where its strength is asked for")
+    arbor: ArborSizes | None = Field(
+        None, description="Its arbor between two bearings, where its strength is asked for"
+    )
     angle: Angle | None = Field(None, description="Angle at the start")
     note: str | None = Field(None, description="A remark for the reader")
 

@@ -14,7 +14,7 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 from geartrain.teeth.strength.finite_elements import plane_stress, root_stress_factor
 from geartrain.teeth.strength.iso_6336 import RackWheel, outer_single_contact
-from geartrain.teeth.strength.root_bending import ToothSide
+from geartrain.teeth.strength.root_section import ToothSide
 from geartrain.teeth.strength.triangle_mesh import triangles
 
 TWENTY = radians(20)

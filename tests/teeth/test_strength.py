@@ -23,7 +23,7 @@ from geartrain.teeth.strength.iso_6336 import (
     outer_single_contact,
     root_stress,
 )
-from geartrain.teeth.strength.root_bending import ToothLoad, ToothSide, pin_stress
+from geartrain.teeth.strength.root_section import ToothLoad, ToothSide, pin_stress
 
 TWENTY = radians(20)
 STEEL, BRASS = Elasticity(206_000, 0.3), Elasticity(100_000, 0.35)

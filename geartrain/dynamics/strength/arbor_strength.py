@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.strength.strength_results import ArborStrength
 
 if TYPE_CHECKING:
-    from geartrain.train import Arbor, Material
+    from geartrain.train import ArborSizes, Material
 
 
 def bending_stress(moment: float, diameter: float) -> float:
@@ -21,7 +21,7 @@ def torsional_stress(torque: float, diameter: float) -> float:
     return 16 * torque / (pi * diameter**3)
 
 
-def arbor_strength(link: str, arbor: Arbor, material: Material, force: float, torque: float) -> ArborStrength:
+def arbor_strength(link: str, arbor: ArborSizes, material: Material, force: float, torque: float) -> ArborStrength:
     """Of an arbor under a force [N] in the middle of its span and a torque [N mm]: docs/strength.md (16), (17).
 
     Where the wheels stand is not known without a layout: the middle bends most, and a pivot bears at most the whole.

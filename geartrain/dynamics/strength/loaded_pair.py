@@ -24,7 +24,7 @@ from geartrain.teeth.strength.iso_6336 import (
     outer_single_contact,
     root_stress,
 )
-from geartrain.teeth.strength.root_bending import RootSection, ToothLoad, ToothSide
+from geartrain.teeth.strength.root_section import RootSection, ToothLoad, ToothSide
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import WheelTeeth
@@ -38,7 +38,7 @@ _POSITIONS = 401
 
 
 @dataclass(frozen=True)
-class LoadedWheel:
+class WheelUnderLoad:
     """One wheel of a pair.
 
     gear      1 or 2, as the law of the pair calls it
@@ -66,7 +66,7 @@ class LoadedWheel:
 
 
 @dataclass(frozen=True)
-class LoadedPair:
+class PairUnderLoad:
     """A pair under load. Lengths in mm.
 
     mesh      its teeth
@@ -77,7 +77,7 @@ class LoadedPair:
     """
 
     mesh: GearMesh
-    wheels: tuple[LoadedWheel, LoadedWheel]
+    wheels: tuple[WheelUnderLoad, WheelUnderLoad]
     module: float
     width: float
     wear: WearRange
@@ -172,13 +172,13 @@ class LoadedPair:
             wear=self._wear(at),
         )
 
-    def _pin_stress(self, own: LoadedWheel) -> float:
-        from geartrain.teeth.strength.root_bending import pin_stress
+    def _pin_stress(self, own: WheelUnderLoad) -> float:
+        from geartrain.teeth.strength.root_section import pin_stress
 
         pins = own.teeth.pins
         return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
 
-    def _tip_load(self, own: LoadedWheel) -> ToothLoad:
+    def _tip_load(self, own: WheelUnderLoad) -> ToothLoad:
         """The load at the end of the flank."""
         path = self.path
         if path is None:
@@ -205,7 +205,7 @@ class LoadedPair:
             worst = max(worst, self._stress_at(own, load, inside))
         return tip, worst
 
-    def _stress_at(self, own: LoadedWheel, load: ContactLoad, X: float) -> float:
+    def _stress_at(self, own: WheelUnderLoad, load: ContactLoad, X: float) -> float:
         place = np.array([X])
         force = float(load.forces(place)[0][0])
         (radius,), _ = load.path.pitch.polar(own.gear, load.path.flank(own.gear, place))
@@ -213,7 +213,7 @@ class LoadedPair:
         section = own.side.weakest_section(own.side.load_at(float(radius), arm))
         return section.stress(force * arm * self.module, self.width, self.module)
 
-    def _by_elements(self, own: LoadedWheel, torque: float) -> float:
+    def _by_elements(self, own: WheelUnderLoad, torque: float) -> float:
         from geartrain.teeth.strength.finite_elements import root_stress_factor
 
         load = self._tip_load(own)

@@ -37,6 +37,10 @@ class FlankWear(Result):
         That, spread over their flanks [mm].
     depth : WearRange or None
         At the place that loses most [mm]; None where no path of contact says where that is.
+
+    See Also
+    --------
+    WheelStrength : holds it
     """
 
     passages: float
@@ -73,6 +77,10 @@ class WheelStrength(Result):
         Root stress by finite elements on the outline, the load at the tip [MPa]; None where not asked for.
     wear : FlankWear or None
         None where no time is given, or no hardness.
+
+    See Also
+    --------
+    PairStrength : holds it
     """
 
     KEYS = (
@@ -128,6 +136,10 @@ class PairStrength(Result):
         Both, as the pair names them.
     notes : tuple of str
         What does not hold here, and why.
+
+    See Also
+    --------
+    TrainStrength : holds it
     """
 
     pair: str
@@ -160,6 +172,10 @@ class ArborStrength(Result):
         The whole force on one pivot, over its diameter times length [MPa].
     strength : float or None
         Of the material [MPa].
+
+    See Also
+    --------
+    TrainStrength : holds it
     """
 
     KEYS = ("link", "material", "force", "bending", "torsion", "stress", "pivot_pressure", "strength", "safety")
@@ -191,6 +207,10 @@ class WeakestPart(Result):
         By what it gives way.
     safety : float
         Its safety factor.
+
+    See Also
+    --------
+    TrainStrength : holds it
     """
 
     part: str
@@ -218,6 +238,10 @@ class TrainStrength(FrozenFields, Result):
         K of Archard's law, least and greatest.
     left_out : tuple of NeglectedEffect
         Pairs of which nothing is said, and why.
+
+    See Also
+    --------
+    geartrain.GearTrain.strength : Gives it.
 
     Examples
     --------

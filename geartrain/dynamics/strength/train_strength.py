@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
 from geartrain.dynamics.strength.arbor_strength import arbor_strength
-from geartrain.dynamics.strength.loaded_pair import LoadedPair, LoadedWheel
+from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
 from geartrain.dynamics.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.train import Material, Train, material_table
@@ -81,7 +81,7 @@ class StrengthQuestion:
 
     # ------------------------------------------------------------------------------------------------------- pairs
 
-    def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> LoadedPair | None:
+    def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> PairUnderLoad | None:
         wheels = [self.declared.wheels[name][1] for name in gear.pair]
         lacking = list(self._lacking(gear, mesh, wheels, torque))
         if lacking or mesh is None:
@@ -89,7 +89,7 @@ class StrengthQuestion:
             return None
         widths = [self._width(wheel) for wheel in wheels]
         found = [
-            LoadedWheel(
+            WheelUnderLoad(
                 name,
                 mesh.gears.index(name) + 1,
                 self.teeth[name],
@@ -101,7 +101,7 @@ class StrengthQuestion:
             for at, (name, wheel) in enumerate(zip(gear.pair, wheels, strict=True))
         ]
         module = 1e3 * self.modules[gear.pair[0]]
-        return LoadedPair(mesh, (found[0], found[1]), module, 1e3 * min(widths), self.wear, self.elements)
+        return PairUnderLoad(mesh, (found[0], found[1]), module, 1e3 * min(widths), self.wear, self.elements)
 
     def _lacking(
         self, gear: GearPair, mesh: GearMesh | None, wheels: Sequence[Wheel], torque: PairTorque

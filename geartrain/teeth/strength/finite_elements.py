@@ -12,7 +12,7 @@ from geartrain.teeth.strength.triangle_mesh import triangles
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.strength.root_bending import ToothLoad, ToothSide
+    from geartrain.teeth.strength.root_section import ToothLoad, ToothSide
 
 _DEEP = 2.5  # modules under the root circle, where the rim is held
 _ROOT = 0.35  # of the height of a tooth: where its root ends

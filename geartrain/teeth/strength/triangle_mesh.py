@@ -8,7 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats, Integers
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+    Integers = NDArray[np.int64]
 
 Spacing = Callable[["Floats"], "Floats"]
 """The length of an edge wanted at each of (n, 2) points."""
@@ -31,7 +35,7 @@ def triangles(polygon: Floats, spacing: Spacing, kept: Floats) -> tuple[Floats, 
     near, _ = cKDTree(_dense(border)).query(inner)
     inner = inner[near > _OFF * spacing(inner)]
     points = np.concatenate((border, inner))
-    found = Delaunay(points).simplices
+    found = np.asarray(Delaunay(points).simplices, dtype=np.int64)
     a, b, c = (points[found[:, k]] for k in range(3))
     area = _cross(b - a, c - a) / 2
     longest = np.max([np.hypot(*(p - q).T) for p, q in ((a, b), (b, c), (c, a))], axis=0)
@@ -45,7 +49,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
-def inside(polygon: Floats, points: Floats) -> Floats:
+def inside(polygon: Floats, points: Floats) -> NDArray[np.bool_]:
     """Which points lie in a polygon: a ray to the right crosses its border an odd number of times."""
     x, y = points.T
     found = np.zeros(len(points), dtype=bool)

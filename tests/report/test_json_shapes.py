@@ -121,6 +121,10 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
         ("dynamics", "heavy.yaml", *IN_TIME, "--restitution", "0.3"),
         ("dynamics", "worm", *IN_TIME),
     ],
+    "strength": [
+        ("strength", "longcase-clock-loaded"),
+        ("strength", "longcase-clock-loaded", "--years", "10", "--wear", "1e-6", "1e-4"),
+    ],
     "budget": [
         ("budget", "moon-triangular", "--turns", "1", "--samples", "64"),
         ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--output", "moon"),

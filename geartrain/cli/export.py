@@ -52,9 +52,14 @@ def run(
     state: FirstState = None,
     module: Annotated[Size, typer.Option("--module", help="Pitch diameter over teeth, such as 1mm.")] = None,
     thickness: Annotated[Size, typer.Option("--thickness", help="Of wheels and plates, such as 2mm.")] = None,
-    bore: Annotated[Size, typer.Option("--bore", help="Diameter of all arbors; 0mm: no holes.")] = None,
+    bore: Annotated[
+        Size, typer.Option("--bore", help="Diameter of all arbors; 0mm: wheels without holes alone.")
+    ] = None,
     backlash: Annotated[
         Size, typer.Option("--backlash", help="Play of every pair on its pitch circles, such as 0.05mm.")
+    ] = None,
+    process: Annotated[
+        str | None, typer.Option("--process", help="How it is made: laser, cnc, fdm or hand; sets kerf, fits and play.")
     ] = None,
     turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
     rate: Annotated[
@@ -79,14 +84,14 @@ def run(
         raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
     of_time = {"--rate": rate, "--restitution": restitution, "--step": step, "--without": without or None}
     of_solids = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
-    of_solids |= {"--backlash": backlash, "--turns": turns}
+    of_solids |= {"--backlash": backlash, "--process": process, "--turns": turns}
     if out is not None and out.suffix.lower() == ".fmu":
         _refuse(of_solids, "says nothing to a unit that moves in time", "leave it out")
         _unit(file, state, of_time, sink(out, force))
         return
     _refuse(of_time, "is for a unit that moves in time", "give -o FILE.fmu, or leave it out")
     train = load(file)
-    work = SolidModel(train, _making(module, thickness, bore, backlash), train.state_or_first(state))
+    work = SolidModel(train, _making(module, thickness, bore, backlash, process), train.state_or_first(state))
     shown = _turns(turns)
     if out is not None:
         _one(work, out, wheel, shown, force)
@@ -121,13 +126,12 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
     raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 
-def _making(module: Size, thickness: Size, bore: Size, backlash: Size) -> ManufacturingSizes:
+def _making(module: Size, thickness: Size, bore: Size, backlash: Size, process: str | None) -> ManufacturingSizes:
     from geartrain.scene import ManufacturingSizes
 
     given = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
-    return ManufacturingSizes(
-        **{name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
-    )
+    sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
+    return ManufacturingSizes(**sizes, process=process)
 
 
 def _length(name: str, text: str) -> float:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError, Problem, QuestionError, printable, suggest
 from geartrain.export.csv_tables import to_tables
 from geartrain.export.flat_files import to_dxf, to_svg
+from geartrain.export.plate_sheets import plate_sheets
 from geartrain.export.rexs import to_rexs
 from geartrain.export.wheel_sheets import WheelSheet, file_names, wheel_sheets
 from geartrain.kinematics import graph
@@ -249,7 +250,7 @@ def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
             if "stl" in kinds:
                 yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
     if flat:
-        plates = work.plates.plates
+        plates = plate_sheets(work)
         for plate, name in zip(plates, file_names(plate.name for plate in plates), strict=True):
             for kind in flat:
                 yield ExportFile(f"plates/{name}.{kind}", plate.drawing.title, _drawing(plate.drawing, kind))
@@ -296,10 +297,12 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     []
     """
     found: list[Problem] = list(work.layout.notices)
+    if work.frame is not None and {"svg", "dxf", "stl", "glb", "step"} & set(kinds):
+        found += [*work.frame.plan.notices, *work.frame.problems()]
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):
-        found += work.plates.notices
+        found += work.couplings.notices
     if "step" in kinds:
         from geartrain.export.step_file import left_out
 

@@ -13,9 +13,11 @@ import numpy as np
 
 from geartrain.errors import MissingExtraError, Problem
 from geartrain.numerics.polylines import simplified
+from geartrain.scene.parts.turned_parts import profile
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
+    from geartrain.scene.parts.turned_parts import TurnedPart
     from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
     from geartrain.teeth.outlines.contour import Contour
 
@@ -46,7 +48,7 @@ def left_out(work: SolidModel) -> tuple[Problem, ...]:
 
 
 def _is_exact(part: SolidPart) -> bool:
-    return bool(part.contours) or part.kind == "arbor"
+    return bool(part.contours) or part.turned is not None
 
 
 def _written(name: str, parts: Sequence[SolidPart]) -> bytes:
@@ -97,8 +99,8 @@ def _name(label: Any, name: str) -> None:
 
 
 def _key(part: SolidPart) -> object:
-    if not part.contours:
-        return part.name, part.kind
+    if part.turned is not None:
+        return part.kind, part.turned.bands
     return part.height, *(contour.points.round(6).tobytes() for contour in part.contours)
 
 
@@ -113,8 +115,8 @@ def _location(part: SolidPart) -> Any:
 
 
 def _shape(part: SolidPart) -> Any:
-    if not part.contours:
-        return _rod(part)
+    if part.turned is not None:
+        return _revolved(part.turned)
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
     from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
     from OCP.gp import gp_Dir, gp_Pln, gp_Pnt, gp_Vec
@@ -129,14 +131,29 @@ def _shape(part: SolidPart) -> Any:
     return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, part.height)).Shape()
 
 
-def _rod(part: SolidPart) -> Any:
-    from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder
-    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+def _revolved(part: TurnedPart) -> Any:
+    """Half a section turned about z; several pieces of one part as a compound."""
+    from OCP.BRep import BRep_Builder
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
+    from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
+    from OCP.TopoDS import TopoDS_Compound
 
-    points = part.solid.vertices
-    low, high = float(points[:, 2].min()), float(points[:, 2].max())
-    radius = float(np.hypot(points[:, 0], points[:, 1]).max())
-    return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, low), gp_Dir(0, 0, 1)), radius, high - low).Shape()
+    shapes = []
+    for section in part.sections():
+        outline = BRepBuilderAPI_MakePolygon()
+        for radius, height in profile(section):
+            outline.Add(gp_Pnt(radius, 0.0, height))
+        outline.Close()
+        face = BRepBuilderAPI_MakeFace(outline.Wire()).Face()
+        shapes.append(BRepPrimAPI_MakeRevol(face, gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))).Shape())
+    if len(shapes) == 1:
+        return shapes[0]
+    whole, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(whole)
+    for shape in shapes:
+        builder.Add(whole, shape)
+    return whole
 
 
 def _wire(contour: Contour, height: float) -> Any:

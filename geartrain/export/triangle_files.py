@@ -93,7 +93,7 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
             gltf.nodes[body.parent].children.append(at)
     for at, parts in by_body(work.parts).items():
         for part in parts:
-            material = numbers[part.status if part.kind == "wheel" else part.kind]
+            material = numbers[_material(part)]
             gltf.meshes.append(_mesh(buffer, part, points[at], material))
             gltf.nodes.append(Node(name=part.name, mesh=len(gltf.meshes) - 1))
             gltf.nodes[at].children.append(len(gltf.nodes) - 1)
@@ -106,6 +106,12 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
     gltf.buffers.append(Buffer(byteLength=len(buffer.data)))
     gltf.set_binary_blob(bytes(buffer.data))
     return b"".join(gltf.save_to_bytes())
+
+
+def _material(part: SolidPart) -> str:
+    if part.kind == "wheel":
+        return part.status
+    return "plate" if part.kind in ("plate", "pillar", "post") else "arbor"
 
 
 def _mesh(buffer: _Buffer, part: SolidPart, origin: Floats, material: int) -> Any:

@@ -191,8 +191,9 @@ def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
 def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
     work = SolidModel(load("planetary-24-18-60-involute"), ManufacturingSizes())
     ring = polygon(from_svg(wheel_file(work, "ring", ".svg"))["CUT"])
-    (hole,) = ring.interiors
+    hole, *posts = sorted(ring.interiors, key=lambda each: -shapely.Polygon(each).area)
     module = work.layout.wheels["ring"].module
+    assert len(posts) == 3, "posts hold it to a plate"
     assert teeth_of(np.array(hole.coords), 30 * module) == 60
     assert ring.exterior.distance(hole) > module
 
@@ -219,16 +220,22 @@ def test_what_has_no_flat_outline_is_refused_by_name_and_the_rest_is_written(tra
     assert any(each.path == "README.md" and wheel in each.make().decode() for each in export_files(work, ["svg"]))
 
 
-def test_plates_have_a_hole_at_every_axis_they_bear_and_stand_round_it() -> None:
+def test_both_plates_have_a_hole_at_every_axis_and_four_for_pillars_and_stand_round_them() -> None:
     work = workpiece(module=2, bore=4)
-    (plate,) = [each for each in export_files(work, ["svg"]) if each.path.startswith("plates/")]
-    drawn = polygon(from_svg(plate.make())["CUT"])
-    assert len(drawn.interiors) == 2
-    centres = sorted((shapely.Polygon(ring).centroid.x, shapely.Polygon(ring).centroid.y) for ring in drawn.interiors)
-    axes = sorted(axis.point[:2] for axis in work.layout.axes.values())
-    assert np.allclose(centres, axes, atol=1e-4)
-    assert hypot(*np.subtract(*centres)) == pytest.approx(60, abs=1e-4), "24 and 36 teeth of module 2 are 60 mm apart"
-    assert all(ring.distance(drawn.exterior) > 2.9 for ring in drawn.interiors)
+    plates = [each for each in export_files(work, ["svg"]) if each.path.startswith("plates/")]
+    assert [each.path for each in plates] == ["plates/frame-back-plate.svg", "plates/frame-front-plate.svg"]
+    for plate in plates:
+        drawn = polygon(from_svg(plate.make())["CUT"])
+        holes = [shapely.Polygon(ring) for ring in drawn.interiors]
+        axes = sorted(axis.point[:2] for axis in work.layout.axes.values())
+        nearest = [min(holes, key=lambda hole: hypot(hole.centroid.x - x, hole.centroid.y - y)) for x, y in axes]
+        centres = [(hole.centroid.x, hole.centroid.y) for hole in nearest]
+        assert len(holes) == 6
+        assert np.allclose(centres, axes, atol=1e-4)
+        assert hypot(*np.subtract(*centres)) == pytest.approx(60, abs=1e-4), "24 and 36 teeth of module 2: 60 mm"
+        pivot = 0.55 * 4 + 0.08
+        assert [hole.area for hole in nearest] == pytest.approx([pi * pivot**2 / 4] * 2, rel=1e-3)
+        assert all(ring.distance(drawn.exterior) > 2.9 for ring in drawn.interiors)
 
 
 def test_slots_are_as_long_as_the_pin_wanders() -> None:

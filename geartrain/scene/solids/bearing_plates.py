@@ -1,21 +1,19 @@
-"""Plates that bear the arbors, one for the frame and for every carrier, and the discs of pins and slots."""
+"""Curves round holes, and the discs of pins and slots."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, cos, dist, hypot, pi, sin, tan
+from math import atan2, cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector, dot, minus
+from geartrain.numerics.vectors import Vector
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
-from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.scene.layout import AxisPlace, Layout
     from geartrain.teeth.pin_coupling import Coupling
 
 Point = tuple[float, float]
@@ -27,19 +25,11 @@ _PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A flat part of a link.
-
-    point    of the plate's plane that the drawing's origin stands on (mm)
-    normal   unit vector towards which the drawing looks
-    holes    centre (mm, in the drawing) and diameter by name of the axis
-    """
+    """A flat part of a link, as it is drawn."""
 
     link: str
     name: str
     drawing: FlatDrawing
-    point: tuple[float, float, float]
-    normal: tuple[float, float, float]
-    holes: Mapping[str, tuple[Point, float]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,73 +40,11 @@ class Plates:
     notices: tuple[Problem, ...]
 
 
-def find_plates(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Plates:
-    """All plates of a train as placed."""
-    diameters = bores(layout, making)
+def coupling_discs(train: GearTrain, bores: Mapping[str, float]) -> Plates:
+    """Discs of pins and slots; `bores` are holes (mm) for arbors, by link."""
     notices: list[Problem] = []
-    plates = [*_bearing(train, layout, diameters, notices), *_discs(train, diameters, notices)]
-    return Plates(tuple(plates), tuple(notices))
-
-
-# ---------------------------------------------------------------------------------------------------- plates of arbors
-
-
-def _bearing(
-    train: GearTrain, layout: Layout, diameters: Mapping[str, float], notices: list[Problem]
-) -> Iterator[Plate]:
-    for link in dict.fromkeys(axis.carrier for axis in layout.axes.values()):
-        own = train.tree.axis(link)
-        base = layout.axes.get(own) if own else None
-        normal = base.direction if base else (0.0, 0.0, 1.0)
-        borne = {label: axis for label, axis in layout.axes.items() if axis.carrier == link}
-        if base:
-            borne = {base.label: base, **borne}
-        flat = {label: axis for label, axis in borne.items() if _parallel(axis.direction, normal)}
-        for label in borne.keys() - flat.keys():
-            why = "the axis does not stand at right angles to the plate"
-            notices.append(Problem(f"the plate of '{link}' has no hole for axis '{label}'", why, "drill it by hand"))
-        if len(flat) > bool(base):
-            yield _plate(train, link, normal, flat, diameters, notices)
-
-
-def _plate(
-    train: GearTrain,
-    link: str,
-    normal: tuple[float, float, float],
-    axes: Mapping[str, AxisPlace],
-    diameters: Mapping[str, float],
-    notices: list[Problem],
-) -> Plate:
-    origin = (0.0, 0.0, 0.0) if link == train.declaration.frame else next(iter(axes.values())).point
-    right, up = basis(normal)
-    holes: dict[str, tuple[Point, float]] = {}
-    for label, axis in axes.items():
-        away = minus(axis.point, origin)
-        hole = (dot(away, right), dot(away, up)), diameters[label]
-        if (other := _in_the_way(hole, holes)) is None:
-            holes[label] = hole
-        elif dist(hole[0], holes[other][0]) > _PARALLEL:
-            why = f"that of axis '{other}' takes its place: one stud with a step bears both"
-            notices.append(
-                Problem(f"the plate of '{link}' has no hole for axis '{label}'", why, "give a smaller --bore")
-            )
-    land = _LAND + max(diameter for _, diameter in holes.values()) / 2
-    rim = around([place for place, _ in holes.values()], land)
-    cut = [rim, *(Contour.circle(diameter / 2, place) for place, diameter in holes.values() if diameter)]
-    marks = [
-        EngravedText(label, (x, y - diameter / 2 - 0.6 * _LAND), 0.6 * _LAND)
-        for label, ((x, y), diameter) in holes.items()
-    ]
-    what = "frame plate" if link == train.declaration.frame else "carrier plate"
-    title = f"{link}: {what} with {len(holes)} axes, scale 1:1"
-    return Plate(link, f"plate-{link}", FlatDrawing(title, tuple(cut), marks=tuple(marks)), origin, normal, holes)
-
-
-def _in_the_way(hole: tuple[Point, float], holes: Mapping[str, tuple[Point, float]]) -> str | None:
-    """The first hole that one more would run into."""
-    place, diameter = hole
-    meets = (label for label, (other, own) in holes.items() if dist(place, other) <= (diameter + own) / 2 + _PARALLEL)
-    return next(meets, None)
+    plates = tuple(_discs(train, bores, notices))
+    return Plates(plates, tuple(notices))
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
@@ -168,10 +96,6 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
     return right, (-nz * right[1], nz * right[0], nx * right[1] - ny * right[0])
 
 
-def _parallel(a: Vector, b: Vector) -> bool:
-    return abs(abs(dot(a, b)) - 1) < _PARALLEL
-
-
 # ------------------------------------------------------------------------------------------------------ pins and slots
 
 
@@ -203,8 +127,7 @@ def _disc(train: GearTrain, coupling: Coupling, link: str, diameters: Mapping[st
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000
     pin = pin_diameter(r)
     low, high = (abs(r - e), r + e) if slotted else (r, r)
-    label = train.tree.axis(link) or ""
-    own = min(diameters.get(label, 0.0), max(2 * (low - pin), 0.0))
+    own = min(diameters.get(link, 0.0), max(2 * (low - pin), 0.0))
     cut = [Contour.circle(high + pin / 2 + _LAND), around([(low, 0.0), (high, 0.0)], pin / 2)]
     if own:
         cut.append(Contour.circle(own / 2))
@@ -213,4 +136,4 @@ def _disc(train: GearTrain, coupling: Coupling, link: str, diameters: Mapping[st
     marks = (EngravedText(link, (-(high + pin) / 2, 0.0), 0.6 * _LAND),)
     drawing = FlatDrawing(title, tuple(cut), marks=marks)
     name = f"{what}-{coupling.name}-{link}"
-    return Plate(link, name, drawing, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), {label: ((0.0, 0.0), own)})
+    return Plate(link, name, drawing)

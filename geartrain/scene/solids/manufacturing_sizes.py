@@ -12,9 +12,12 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
-from geartrain.scene.layout import Layout
+from geartrain.scene.layout import Layout, WheelPlace
+from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import DEDENDUM, PLAY
 from geartrain.train import GearPair, Train
+
+_SAME_LEVEL = 1e-3  # mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,10 +31,12 @@ class ManufacturingSizes:
     thickness : float, optional
         Of wheels and plates [mm], above 0.
     bore : float, optional
-        Diameter of the arbors, and so of the holes in wheels and plates [mm]; 0: no holes.
+        Diameter of the arbors [mm]; 0: neither arbors nor plates, and wheels without holes.
     backlash : float, optional
         Play on the pitch circle of every pair that does not declare its own [mm], 0 or more; by default a twentieth
         of the module.
+    process : str, optional
+        How it is made: laser, cnc, fdm or hand; sets kerf, fits, and the play where none is given.
 
     Raises
     ------
@@ -41,18 +46,20 @@ class ManufacturingSizes:
     Examples
     --------
     >>> ManufacturingSizes(module=2.0, bore=6.0)
-    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None)
+    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None, process=None)
     """
 
     module: float | None = None
     thickness: float | None = None
     bore: float | None = None
     backlash: float | None = None
+    process: str | None = None
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` for what is no size."""
+        process_named(self.process)
         problems = []
-        for name in (each.name for each in fields(self)):
+        for name in (each.name for each in fields(self) if each.name != "process"):
             value = getattr(self, name)
             zero = name in ("bore", "backlash")
             if value is not None and not (isfinite(value) and (value >= 0 if zero else value > 0)):
@@ -90,9 +97,7 @@ def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
         why = f"it gives {named}, and what is declared wins"
         fix = "leave --module out, or take the sizes out of the file"
         raise QuestionError(Problem("the declaration has sizes of its own", why, fix, "--module"))
-    # rounded: modules that are equal but for rounding count as one
-    usual, _ = Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0]
-    return making.module / usual
+    return making.module / usual_module(layout)
 
 
 def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
@@ -137,16 +142,43 @@ def _own_play(declared: Train, gear: GearPair) -> Problem | None:
     return None if form is None else form.own_play(gear.name)
 
 
+def with_play(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
+    """The sizes with the play of the process, where one is named and no play is given."""
+    declared = train.declaration
+    own = [_own_play(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
+    if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
+        return making
+    play = process_named(making.process).play * usual_module(layout) * scale_of(layout, making)
+    return replace(making, backlash=play)
+
+
+def usual_module(layout: Layout) -> float:
+    """The module (mm) of most wheels."""
+    # rounded: modules that are equal but for rounding count as one
+    return Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0][0]
+
+
 def thick(layout: Layout, making: ManufacturingSizes) -> Layout:
-    """The layout with wheels of the thickness asked for."""
+    """The layout with wheels of the thickness asked for, levels moved apart where it is more than they have."""
     if making.thickness is None:
         return layout
-    wheels = {name: replace(place, thickness=making.thickness) for name, place in layout.wheels.items()}
+    upright = all(_is_upright(layout, place) for place in layout.wheels.values())
+    levels = sorted({round(place.centre[2], 6): place.thickness for place in layout.wheels.values()}.items())
+    wheels = {}
+    for name, place in layout.wheels.items():
+        below = [max(making.thickness - had, 0.0) for height, had in levels if height < place.centre[2] - _SAME_LEVEL]
+        x, y, z = place.centre
+        centre = (x, y, z + sum(below)) if upright else place.centre
+        wheels[name] = replace(place, thickness=making.thickness, centre=centre)
     return replace(layout, wheels=wheels)
 
 
+def _is_upright(layout: Layout, place: WheelPlace) -> bool:
+    return abs(layout.axes[place.axis].direction[2]) == 1
+
+
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Diameter (mm) of the arbor on each axis: the one asked for, or a third of the smallest wheel's, 6 at most."""
+    """Diameter (mm) of a rod on each axis that no plate bears: as given, or a third of the smallest wheel, 6 at most."""
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

@@ -12,11 +12,18 @@ import numpy as np
 
 from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
-from geartrain.scene.solids.bearing_plates import Plate, Plates, basis, find_plates, pin_diameter, slotted_bar
+from geartrain.scene.layout.declared_geometry import read_geometry
+from geartrain.scene.parts.frame_plan import FramePlan
+from geartrain.scene.parts.frame_plates import FramePlates
+from geartrain.scene.parts.frame_stack import FrameStack
+from geartrain.scene.parts.processes import Process, process_named
+from geartrain.scene.parts.turned_parts import Band, TurnedPart
+from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs, pin_diameter, slotted_bar
 from geartrain.scene.solids.bevel_solids import likeness_solid
-from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick
-from geartrain.scene.solids.triangle_solids import Solid, cylinder, plate_solid, wheel_solid
-from geartrain.scene.solids.wheel_blanks import Blanks, find_blanks
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
+from geartrain.scene.solids.triangle_solids import Solid, plate_solid, wheel_solid
+from geartrain.scene.solids.wheel_blanks import Blanks, bored, find_blanks
+from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -24,9 +31,7 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneWheel
     from geartrain.scene.layout import Layout
     from geartrain.scene.train_scene import Scene
-    from geartrain.teeth.outlines.contour import Contour
-
-_SHEET = 2.0  # mm, the thickness of plates
+_SHEET = 3.0  # mm, the thickness of plates
 _GAP = 1.0  # mm between a plate and what turns before it
 
 
@@ -40,7 +45,7 @@ class SolidPart:
         Index of its body in the scene.
     name : str
         Of the wheel, or what it belongs to.
-    kind : {"wheel", "arbor", "plate"}
+    kind : {"wheel", "arbor", "pipe", "stud", "collar", "pillar", "post", "pin", "plate"}
         What it is.
     solid : Solid
         A closed surface of triangles about its own origin [mm].
@@ -52,6 +57,8 @@ class SolidPart:
         Its flat shape, from which the solid is made; empty where it has none.
     height : float
         Thickness over the flat shape [mm].
+    turned : TurnedPart or None
+        What it is turned to, about its own z, if it is a body of revolution.
 
     See Also
     --------
@@ -67,6 +74,7 @@ class SolidPart:
     status: str = ""
     contours: tuple[Contour, ...] = ()
     height: float = 0.0
+    turned: TurnedPart | None = None
 
     @property
     def placed(self) -> Solid:
@@ -108,22 +116,72 @@ class SolidModel:
     @cached_property
     def sized(self) -> GearTrain:
         """The train with the modules and the play asked for."""
-        return sized(self.train, self._laid, self.making)
+        return sized(self.train, self._laid, with_play(self.train, self._laid, self.making))
 
     @cached_property
     def layout(self) -> Layout:
-        """Places of axes and wheels, at the sizes asked for."""
-        return thick(self._laid if self.sized is self.train else lay_out(self.sized), self.making)
+        """Places of axes and wheels, at the sizes asked for, with room for plates."""
+        return self._spread if self.frame is None else self.frame.plan.layout
+
+    @cached_property
+    def process(self) -> Process:
+        """How it is made."""
+        return process_named(self.making.process)
+
+    @cached_property
+    def frame(self) -> FramePlates | None:
+        """Plates, arbors and pillars; None where no axis stands on the frame, or arbors are not wanted."""
+        stack = FrameStack(self.sized, self._spread, self._toothed.wheels)
+        if self.making.bore == 0 or stack.normal is None:
+            return None
+        ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
+        plan = FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
+        return FramePlates(plan)
 
     @cached_property
     def blanks(self) -> Blanks:
-        """Flat shapes of the wheels."""
-        return find_blanks(self.sized, self.layout, self.making)
+        """Flat shapes of the wheels, with holes for arbors, and for what else they bear."""
+        holes = self._bores
+        wheels, notices = {}, [*self._toothed.notices]
+        for name, blank in self._toothed.wheels.items():
+            others = [] if self.frame is None else self._own_holes(name)
+            wheels[name], told = bored(blank, holes.get(name, 0.0), others)
+            notices += told
+        return Blanks(wheels, tuple(notices), self._toothed.plays)
 
     @cached_property
-    def plates(self) -> Plates:
-        """Plates that bear the arbors, and discs of pins and slots."""
-        return find_plates(self.sized, self.layout, self.making)
+    def _bores(self) -> dict[str, float]:
+        """Diameter of the hole of each wheel (mm)."""
+        rods = bores(self._spread, self.making)
+        found = {name: rods[place.axis] for name, place in self._spread.wheels.items()}
+        return found if self.frame is None else found | self.frame.plan.bores
+
+    def _own_holes(self, name: str) -> list[Contour]:
+        """Holes in a wheel for studs and posts, in its own coordinates."""
+        assert self.frame is not None
+        wheel = next(wheel for wheel in self.scene.wheels if wheel.id == name)
+        turn, place = wheel_frame(wheel)
+        stack = self.frame.plan.stack
+        found = []
+        for hole in self.frame.seat_holes(name):
+            x, y, _ = turn.T @ (np.array(stack.in_space(hole.at)) - place)
+            found.append(Contour.circle(hole.diameter / 2, (float(x), float(y))))
+        return found
+
+    @cached_property
+    def couplings(self) -> Plates:
+        """Discs of pins and slots."""
+        of = {place.link: name for name, place in self.layout.wheels.items()}
+        return coupling_discs(self.sized, {link: self._bores[wheel] for link, wheel in of.items()})
+
+    @cached_property
+    def _spread(self) -> Layout:
+        """Places before there are plates."""
+        return thick(self._laid if self.sized is self.train else lay_out(self.sized), self.making)
+
+    @cached_property
+    def _toothed(self) -> Blanks:
+        return find_blanks(self.sized, self._spread, with_play(self.train, self._laid, self.making))
 
     @cached_property
     def scene(self) -> Scene:
@@ -144,18 +202,19 @@ class _Parts:
     def __init__(self, work: SolidModel) -> None:
         self.work, self.scene = work, work.scene
         self.bodies = {body.id: at for at, body in enumerate(self.scene.bodies)}
-        self.bores = bores(work.layout, work.making)
 
     def all(self) -> Iterator[SolidPart]:
         for wheel in self.scene.wheels:
             yield self.wheel(wheel)
-        yield from self.arbors()
-        yield from self.plates()
+        yield from self.rods()
+        if self.work.frame is not None:
+            yield from self.turned(self.work.frame)
+            yield from self.plates(self.work.frame)
         yield from self.couplings()
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
         """By its flat shape where it has one."""
-        turn, place = _frame(wheel)
+        turn, place = wheel_frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
             declared = self.work.train.declaration.wheels[wheel.id][1]
@@ -166,12 +225,14 @@ class _Parts:
             wheel.body, wheel.id, "wheel", solid, turn, place, wheel.status, blank.contours, blank.thickness
         )
 
-    def arbors(self) -> Iterator[SolidPart]:
-        """A rod for every body that turns and has wheels, from the lowest to the highest of them."""
+    def rods(self) -> Iterator[SolidPart]:
+        """An arbor without bearings for every body whose axis no plate bears, from its lowest wheel to the highest."""
+        frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
+        borne = set() if frame is None else {column.axis for column in frame.plan.all_columns}
         for at, body in enumerate(self.scene.bodies):
             own = [wheel for wheel in self.scene.wheels if wheel.body == at and wheel.kind != "ring"]
-            radius = self.bores.get(body.axis, 0.0) / 2
-            if body.parent is None or not own or not radius:
+            radius = radii.get(body.axis, 0.0) / 2
+            if body.parent is None or body.axis in borne or not own or not radius:
                 continue
             point, along = np.array(body.point), np.array(body.direction)
             ends = [
@@ -179,42 +240,31 @@ class _Parts:
                 for wheel in own
                 for side in (-1, 1)
             ]
-            right, up = basis(body.direction)
-            turn = np.column_stack([right, up, body.direction])
-            low, high = min(ends) - _GAP, max(ends) + _GAP
-            solid = cylinder(radius, low, high)
-            yield SolidPart(at, f"{body.id} arbor", "arbor", solid, turn, point)
+            bands = (Band(min(ends) - _GAP, max(ends) + _GAP, radius),)
+            part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), bands)
+            turn = np.column_stack([*basis(body.direction), body.direction])
+            yield SolidPart(at, part.name, "arbor", part.solid(), turn, point, turned=part)
 
     def _thick(self, wheel: SceneWheel) -> float:
         blank = self.work.blanks.wheels.get(wheel.id)
         return wheel.thickness if blank is None else blank.thickness
 
-    def plates(self) -> Iterator[SolidPart]:
-        """Plates of carriers, under all that turns on them, and that of the frame, behind the whole."""
-        thickness = self.work.making.thickness or _SHEET
-        for plate in self.work.plates.plates:
-            if not plate.name.startswith("plate-"):
-                continue
-            at = self.bodies[plate.link]
-            normal = np.array(plate.normal)
-            place = np.array(plate.point)
-            if self.scene.bodies[at].parent is None:
-                side, far = self._behind(normal), 2 * _GAP + 1.5 * thickness  # beyond the plates of carriers
-            else:
-                side, far = min(self._heights(plate, normal), default=0.0), _GAP + thickness / 2
-            away = -self.scene.front if self.scene.bodies[at].parent is None else -1
-            place = place + normal * (side - place @ normal + away * far)
-            right, up = basis(plate.normal)
-            solid = plate_solid(plate.drawing.cut, thickness)
-            turn = np.column_stack([right, up, plate.normal])
-            yield SolidPart(at, f"{plate.link} plate", "plate", solid, turn, place, "", plate.drawing.cut, thickness)
+    def turned(self, frame: FramePlates) -> Iterator[SolidPart]:
+        """Arbors, pipes, studs, collars, pillars and posts."""
+        for part in frame.turned():
+            body = self.bodies[part.link]
+            turn, place = frame.plan.stack.turn, np.array(frame.plan.stack.in_space(part.at))
+            yield SolidPart(body, part.name, part.kind, part.solid(), turn, place, turned=part)
 
-    def _behind(self, normal: Floats) -> float:
-        """Height of what is farthest from the reader."""
-        places = self.work.layout.wheels.values()
-        front = self.scene.front
-        ends = (float(np.array(place.centre) @ normal) - front * place.thickness / 2 for place in places)
-        return front * min((front * end for end in ends), default=0.0)
+    def plates(self, frame: FramePlates) -> Iterator[SolidPart]:
+        """Plates of the frame and those that turn."""
+        for plate in frame.plates():
+            height = (plate.low + plate.high) / 2
+            cut, thickness = plate.contours, plate.high - plate.low
+            place = np.array(frame.plan.stack.in_space(plate.at, height))
+            solid = plate_solid(cut, thickness)
+            body, turn = self.bodies[plate.link], frame.plan.stack.turn
+            yield SolidPart(body, plate.name, "plate", solid, turn, place, "", cut, thickness)
 
     def couplings(self) -> Iterator[SolidPart]:
         """Pins, from their wheel to the slot's, and bars with a slot as long as the pin wanders."""
@@ -229,14 +279,10 @@ class _Parts:
             thick = pin_diameter(r)
             across = np.column_stack([*basis(body.direction), body.direction])
             middle = pin - along * (pin @ along)
-            yield SolidPart(
-                coupling.pin,
-                f"{coupling.id} pin",
-                "arbor",
-                cylinder(thick / 2, low - _GAP, high + _GAP),
-                across,
-                middle,
+            part = TurnedPart(
+                body.id, f"{coupling.id} pin", "pin", (0.0, 0.0), (Band(low - _GAP, high + _GAP, thick / 2),)
             )
+            yield SolidPart(coupling.pin, part.name, part.kind, part.solid(), across, middle, turned=part)
             out = pin - hub
             x = out / np.linalg.norm(out)
             c, s = cos(coupling.slot_turn), sin(coupling.slot_turn)
@@ -267,13 +313,8 @@ class _Parts:
         ]
         return min(faces, key=lambda face: abs(face - height), default=float(height))
 
-    def _heights(self, plate: Plate, normal: Floats) -> Iterator[float]:
-        for place in self.work.layout.wheels.values():
-            if place.axis in plate.holes:
-                yield float(np.array(place.centre) @ normal) - place.thickness / 2
 
-
-def _frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
+def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
     """Axes of a wheel's own coordinates as columns, x through its first tooth, and its middle (mm)."""
     along, reference = np.array(wheel.direction), np.array(wheel.reference)
     across = np.cross(along, reference)

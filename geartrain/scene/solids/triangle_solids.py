@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 FINE = 0.02  # mm, how far the chords of a solid may leave a curve
 _SAME = 7  # decimals of a mm to which points are one
-_STEPS = 24  # sides of an arbor
+SIDES = 96
+"""Of what is turned, and of round holes: chords leave a radius of 4 mm by 2 um."""
 _SLICE = 0.1  # rad: by how much helical teeth turn from one layer to the next
 
 
@@ -52,7 +53,7 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
     ring = blank.kind == "ring"
     teeth = contours[1 if ring else 0]
     others = [contour for contour in contours if contour is not teeth]
-    if blank.kind == "pins" or len(teeth.points) % blank.teeth:
+    if blank.kind == "pins" or len(teeth.points) % blank.teeth or len(others) > 1:
         return plate_solid(contours, blank.thickness, tolerance)
     radius = float(abs(others[0].points).max()) if others else 0.0
     own = len(teeth.points) // blank.teeth + 1
@@ -70,16 +71,17 @@ def _open(contour: Contour, count: int, tolerance: float) -> Floats:
 
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
     """A flat part with holes, its middle plane at z = 0."""
-    outer, *holes = (contour.flattened(tolerance) for contour in contours)
-    return raised(*fill(outer, holes), thickness)
+    outer, *others = contours
+    holes = [_round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
+    return raised(*fill(outer.flattened(tolerance), holes), thickness)
 
 
-def cylinder(radius: float, start: float, end: float) -> Solid:
-    """An arbor along z."""
-    turn = 2 * pi * np.arange(_STEPS) / _STEPS
-    circle = radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    solid = raised(*fill(circle), end - start)
-    return Solid(solid.vertices + np.array([0.0, 0.0, (start + end) / 2]), solid.faces)
+def _round_about(circle: Contour) -> Floats:
+    """A polygon round a circle, so that what has the size of the hole still stands in it."""
+    centre = circle.points.mean(axis=0)
+    radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
+    turn = 2 * pi * np.arange(SIDES) / SIDES
+    return np.asarray(centre + radius * np.stack([np.cos(turn), np.sin(turn)], axis=1))
 
 
 def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
@@ -124,7 +126,8 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
         return np.concatenate([tooth, [[0.0, 0.0]]])
     sweep = 2 * pi / teeth
     # -1: a tolerance beyond the diameter asks for no more than one chord
-    steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))))
+    steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))), ceil(SIDES / teeth))
+    radius = radius / float(np.cos(sweep / steps / 2))  # round the bore, as in `_round_about`
     turn = last - sweep * np.arange(steps + 1) / steps
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
     return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])

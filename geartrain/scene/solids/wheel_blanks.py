@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees, tan
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.train_teeth import PairPlay, WheelTeeth, find_train_teeth
 from geartrain.errors import Problem
-from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from geartrain.train import Wheel
 
 _LAND = 0.8  # of the root circle: the widest bore
+_THIN = 0.4  # mm that a wheel has beside its bore at least, if it is more than that
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,18 +61,15 @@ class Blanks:
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """The flat shapes of all wheels of a train, at the sizes of a layout."""
+    """The flat shapes of all wheels of a train without holes, at the sizes of a layout."""
     toothed = find_train_teeth(train, layout.wheels, making.backlash, layout.apart)
-    diameters = bores(layout, making)
     wheels, notices = {}, []
     for name, problems in toothed.problems.items():
         notices += [replace(each, what=f"wheel '{name}': {each.what}", place="") for each in problems]
     for name, toothing in toothed.wheels.items():
-        place = layout.wheels[name]
-        blank, told = _bored(_blank(toothing, place), diameters.get(place.axis, 0.0))
-        wheel = train.declaration.wheels[name][1]
+        wheel, blank = train.declaration.wheels[name][1], _blank(toothing, layout.wheels[name])
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
-        notices += [*told, *_leaning(name, wheel)]
+        notices += _leaning(name, wheel)
     return Blanks(wheels, tuple(notices), toothed.plays)
 
 
@@ -102,12 +100,13 @@ def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
         yield Problem(what, why, fix)
 
 
-def _bored(blank: Blank, bore: float) -> tuple[Blank, list[Problem]]:
-    """With the hole for its arbor, if it has the room."""
+def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
+    """With the hole for its arbor, if it has the room, and holes for what else it bears."""
     inner = min(blank.root_radius, blank.tip_radius)
+    blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":
         return blank, []
-    if bore / 2 >= _LAND * inner:
+    if bore / 2 >= _LAND * inner and bore / 2 >= inner - _THIN:
         what = f"wheel '{blank.wheel}': a bore of {bore:g} mm does not fit"
         why = f"its root circle has a diameter of {2 * inner:.4g} mm, so it is cut without a hole"
         return blank, [Problem(what, why, f"give less than {2 * _LAND * inner:.4g} mm", "--bore")]

@@ -1,0 +1,207 @@
+"""What stands on one axis of the frame: an arbor from plate to plate, or a stud in one, and pipes round it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from geartrain.scene.parts.coaxial_order import CoaxialLink, clash, nested
+from geartrain.scene.parts.processes import Process
+from geartrain.scene.parts.stack_discs import Point, StackDisc, by_link
+
+OVER = 0.2  # mm that a pipe is longer than what it carries, at either end
+SHAKE = 0.2  # mm along the axis
+HEAD = 0.6  # mm: thickness of a stud's head
+HEAD_OVER = 1.0  # mm that a head is wider than its stud, all round
+APART = 0.2  # mm between a column and a wheel of another axis
+INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
+_LEAST = 0.8  # mm: the thinnest arbor
+_USUAL = 2 / 3  # of the root radius of the smallest wheel: the diameter of an arbor
+_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way
+_WIDEST = 6.0  # mm, of one whose size nobody gives
+
+
+class Bearing(StrEnum):
+    """How an axis is borne."""
+
+    THROUGH = "through"
+    BACK_STUD = "stud in the back plate"
+    FRONT_STUD = "stud in the front plate"
+
+
+@dataclass(frozen=True, slots=True)
+class FramePlaces:
+    """Heights (mm) of the faces of both plates."""
+
+    back: tuple[float, float]
+    front: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnMember:
+    """An arbor or a pipe of a column: its link, its reach, the diameters inside (0: solid) and outside (mm)."""
+
+    link: str
+    low: float
+    high: float
+    inner: float
+    outer: float
+    discs: tuple[StackDisc, ...]
+    fixed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class AxisColumn:
+    """All that stands on an axis.
+
+    core       diameter (mm) of the arbor or the stud in the middle, which goes from `low` to `high`
+    members    from the innermost; of a through arbor the first is the core
+    hit        discs of other axes in the way, with the gap to them (mm, below `APART`)
+    tangled    two links of which neither can be inside the other
+    """
+
+    axis: str
+    at: Point
+    bearing: Bearing
+    core: float
+    low: float
+    high: float
+    members: tuple[ColumnMember, ...]
+    hit: tuple[tuple[StackDisc, float], ...] = ()
+    tangled: tuple[str, str] | None = None
+
+    @property
+    def is_stud(self) -> bool:
+        """True if the core stands still in one plate."""
+        return self.bearing is not Bearing.THROUGH
+
+    def passes(self, plate: tuple[float, float]) -> bool:
+        """True if something of it goes on beyond both faces of a plate."""
+        middle = sum(plate) / 2
+        return any(each.low < middle < each.high for each in self.members)
+
+    def radius(self, low: float, high: float) -> float:
+        """Of the widest part between two heights."""
+        wide = [each.outer / 2 for each in self.members if each.low < high and low < each.high]
+        return max([*wide, self.core / 2 if self.low < high and low < self.high else 0.0])
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnProblem:
+    """An axis with its discs, those of other axes, and what reaches out to dials.
+
+    ends    link -> whether it goes out below and above the stack
+    span    of the whole stack, with room for dials
+    core    diameter of the arbor (mm) if it is given
+    """
+
+    axis: str
+    at: Point
+    discs: Sequence[StackDisc]
+    others: Sequence[StackDisc]
+    ends: Mapping[str, tuple[bool, bool]]
+    span: tuple[float, float]
+    frame: str
+    process: Process
+    core: float | None = None
+
+    def columns(self, places: FramePlaces) -> list[AxisColumn]:
+        """Ways to bear the axis, the better first; each says what is in its way."""
+        return [self._thinned(bearing, places) for bearing in self._bearings(places)]
+
+    def _thinned(self, bearing: Bearing, places: FramePlaces) -> AxisColumn:
+        """With the thickest usual core that passes all wheels, if no core is given; else with the first."""
+        first = self._column(bearing, places)
+        if self.core is not None or not first.hit:
+            return first
+        thinner = (replace(self, core=core) for core in _CORES if core < first.core)
+        return next((each for each in (one._column(bearing, places) for one in thinner) if not each.hit), first)
+
+    def _bearings(self, places: FramePlaces) -> list[Bearing]:
+        back, front = sum(places.back) / 2, sum(places.front) / 2
+        moving = [disc for disc in self.discs if disc.hub and disc.link != self.frame]
+        own = {self.ends[disc.link] for disc in moving if disc.link in self.ends}
+        low = min((disc.low for disc in moving), default=back)
+        high = max((disc.high for disc in moving), default=front)
+        if any((below and low > back) or (above and high < front) for below, above in own):
+            return [Bearing.THROUGH]
+        if low > front:
+            return [Bearing.FRONT_STUD]
+        if high < back:
+            return [Bearing.BACK_STUD]
+        if low > back and high < front:
+            return [Bearing.THROUGH, Bearing.BACK_STUD, Bearing.FRONT_STUD]
+        return [Bearing.THROUGH]
+
+    def _links(self, places: FramePlaces) -> Iterator[CoaxialLink]:
+        for link, discs in by_link(disc for disc in self.discs if disc.hub).items():
+            low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
+            below, above = self.ends.get(link, (False, False))
+            low, high = (self.span[0] if below else low), (self.span[1] if above else high)
+            if link == self.frame:  # held by the plate that is nearer
+                near = min((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - (low + high) / 2))
+                low, high = min(low, near[0]), max(high, near[1])
+            yield CoaxialLink(link, tuple(disc.middle for disc in discs), low, high, link == self.frame)
+
+    def _column(self, bearing: Bearing, places: FramePlaces) -> AxisColumn:
+        links = list(self._links(places))
+        order, tangled = nested(links) or tuple(links), clash(links)
+        stud = bearing is not Bearing.THROUGH or all(each.fixed for each in order)
+        core = self._core(order, stud)
+        members = tuple(self._members(order, core, stud))
+        low = min((each.low for each in members), default=places.back[1])
+        high = max((each.high for each in members), default=places.front[0])
+        head = SHAKE + HEAD
+        if bearing is Bearing.BACK_STUD:
+            low, high = (places.back[0], high + head) if high > places.back[1] else (low - head, places.back[1])
+        elif bearing is Bearing.FRONT_STUD:
+            low, high = (low - head, places.front[1]) if low < places.front[0] else (places.front[0], high + head)
+        else:
+            low, high = min(low, places.back[0]), max(high, places.front[1])
+        if bearing is Bearing.THROUGH and members and not stud:
+            members = (replace(members[0], low=low, high=high), *members[1:])
+        column = AxisColumn(self.axis, self.at, bearing, core, low, high, members, (), tangled)
+        return replace(column, hit=tuple(_hits(column, self.others)))
+
+    def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
+        """Diameter of the core: as given, or so that every pipe fits into the roots of its smallest wheel."""
+        if self.core is not None:
+            return self.core
+        roots = [self._root(each.link) for each in order]
+        found = [_WIDEST, *(_USUAL * root for root in roots)]
+        thick = {each.link: each.outer for each in self._members(order, 0.0, stud)}  # what pipes add
+        found += [2 * root - thick[each.link] for each, root in zip(order, roots, strict=True)]
+        return max(_LEAST, round(min(found), 2))
+
+    def _root(self, link: str) -> float:
+        """The smallest root radius on a link."""
+        return min((disc.root for disc in self.discs if disc.link == link and disc.hub and disc.root), default=9.0)
+
+    def _members(self, order: Sequence[CoaxialLink], core: float, stud: bool) -> Iterator[ColumnMember]:
+        found: list[ColumnMember] = []
+        for at, each in enumerate(order):
+            own = tuple(disc for disc in self.discs if disc.link == each.link and disc.hub)
+            low, high = each.low - OVER, each.high + OVER
+            if not at and not stud:
+                found.append(ColumnMember(each.link, low, high, 0.0, core, own, each.fixed))
+                continue
+            # the first is the core, and goes through all
+            under = [other.outer for k, other in enumerate(found) if (not k and not stud) or _overlap(other, low, high)]
+            inner = round(max([core, *under]) + self.process.running, 3)
+            outer = round(inner + 2 * self.process.wall, 3)
+            found.append(ColumnMember(each.link, low, high, inner, outer, own, each.fixed))
+        yield from found
+
+
+def _overlap(member: ColumnMember, low: float, high: float) -> bool:
+    return member.low < high and low < member.high
+
+
+def _hits(column: AxisColumn, others: Iterable[StackDisc]) -> Iterator[tuple[StackDisc, float]]:
+    """Discs of other axes at heights of the column that leave too little room."""
+    for disc in others:
+        if disc.axis != column.axis and (radius := column.radius(disc.low, disc.high)):
+            room = disc.room_for(column.at, radius)
+            if room < APART:
+                yield disc, room

@@ -1,0 +1,110 @@
+"""What carriers and turning rings need beside their wheels: a plate with studs, or a wheel that is one; a disc."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import dist
+
+from geartrain.scene.parts.arbor_columns import AxisColumn, ColumnProblem, FramePlaces
+from geartrain.scene.parts.processes import Process
+from geartrain.scene.parts.stack_discs import Point, StackDisc
+
+BOSS = 2.0  # mm of plate round a stud, at least
+_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm in a gap: carriers are nearest to what they carry, then discs of rings
+_WIDEST = 3.0  # mm: a stud's radius, reckoned with before it is known
+
+
+@dataclass(frozen=True, slots=True)
+class TurningPlate:
+    """A plate to be put into a gap of the stack: where it turns, and what it bears.
+
+    disc    as what it sweeps; its height is that of its gap
+    spots   axes that it bears (carrier), or none (disc of a ring)
+    ring    the ring wheel that it holds
+    """
+
+    disc: StackDisc
+    spots: tuple[str, ...] = ()
+    ring: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CarrierSeat:
+    """A way to bear the axes that a link carries: on one of its wheels, or on a plate of its own."""
+
+    link: str
+    seat: str
+    plates: tuple[TurningPlate, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedAxis:
+    """An axis that a link carries round."""
+
+    label: str
+    carrier: str
+    at: Point
+    discs: tuple[StackDisc, ...]
+
+
+def carrier_seats(
+    link: str,
+    axis: str,
+    at: Point,
+    carried: Sequence[CarriedAxis],
+    own: Sequence[StackDisc],
+    slab_gaps: Sequence[float],
+) -> list[CarrierSeat]:
+    """Ways to bear the carried axes, those on a wheel first."""
+    reach = max(dist(at, each.at) for each in carried) + BOSS
+    fit = (disc for disc in own if disc.hub and disc.root > reach + _WIDEST / 2)
+    found = [CarrierSeat(link, disc.name, ()) for disc in fit]
+    discs = [disc for each in carried for disc in each.discs]
+    low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
+    spots = tuple(each.label for each in carried)
+    for height in (_gap(slab_gaps, low, -1) + _NEAR, _gap(slab_gaps, high, 1) - _NEAR):
+        name = f"{link} carrier plate"
+        disc = StackDisc(name, link, axis, at, height - _THIN, height + _THIN, reach + _WIDEST)
+        found.append(CarrierSeat(link, name, (TurningPlate(disc, spots),)))
+    return found
+
+
+def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
+    """Discs that hold a turning ring, behind it or before it."""
+    found = []
+    for height in (_gap(slab_gaps, ring.high, 1) - _FAR, _gap(slab_gaps, ring.low, -1) + _FAR):
+        name = f"{ring.name} disc"
+        disc = replace(
+            ring, name=name, low=height - _THIN, high=height + _THIN, outer=rim, inner=0.0, root=rim, hub=True
+        )
+        found.append(CarrierSeat(ring.link, name, (TurningPlate(disc, (), ring.name),)))
+    return found
+
+
+def _gap(slab_gaps: Sequence[float], face: float, side: int) -> float:
+    """The gap nearest to a face on one side of it."""
+    return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
+
+
+def carried_column(
+    axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc], process: Process, core: float | None
+) -> AxisColumn:
+    """What stands on a carried axis, seen from its carrier; the first way, as there is but one plate."""
+    others = tuple(_seen_from(axis.carrier, seat.at, disc) for disc in discs if disc.name != seat.name)
+    ends: Mapping[str, tuple[bool, bool]] = {}
+    faces = seat.low, seat.high
+    problem = ColumnProblem(axis.label, axis.at, axis.discs, others, ends, faces, "", process, core)
+    return problem.columns(FramePlaces(faces, faces))[0]
+
+
+def _seen_from(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
+    """A disc as one who turns with a carrier sees it: what the carrier bears stands, all else goes round."""
+    still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
+    return replace(disc, carrier=None if still else middle)
+
+
+def carried_discs(carried: Mapping[str, CarriedAxis]) -> Iterator[StackDisc]:
+    """All of them."""
+    for each in carried.values():
+        yield from each.discs

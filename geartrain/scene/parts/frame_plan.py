@@ -1,0 +1,240 @@
+"""Plates, pillars, arbors, pipes and studs of a train: chosen, placed, and given room in the stack."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.numerics.vectors import Vector, plus, scaled
+from geartrain.scene.parts.arbor_columns import APART, INTEGRAL, AxisColumn, ColumnMember, ColumnProblem, FramePlaces
+from geartrain.scene.parts.carried_axes import (
+    CarriedAxis,
+    CarrierSeat,
+    TurningPlate,
+    carried_column,
+    carrier_seats,
+    ring_seats,
+)
+from geartrain.scene.parts.frame_stack import FrameStack
+from geartrain.scene.parts.plate_places import PlateChoice, best_column, plate_choices, with_discs
+from geartrain.scene.parts.processes import Process
+from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
+from geartrain.scene.parts.stack_heights import StackHeights, stack_up
+
+if TYPE_CHECKING:
+    from geartrain.scene.layout import Layout
+
+_DIAL = 6.0  # mm that an arbor stands out towards a dial
+
+
+@dataclass(frozen=True)
+class FramePlan:
+    """Where all parts of a mechanism stand, heights along the plates' normal; lengths in mm.
+
+    stack       wheels as laid out
+    thickness   of plates
+    core        diameter of all arbors, if it is given
+    ends        link -> whether it goes out to a dial below and above the stack
+    """
+
+    stack: FrameStack
+    process: Process
+    thickness: float
+    core: float | None
+    ends: Mapping[str, tuple[bool, bool]]
+
+    # --------------------------------------------------------------------------------------------------- as laid out
+
+    @cached_property
+    def _slabs(self) -> list[tuple[float, float]]:
+        return slabs(self.stack.discs, list(self.stack.tied.values()))
+
+    @cached_property
+    def _gaps(self) -> list[float]:
+        return gaps(self._slabs)
+
+    @cached_property
+    def choice(self) -> PlateChoice:
+        """Places of plates with the fewest obstacles, then the fewest studs."""
+        asked = list(self._axes(self.stack.discs, self._slabs)), self.stack.discs, list(self._seats()), self._gaps
+        best = min(plate_choices(*asked), key=lambda choice: choice.cost)
+        if not best.cost[0]:
+            return best
+        return min([best, *plate_choices(*asked, inside=True)], key=lambda choice: choice.cost)
+
+    def _axes(self, discs: Sequence[StackDisc], taken: Sequence[tuple[float, float]]) -> Iterator[ColumnProblem]:
+        span = taken[0][0] - _DIAL, taken[-1][1] + _DIAL
+        for label, axis in self.stack.axes.items():
+            if any(disc.axis == label for disc in self.stack.discs):
+                problem = ColumnProblem(
+                    label,
+                    self.stack.flat(axis.point),
+                    (),
+                    (),
+                    self.ends,
+                    span,
+                    self.stack.frame,
+                    self.process,
+                    self.core,
+                )
+                yield with_discs(problem, discs)
+
+    def _seats(self) -> Iterator[list[CarrierSeat]]:
+        """Ways to seat each carrier and each ring that turns."""
+        by_carrier: dict[str, list[CarriedAxis]] = {}
+        for each in self.stack.carried.values():
+            by_carrier.setdefault(each.carrier, []).append(each)
+        for link, carried in by_carrier.items():
+            axis = self.stack.train.tree.axis(link) or ""
+            own = [disc for disc in self.stack.discs if disc.link == link]
+            at = self.stack.flat(self.stack.axes[axis].point)
+            ways = carrier_seats(link, axis, at, carried, own, self._gaps)
+            bad = {way: self._carried_cost(way, carried) for way in ways}
+            yield [way for way in ways if bad[way] == min(bad.values())]
+        for disc in self.stack.discs:
+            if not disc.hub and disc.link != self.stack.frame and disc.carrier is None:
+                yield ring_seats(disc, disc.outer, self._gaps)
+
+    def _carried_cost(self, way: CarrierSeat, carried: Sequence[CarriedAxis]) -> int:
+        """Obstacles on the axes that a carrier bears."""
+        every = [*self.stack.discs, *(plate.disc for plate in way.plates)]
+        seat = next(disc for disc in every if disc.name == way.seat)
+        columns = (carried_column(each, seat, every, self.process, self.core) for each in carried)
+        return sum(len(column.hit) + bool(column.tangled) for column in columns)
+
+    # ------------------------------------------------------------------------------------------------------ as built
+
+    @cached_property
+    def turning(self) -> tuple[TurningPlate, ...]:
+        """Plates of carriers and discs of rings, at heights as laid out."""
+        return tuple(plate for seat in self.choice.seats for plate in seat.plates)
+
+    @cached_property
+    def heights(self) -> StackHeights:
+        """Heights with all plates in."""
+        return stack_up(self._slabs, self.choice.places, self.turning, self.thickness)
+
+    @property
+    def places(self) -> FramePlaces:
+        """Faces of both plates."""
+        return self.heights.places
+
+    @cached_property
+    def discs(self) -> tuple[StackDisc, ...]:
+        """Wheels and turning plates where they stand."""
+        found = []
+        for disc in self.stack.discs:
+            rise = self.heights.shift(disc.middle)
+            found.append(replace(disc, low=disc.low + rise, high=disc.high + rise))
+        for plate in self.turning:
+            low, high = self.heights.plates[plate.disc.name]
+            found.append(replace(plate.disc, low=low, high=high))
+        return tuple(found)
+
+    @cached_property
+    def columns(self) -> tuple[AxisColumn, ...]:
+        """What stands on each axis of the frame."""
+        taken = slabs([*self.discs], [self.places.back, self.places.front])
+        return tuple(best_column(axis.columns(self.places)) for axis in self._axes(self.discs, taken))
+
+    @cached_property
+    def carried(self) -> dict[str, AxisColumn]:
+        """What stands on each axis that is carried round."""
+        named = {disc.name: disc for disc in self.discs}
+        found = {}
+        for label, each in self.stack.carried.items():
+            own = tuple(named[disc.name] for disc in each.discs)
+            seat = named[self.seat_of(each.carrier)]
+            found[label] = carried_column(replace(each, discs=own), seat, self.discs, self.process, self.core)
+        return found
+
+    def seat_of(self, carrier: str) -> str:
+        """The wheel or the plate on which a carrier bears its axes."""
+        return next(seat.seat for seat in self.choice.seats if seat.link == carrier and not _holds_ring(seat))
+
+    @cached_property
+    def all_columns(self) -> tuple[AxisColumn, ...]:
+        """Those of the frame, then those of carriers."""
+        return *self.columns, *self.carried.values()
+
+    @cached_property
+    def members(self) -> dict[str, ColumnMember]:
+        """The arbor or pipe of each wheel, and of each plate that turns."""
+        return {disc.name: each for column in self.all_columns for each in column.members for disc in each.discs}
+
+    @cached_property
+    def cut(self) -> frozenset[str]:
+        """Pinions with too little between roots and arbor: they are cut from the arbor's own piece."""
+        wheels = self.stack.layout.wheels
+        return frozenset(
+            disc.name
+            for disc in self.discs
+            if disc.name in wheels
+            and disc.name in self.members
+            and disc.root < self.members[disc.name].outer / 2 + INTEGRAL * wheels[disc.name].module
+        )
+
+    @cached_property
+    def bores(self) -> dict[str, float]:
+        """Diameter of the hole of each wheel and plate that turns; 0: it is one piece with its arbor."""
+        found = {}
+        for name, member in self.members.items():
+            found[name] = member.inner if name in self.cut else member.outer + self.process.press
+        return found
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The layout with wheels moved along the plates' normal, those of axes across with their mates."""
+        normal, old = self.stack.normal, self.stack.layout
+        assert normal is not None
+        rise = {disc.name: self.heights.shift(disc.middle) for disc in self.stack.discs}
+        across = {label: self.heights.shift(sum(ends) / 2) for label, ends in self.stack.tied.items()}
+        wheels = {
+            name: replace(place, centre=_moved(place.centre, normal, rise.get(name, across.get(place.axis, 0.0))))
+            for name, place in old.wheels.items()
+        }
+        axes = {
+            label: replace(axis, point=_moved(axis.point, normal, across.get(label, 0.0)))
+            for label, axis in old.axes.items()
+        }
+        return replace(old, wheels=wheels, axes=axes)
+
+    @cached_property
+    def notices(self) -> tuple[Problem, ...]:
+        """What cannot be made as it is laid out."""
+        return tuple(self._problems())
+
+    def _problems(self) -> Iterator[Problem]:
+        yield from self.stack.left_out()
+        for column in self.all_columns:
+            if column.tangled:
+                one, other = column.tangled
+                why = f"each has a wheel between two of the other, on axis '{column.axis}'"
+                fix = "give them places (`layer`) one after the other, or an axis each"
+                yield Problem(f"arbors '{one}' and '{other}' cannot run in each other", why, fix)
+            for disc, room in column.hit:
+                who = f"arbor on axis '{column.axis}'"
+                what = f"the {who} {'passes through' if room < 0 else 'has no room beside'} '{disc.name}'"
+                why = f"the gap is {room:.3f} mm where {APART:g} mm is asked for"
+                yield Problem(what, why, "move the axis, change the order of the wheels, or give a thinner --bore")
+        yield from self._thin_roots()
+
+    def _thin_roots(self) -> Iterator[Problem]:
+        for name, member in self.members.items():
+            place = self.stack.layout.wheels.get(name)
+            root = next(disc.root for disc in member.discs if disc.name == name)
+            if place is not None and root < member.outer / 2 - 1e-9:
+                what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
+                why = f"its roots stand at {root:.3f} mm, the {member.outer:g} mm of '{member.link}' go on beside it"
+                yield Problem(what, why, "give a thinner --bore, or a larger module")
+
+
+def _holds_ring(seat: CarrierSeat) -> bool:
+    return any(plate.ring for plate in seat.plates)
+
+
+def _moved(point: Vector, normal: Vector, by: float) -> Vector:
+    return plus(point, scaled(normal, by)) if by else point

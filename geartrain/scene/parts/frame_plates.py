@@ -1,0 +1,273 @@
+"""Outlines of plates: those of the frame with pillars between them, those that turn, and posts that hold rings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import cos, dist, pi, sin
+
+import numpy as np
+
+from geartrain.errors import Problem
+from geartrain.scene.parts.arbor_columns import AxisColumn, Bearing, ColumnMember, FramePlaces
+from geartrain.scene.parts.frame_plan import FramePlan
+from geartrain.scene.parts.pillar_places import clear_of, pillar_places
+from geartrain.scene.parts.stack_discs import Point, StackDisc
+from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses, pivot
+from geartrain.scene.solids.bearing_plates import around
+from geartrain.teeth.outlines.contour import Contour
+
+PILLAR = 4.0  # mm: radius of a pillar
+_TENON = 0.6  # of the radius of a pillar or a post: what stands in a plate
+_LAND = 3.0  # mm of plate round a hole
+_POSTS, _TRIED = 3, 72
+_POST_WIDEST = 2.0  # mm: radius of a post
+_RIM_PART = 0.3  # of a ring's rim: the radius of what goes through it
+_BLADE = 0.05  # mm: holes nearer to each other are one
+
+
+@dataclass(frozen=True, slots=True)
+class Hole:
+    """A round hole: what it is for, its middle across the stack, its diameter (mm)."""
+
+    name: str
+    at: Point
+    diameter: float
+
+
+@dataclass(frozen=True, slots=True)
+class FlatPlate:
+    """A plate across the stack.
+
+    Attributes
+    ----------
+    link, name : str
+        The link it belongs to and its name.
+    outline : Contour
+        Its edge, in the coordinates of the stack [mm].
+    holes : tuple of Hole
+        All of them.
+    low, high : float
+        Its faces along the normal [mm].
+    at : tuple of float
+        What its own coordinates are counted from [mm].
+    """
+
+    link: str
+    name: str
+    outline: Contour
+    holes: tuple[Hole, ...]
+    low: float
+    high: float
+    at: Point = (0.0, 0.0)
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """Its edge and its holes, counted from `at`."""
+        x, y = self.at
+        edge = Contour(self.outline.points - np.array(self.at), self.outline.bulges)
+        circles = (Contour.circle(each.diameter / 2, (each.at[0] - x, each.at[1] - y)) for each in self.holes)
+        return edge, *circles
+
+
+@dataclass(frozen=True)
+class FramePlates:
+    """Plates, pillars and posts of a plan."""
+
+    plan: FramePlan
+
+    @cached_property
+    def circles(self) -> list[tuple[Point, float]]:
+        """What turns between the plates, as circles that hold it wherever it is carried."""
+        low, high = self.plan.places.back[0], self.plan.places.front[1]
+        return [_swept(disc) for disc in self.plan.discs if low < disc.middle < high]
+
+    @cached_property
+    def pillars(self) -> list[Point]:
+        """Middles of the pillars."""
+        return pillar_places([column.at for column in self.plan.columns], self.circles, PILLAR)
+
+    def plates(self) -> Iterator[FlatPlate]:
+        """Both plates of the frame, then those that turn."""
+        for side, faces in self.sides.items():
+            holes = tuple(self._frame_holes(faces))
+            points = [*self.pillars, *(hole.at for hole in holes)]
+            edge = around(points, PILLAR + _LAND)
+            yield FlatPlate(self.plan.stack.frame, f"{self.plan.stack.frame} {side} plate", edge, holes, *faces)
+        for plate in self.plan.turning:
+            low, high = self.plan.heights.plates[plate.disc.name]
+            holes = (*self._hub(plate.disc.name), *self.seat_holes(plate.disc.name))
+            points, most = [hole.at for hole in holes], max(hole.diameter for hole in holes)
+            edge = (
+                Contour.circle(plate.disc.outer, plate.disc.at) if plate.ring else around(points, most / 2 + _LAND - 1)
+            )
+            yield FlatPlate(plate.disc.link, plate.disc.name, edge, holes, low, high, plate.disc.at)
+
+    @cached_property
+    def sides(self) -> Mapping[str, tuple[float, float]]:
+        """Faces of the plates by their names: before the front plate are the dials, or the reader."""
+        places, outside = self.plan.places, self.plan.choice.outside or self.plan.stack.layout.front
+        names = ("back", "front") if outside > 0 else ("front", "back")
+        return dict(zip(names, (places.back, places.front), strict=True))
+
+    def _frame_holes(self, faces: tuple[float, float]) -> Iterator[Hole]:
+        press = self.plan.process.press
+        for at in self.pillars:
+            yield Hole("pillar", at, 2 * _TENON * PILLAR + press)
+        for post in self.posts:
+            if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]:
+                yield Hole("post", post.at, 2 * post.bands[0].radius + press)
+        bearings = (self._bearing(column, faces) for column in self.plan.columns)
+        yield from self._apart((hole for hole in bearings if hole), ())
+
+    def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
+        """The hole in which an axis is borne, or through which it passes."""
+        process = self.plan.process
+        passing = [each for each in column.members if crosses(each, faces) or (each.fixed and _enters(each, faces))]
+        if passing:
+            widest = max(passing, key=lambda each: each.outer)
+            return Hole(column.axis, column.at, widest.outer + (process.press if widest.fixed else process.running))
+        if column.bearing is Bearing.THROUGH:
+            turns = bool(column.members) and not column.members[0].inner
+            return Hole(column.axis, column.at, pivot(column) + process.running) if turns else None
+        own = self.plan.places.back if column.bearing is Bearing.BACK_STUD else self.plan.places.front
+        return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
+
+    def seat_holes(self, seat: str) -> list[Hole]:
+        """Holes in a wheel or a plate beside its hub: for studs of the axes that it bears, and for posts."""
+        return self._apart(self._seat_holes(seat), self._hub(seat))
+
+    def _hub(self, seat: str) -> list[Hole]:
+        member = self.plan.members.get(seat)
+        at = (disc.at for disc in self.plan.discs if disc.name == seat)
+        return [] if member is None else [Hole("hub", next(at), self.plan.bores[seat])]
+
+    def _apart(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
+        """Those that run into none before them."""
+        found: list[Hole] = []
+        for hole in holes:
+            if not any(_meet(hole, other) for other in (*taken, *found)):
+                found.append(hole)
+        return found
+
+    def _seat_holes(self, seat: str) -> Iterator[Hole]:
+        process = self.plan.process
+        for label, column in self.plan.carried.items():
+            if self.plan.seat_of(self.plan.stack.carried[label].carrier) == seat:
+                loose = column.bearing is Bearing.THROUGH
+                yield Hole(label, column.at, column.core + (process.running if loose else process.press))
+        for post in self.posts:
+            if seat in post.through:
+                yield Hole("post", post.at, 2 * post.bands[0].radius + process.press)
+
+    # ---------------------------------------------------------------------------------------------- pillars and posts
+
+    def turned(self) -> Iterator[TurnedPart]:
+        """What stands on every axis, pillars between the plates, and posts of rings."""
+        plan = self.plan
+        for column in plan.columns:
+            yield from column_parts(column, plan.places, plan.stack.frame, plan.process, plan.cut)
+        for label, column in plan.carried.items():
+            carrier = plan.stack.carried[label].carrier
+            seat = next(disc for disc in plan.discs if disc.name == plan.seat_of(carrier))
+            faces = FramePlaces((seat.low, seat.high), (seat.low, seat.high))
+            yield from column_parts(column, faces, carrier, plan.process, plan.cut)
+        back, front = self.plan.places.back, self.plan.places.front
+        thin = _TENON * PILLAR
+        for number, at in enumerate(self.pillars, 1):
+            bands = Band(*back, thin), Band(back[1], front[0], PILLAR), Band(*front, thin)
+            joint = f"in both plates, {self.plan.process.joint}"
+            yield TurnedPart(self.plan.stack.frame, f"pillar {number}", "pillar", at, bands, joint)
+        yield from self.posts
+
+    @cached_property
+    def posts(self) -> tuple[TurnedPart, ...]:
+        """Posts that hold rings: in a plate of the frame, or in the disc of a ring that turns."""
+        found: list[TurnedPart] = []
+        discs = {plate.ring: plate.disc.name for plate in self.plan.turning if plate.ring}
+        for disc in self.plan.discs:
+            if disc.hub:
+                continue
+            if disc.link == self.plan.stack.frame:
+                faces = min(
+                    (self.plan.places.back, self.plan.places.front), key=lambda each: abs(sum(each) / 2 - disc.middle)
+                )
+                found += self._posts(disc, faces, (disc.name,), free=True)
+            elif disc.name in discs:
+                faces = self.plan.heights.plates[discs[disc.name]]
+                found += self._posts(disc, faces, (disc.name, discs[disc.name]), free=False)
+        return tuple(found)
+
+    def _posts(
+        self, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...], free: bool
+    ) -> Iterator[TurnedPart]:
+        blank = self.plan.stack.blanks[ring.name]
+        wide = ring.outer - blank.root_radius
+        radius = min(_RIM_PART * wide, _POST_WIDEST)
+        away = (ring.outer + blank.root_radius) / 2
+        spots = self._spots(ring, plate, away, radius) if free else _evenly(ring.at, away, 2 * _POSTS)
+        low, high = min(plate[0], ring.low), max(plate[1], ring.high)
+        inner = (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
+        for number, at in enumerate(spots, 1):
+            bands = Band(low, inner[0], radius * _TENON), Band(*inner, radius), Band(inner[1], high, radius * _TENON)
+            yield TurnedPart(
+                ring.link, f"{ring.name} post {number}", "post", at, bands, self.plan.process.joint, through
+            )
+
+    def _spots(self, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
+        """Three places on a rim that nothing between it and the plate comes near to, evenly where that is free."""
+        low, high = sorted((sum(plate) / 2, ring.middle))
+        between = [disc for disc in self.plan.discs if low < disc.middle < high and disc.name != ring.name]
+        circles = [_swept(disc) for disc in between]
+        tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+        return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
+
+    def problems(self) -> Iterator[Problem]:
+        """Holes that run into each other, and posts in the way of wheels."""
+        for side, faces in self.sides.items():
+            bearings = [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
+            yield from self._lost(f"the {side} plate", bearings, [])
+        for seat in self.plan.choice.seats:
+            yield from self._lost(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
+        yield from self._blocked_posts()
+
+    def _lost(self, where: str, holes: Sequence[Hole], taken: Sequence[Hole]) -> Iterator[Problem]:
+        kept = self._apart(holes, taken)
+        for hole in holes:
+            if hole not in kept:
+                other = next(each for each in (*taken, *kept) if _meet(hole, each))
+                what = f"{where} has no hole for axis '{hole.name}'"
+                why = f"that of '{other.name}', {dist(hole.at, other.at):.3g} mm away, takes its place"
+                yield Problem(what, why, "give a thinner --bore, or turn one stud with a step that bears both")
+
+    def _blocked_posts(self) -> Iterator[Problem]:
+        low, high = self.plan.places.back[0], self.plan.places.front[1]
+        for post in self.posts:
+            inside = [disc for disc in self.plan.discs if post.ends[0] < disc.low and disc.high < post.ends[1]]
+            for disc in (each for each in inside if low < each.middle < high and each.hub):
+                if (
+                    post.link == self.plan.stack.frame
+                    and (room := clear_of(post.at, [_swept(disc)]) - post.diameter / 2) < 0
+                ):
+                    what = f"{post.name} has no way past '{disc.name}'"
+                    yield Problem(what, f"they overlap by {-room:.3f} mm", "hold the ring by a bracket from its side")
+
+
+def _swept(disc: StackDisc) -> tuple[Point, float]:
+    if disc.carrier is None:
+        return disc.at, disc.outer
+    return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
+
+
+def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:
+    return member.low < sum(faces) / 2 < member.high
+
+
+def _meet(one: Hole, other: Hole) -> bool:
+    return dist(one.at, other.at) < (one.diameter + other.diameter) / 2 + _BLADE
+
+
+def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:
+    turns: Sequence[float] = [start + 2 * pi * k / count for k in range(count)]
+    return [(at[0] + away * cos(turn), at[1] + away * sin(turn)) for turn in turns]

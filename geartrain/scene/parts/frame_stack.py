@@ -1,0 +1,165 @@
+"""What a frame and its carriers bear: axes that stand at right angles to the plates, with their wheels as discs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem
+from geartrain.numerics.vectors import Vector, dot
+from geartrain.scene.parts.carried_axes import CarriedAxis
+from geartrain.scene.parts.stack_discs import Point, StackDisc
+from geartrain.scene.solids.bearing_plates import basis
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.layout import AxisPlace, Layout
+    from geartrain.scene.solids.wheel_blanks import Blank
+
+_PARALLEL = 1e-9  # of a cosine
+_STANDARD = 1.25  # modules: depth of teeth that are not cut flat
+
+
+@dataclass(frozen=True)
+class FrameStack:
+    """A train as placed, seen from above its plates."""
+
+    train: GearTrain
+    layout: Layout
+    blanks: Mapping[str, Blank]
+
+    @property
+    def frame(self) -> str:
+        """The link that stands still."""
+        return self.train.declaration.frame
+
+    @cached_property
+    def normal(self) -> Vector | None:
+        """The direction of most wheels that the frame bears; None if it bears no axis."""
+        count: Counter[Vector] = Counter()
+        for place in self.layout.wheels.values():
+            axis = self.layout.axes[place.axis]
+            if axis.carrier == self.frame:
+                count[_upwards(axis.direction)] += 1
+        return count.most_common(1)[0][0] if count else None
+
+    @cached_property
+    def turn(self) -> Floats:
+        """The stack's right, up and normal as columns."""
+        assert self.normal is not None
+        return np.column_stack([*basis(self.normal), self.normal])
+
+    def in_space(self, at: Point, height: float = 0.0) -> Vector:
+        """A point of the stack where it stands."""
+        x, y, z = (self.turn @ np.array([*at, height])).tolist()
+        return x, y, z
+
+    @cached_property
+    def axes(self) -> dict[str, AxisPlace]:
+        """Axes of the frame at right angles to its plates."""
+        return {
+            label: axis
+            for label, axis in self.layout.axes.items()
+            if axis.carrier == self.frame and self.is_upright(axis)
+        }
+
+    def is_upright(self, axis: AxisPlace) -> bool:
+        """True for an axis at right angles to the plates."""
+        return self.normal is not None and abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
+
+    def flat(self, point: Vector) -> Point:
+        """A point seen against the normal."""
+        assert self.normal is not None
+        right, up = basis(self.normal)
+        return dot(point, right), dot(point, up)
+
+    @cached_property
+    def carried(self) -> dict[str, CarriedAxis]:
+        """Axes that a carrier on an axis of the frame bears."""
+        return {
+            label: CarriedAxis(
+                label, axis.carrier, self.flat(axis.point), tuple(disc for disc in self.discs if disc.axis == label)
+            )
+            for label, axis in self.layout.axes.items()
+            if self._carrier_axis(axis) and any(disc.axis == label for disc in self.discs)
+        }
+
+    def _carrier_axis(self, axis: AxisPlace) -> str | None:
+        """The axis of the frame about which an upright axis is carried round."""
+        own = None if axis.carrier == self.frame or not self.is_upright(axis) else self.train.tree.axis(axis.carrier)
+        return own if own in self.axes else None
+
+    @cached_property
+    def discs(self) -> tuple[StackDisc, ...]:
+        """Wheels on axes of the frame, and on those that its carriers bear."""
+        return tuple(self._discs())
+
+    def _discs(self) -> Iterator[StackDisc]:
+        assert self.normal is not None
+        for name, place in self.layout.wheels.items():
+            axis = self.layout.axes[place.axis]
+            about = None if place.axis in self.axes else self._carrier_axis(axis)
+            if place.axis not in self.axes and about is None:
+                continue
+            blank, height = self.blanks.get(name), dot(place.centre, self.normal)
+            outer = blank.tip_radius if blank else place.radius + place.module
+            root = blank.root_radius if blank else place.radius - _STANDARD * place.module
+            ring = blank is not None and blank.kind == "ring"
+            inner = blank.tip_radius if blank is not None and ring else 0.0
+            yield StackDisc(
+                name,
+                place.link,
+                place.axis,
+                self.flat(place.centre),
+                height - place.thickness / 2,
+                height + place.thickness / 2,
+                rim(blank) if blank is not None and ring else max(outer, root),
+                inner,
+                min(root, outer),
+                not ring,
+                None if about is None else self.flat(self.layout.axes[about].point),
+            )
+
+    @cached_property
+    def tied(self) -> dict[str, tuple[float, float]]:
+        """Heights, by axis at an angle to the plates, between which no plate may go: its mates keep their places."""
+        heights: dict[str, list[float]] = {}
+        upright = {disc.name: disc for disc in self.discs}
+        for gear in self.train.declaration.gears:
+            for one, other in (gear.pair, gear.pair[::-1]):
+                if one in upright and other not in upright and other in self.layout.wheels:
+                    found = heights.setdefault(self.layout.wheels[other].axis, [])
+                    found += [upright[one].low, upright[one].high]
+        return {label: (min(each), max(each)) for label, each in heights.items()}
+
+    def left_out(self) -> Iterator[Problem]:
+        """Axes for which no bearings are made."""
+        for label, axis in self.layout.axes.items():
+            used = any(place.axis == label for place in self.layout.wheels.values())
+            if used and label not in self.axes and label not in self.carried:
+                upright = self.is_upright(axis)
+                why = (
+                    f"'{axis.carrier}', which bears it, is itself carried round"
+                    if upright
+                    else "it does not stand at right angles to the plates"
+                )
+                what = f"axis '{label}' has no bearings"
+                yield Problem(what, why, f"bear it in a bracket on '{axis.carrier}', made by hand")
+
+
+def rim(blank: Blank) -> float:
+    """Radius of a ring's outside (mm)."""
+    return float(abs(blank.contours[0].points).max())
+
+
+def _upwards(direction: Vector) -> Vector:
+    """One of both senses of a direction: rounded, its last part that is not 0 above it."""
+    x, y, z = (round(each, 12) + 0.0 for each in direction)
+    last = next((each for each in (z, y, x) if each), 1.0)
+    return (x, y, z) if last > 0 else (0.0 - x, 0.0 - y, 0.0 - z)

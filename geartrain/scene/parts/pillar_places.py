@@ -1,0 +1,78 @@
+"""Where pillars stand: outside all that turns between the plates, and round all axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+from math import cos, pi, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.scene.parts.stack_discs import Point
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+_WAYS = 24  # directions from the middle of the axes in which a pillar is tried
+_STEP = 0.25  # mm
+_GAP = 1.0  # mm between a pillar and a tip circle
+_HOLE = 4.0  # mm of plate between a pillar and the middle of a pivot's hole
+_FEWEST, _MOST = 3, 5
+
+
+def pillar_places(axes: Sequence[Point], circles: Sequence[tuple[Point, float]], radius: float) -> list[Point]:
+    """Four places, three or more if four do not do, whose polygon holds all axes and has the least outline (mm).
+
+    In each direction from the middle of the axes the nearest place that is free from there on outwards is taken.
+    """
+    points = np.array(axes, dtype=float)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    blocked = [(np.array(at), reach + radius + _GAP) for at, reach in circles]
+    blocked += [(each, radius + _HOLE) for each in points]
+    tried = np.array([_free(middle, 2 * pi * (k + 0.5) / _WAYS, blocked) for k in range(_WAYS)])
+    for count in (4, _FEWEST, _MOST):
+        if (found := _around(tried, points, count)) is not None:
+            return [(float(x), float(y)) for x, y in found]
+    return [(float(x), float(y)) for x, y in _far_apart(tried, middle)]
+
+
+def _far_apart(tried: Floats, middle: Floats) -> Floats:
+    """The place farthest from the middle, then always the one farthest from those taken."""
+    taken = [int(np.argmax(np.hypot(*(tried - middle).T)))]
+    while len(taken) < _MOST:
+        away = np.hypot(*(tried[:, None, :] - tried[None, taken, :]).transpose(2, 0, 1)).min(axis=1)
+        taken.append(int(np.argmax(away)))
+    return tried[taken]
+
+
+def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
+    """The end of the last circle that a ray meets."""
+    along = np.array([cos(angle), sin(angle)])
+    far = 0.0
+    for centre, reach in blocked:
+        away = centre - middle
+        near, aside = float(away @ along), float(away[0] * along[1] - away[1] * along[0])
+        if abs(aside) < reach:
+            far = max(far, near + float(np.sqrt(reach**2 - aside**2)))
+    return np.asarray(middle + (far + _STEP) * along)
+
+
+def _around(tried: Floats, axes: Floats, count: int) -> Floats | None:
+    """The shortest polygon of so many of the places that has all axes inside."""
+    best, least = None, np.inf
+    steps = tried[None, :, :] - tried[:, None, :]
+    cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
+    cross = cross - steps[:, :, None, 1] * (axes[None, None, :, 0] - tried[:, None, None, 0])
+    left = np.all(cross > 0, axis=2)  # of the edge from one place to another
+    length = np.hypot(steps[..., 0], steps[..., 1])
+    for chosen in combinations(range(len(tried)), count):
+        edges = list(zip(chosen, (*chosen[1:], chosen[0]), strict=True))
+        if all(left[a, b] for a, b in edges) and (whole := sum(float(length[a, b]) for a, b in edges)) < least:
+            best, least = tried[list(chosen)], whole
+    return best
+
+
+def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
+    """Least distance (mm) of a point from some circles, below 0 inside one."""
+    return min((float(np.hypot(at[0] - x, at[1] - y)) - reach for (x, y), reach in circles), default=np.inf)

@@ -1,0 +1,78 @@
+"""Between which wheels the two plates stand, and where carriers have theirs.
+
+Every gap between levels is tried: for each axis the best way to bear it is taken, and what is in its way is counted.
+Of the places with the fewest obstacles the one with the fewest studs and arbors that pass a plate wins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice, product
+
+from geartrain.scene.parts.arbor_columns import AxisColumn, ColumnProblem, FramePlaces
+from geartrain.scene.parts.carried_axes import CarrierSeat
+from geartrain.scene.parts.stack_discs import StackDisc
+
+_TRIED = 64  # ways to place plates of carriers
+_INSIDE, _OUTSIDE, _PASSING = 3.0, 1.5, 1.1  # costs: a stud between the plates, one beyond them, an arbor through one
+
+
+@dataclass(frozen=True, slots=True)
+class PlateChoice:
+    """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis.
+
+    outside   1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not
+    """
+
+    places: FramePlaces
+    seats: tuple[CarrierSeat, ...]
+    columns: tuple[AxisColumn, ...]
+    outside: int
+
+    @property
+    def cost(self) -> tuple[int, float]:
+        """Obstacles, then studs and arbors that pass."""
+        bad = sum(len(each.hit) + bool(each.tangled) for each in self.columns)
+        return bad, sum(self._effort(each) for each in self.columns)
+
+    def _effort(self, column: AxisColumn) -> float:
+        passing = [plate for plate in (self.places.back, self.places.front) if column.passes(plate)]
+        if column.is_stud:
+            inside = any(self.places.back[1] < each.high and each.low < self.places.front[0] for each in column.members)
+            return _INSIDE if inside else _OUTSIDE
+        return _PASSING * len(passing)
+
+
+def plate_choices(
+    axes: Sequence[ColumnProblem],
+    discs: Sequence[StackDisc],
+    seats: Sequence[Sequence[CarrierSeat]],
+    slab_gaps: Sequence[float],
+    inside: bool = False,
+) -> Iterator[PlateChoice]:
+    """Places of the plates with every way to seat carriers: one plate at an end of the stack, or both `inside` it."""
+    count = len(slab_gaps)
+    pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
+    for chosen in islice(product(*seats), _TRIED):
+        every = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
+        problems = [with_discs(axis, every) for axis in axes]
+        for low, high in pairs:
+            if (low > 0 and high < count - 1) != inside:
+                continue
+            places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
+            columns = tuple(best_column(problem.columns(places)) for problem in problems)
+            outside = (high < count - 1) - (low > 0)
+            yield PlateChoice(places, chosen, columns, outside)
+
+
+def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:
+    """The same axis in another stack."""
+    own = [disc for disc in discs if disc.axis == axis.axis]
+    others = [disc for disc in discs if disc.axis != axis.axis]
+    return replace(axis, discs=own, others=others)
+
+
+def best_column(columns: Sequence[AxisColumn]) -> AxisColumn:
+    """The first without an obstacle, else the first."""
+    return next((each for each in columns if not each.hit and not each.tangled), columns[0])

@@ -1,0 +1,205 @@
+"""Arbors, pipes, studs and pillars: bodies of revolution, as bands of one radius, and the solids made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.scene.parts.arbor_columns import HEAD, HEAD_OVER, SHAKE, AxisColumn, Bearing, ColumnMember, FramePlaces
+from geartrain.scene.parts.processes import Process
+from geartrain.scene.parts.stack_discs import Point
+from geartrain.scene.solids.triangle_solids import SIDES, Solid, joined
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.solids.triangulation import Integers
+
+_PIVOT = 0.55  # of its arbor: so that the shoulder bears
+_COLLAR = 1.0  # mm: length of a collar, and its wall
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """A part of a turned body between two heights along its axis, outside and inside radius (mm)."""
+
+    low: float
+    high: float
+    radius: float
+    bore: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class TurnedPart:
+    """A body of revolution.
+
+    Attributes
+    ----------
+    link, name, kind : str
+        The link it belongs to, its name, and arbor, pipe, stud, collar, pillar or post.
+    at : tuple of float
+        Its axis across the stack [mm].
+    bands : tuple of Band
+        From below; where one does not begin at the end of the one before, a pinion cut from the same piece stands.
+    joint : str
+        What it is joined to, and how.
+    through : tuple of str
+        Wheels and turning plates that have a hole for it.
+    """
+
+    link: str
+    name: str
+    kind: str
+    at: Point
+    bands: tuple[Band, ...]
+    joint: str = ""
+    through: tuple[str, ...] = ()
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Lowest and highest point."""
+        return self.bands[0].low, self.bands[-1].high
+
+    @property
+    def diameter(self) -> float:
+        """Of the round stock it is turned from."""
+        return 2 * max(band.radius for band in self.bands)
+
+    @property
+    def volume(self) -> float:
+        """In mm3, without pinions that are cut from the same piece."""
+        return sum(pi * (band.radius**2 - band.bore**2) * (band.high - band.low) for band in self.bands)
+
+    def sections(self) -> list[list[Band]]:
+        """Bands that hang together."""
+        found = [[self.bands[0]]]
+        for before, band in pairwise(self.bands):
+            if band.low > before.high + _SAME:
+                found.append([])
+            found[-1].append(band)
+        return found
+
+    def solid(self) -> Solid:
+        """As triangles, about its own axis, heights along z."""
+        return joined(revolved(profile(section)) for section in self.sections())
+
+
+def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
+    """Radius and height of the corners of half a section, counter-clockwise, without corners of no angle."""
+    outside = [corner for band in bands for corner in ((band.radius, band.low), (band.radius, band.high))]
+    inside = [corner for band in bands[::-1] for corner in ((band.bore, band.high), (band.bore, band.low))]
+    corners = [*outside, *inside]
+    bent = (
+        (here, before, after)
+        for here, before, after in zip(corners, [corners[-1], *corners[:-1]], [*corners[1:], corners[0]], strict=True)
+    )
+    return [
+        here
+        for here, before, after in bent
+        if here != before and not any(before[k] == here[k] == after[k] for k in (0, 1))
+    ]
+
+
+def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
+    """The closed surface that half a section makes when it is turned about z."""
+    turn = 2 * pi * np.arange(SIDES) / SIDES
+    vertices, rings, start = list[Floats](), list[Integers](), 0
+    for radius, height in corners:
+        count = SIDES if radius else 1
+        rings.append(start + np.arange(SIDES) * (count > 1))
+        start += count
+        column = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), np.full(SIDES, height)])
+        vertices.append(column[:count])
+    faces = []
+    for low, high in zip(rings, [*rings[1:], rings[0]], strict=True):
+        here, after = (low, high), (np.roll(low, -1), np.roll(high, -1))
+        if low[0] != low[1]:
+            faces.append(np.column_stack([here[0], after[0], after[1]]))
+        if high[0] != high[1]:
+            faces.append(np.column_stack([here[0], after[1], here[1]]))
+    return Solid(np.concatenate(vertices), np.concatenate(faces).astype(np.int64))
+
+
+def column_parts(
+    column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
+) -> Iterator[TurnedPart]:
+    """Arbor or stud, pipes and collars of an axis; `cut` are pinions cut from the same piece."""
+    members = column.members
+    if column.is_stud or not members or members[0].inner:
+        if column.is_stud:
+            yield _stud(column, places, frame, process)
+    else:
+        yield from _core(column, members[0], places, process, cut)
+        members = members[1:]
+    for each in members:
+        whole = [Band(each.low, each.high, each.outer / 2, each.inner / 2)]
+        name = f"{each.link} pipe" + (f" on {column.axis}" if each.fixed else "")
+        yield TurnedPart(each.link, name, "pipe", column.at, tuple(without(whole, each, cut)), _carries(each))
+
+
+def without(bands: Sequence[Band], member: ColumnMember, cut: frozenset[str]) -> list[Band]:
+    """The bands where no pinion is cut from the same piece."""
+    found = list(bands)
+    for disc in member.discs:
+        if disc.name in cut:
+            found = [
+                Band(low, high, band.radius, band.bore)
+                for band in found
+                for low, high in ((band.low, min(band.high, disc.low)), (max(band.low, disc.high), band.high))
+                if high - low > _SAME
+            ]
+    return found
+
+
+def _carries(member: ColumnMember) -> str:
+    return "carries " + ", ".join(disc.name for disc in member.discs)
+
+
+def pivot(column: AxisColumn) -> float:
+    """Diameter of an arbor's pivots (mm)."""
+    return round(_PIVOT * column.core, 2)
+
+
+def _core(
+    column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
+) -> Iterator[TurnedPart]:
+    """From shoulder to shoulder with a pivot in either plate; where it goes on, a collar bears in place of it."""
+    low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
+    thick, thin = column.core / 2, pivot(column) / 2
+    below, above = crosses(member, places.back), crosses(member, places.front)
+    bands = [] if below else [Band(places.back[0], low, thin)]
+    bands.append(Band(member.low if below else low, member.high if above else high, thick))
+    bands += [] if above else [Band(high, places.front[1], thin)]
+    yield TurnedPart(
+        member.link, f"{member.link} arbor", "arbor", column.at, tuple(without(bands, member, cut)), _carries(member)
+    )
+    for passes, face, way in ((below, low, 1), (above, high, -1)):
+        ends = sorted((face, face + way * _COLLAR))
+        free = all(each is member or each.high <= ends[0] or ends[1] <= each.low for each in column.members)
+        if passes and free:
+            ring = Band(ends[0], ends[1], thick + _COLLAR, thick + process.press / 2)
+            side = "back" if way > 0 else "front"
+            joint = f"on the arbor, {process.joint}"
+            yield TurnedPart(member.link, f"{member.link} {side} collar", "collar", column.at, (ring,), joint)
+
+
+def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
+    """True if a member goes on beyond both faces of a plate."""
+    return member.low < plate[0] and plate[1] < member.high
+
+
+def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
+    """A pin held in one plate, with a head that keeps on it what turns."""
+    plate = places.back if column.bearing is Bearing.BACK_STUD else places.front
+    radius = column.core / 2
+    low, high = column.low, column.high
+    up = high > plate[1]
+    shaft, head = ((low, high - HEAD), (high - HEAD, high)) if up else ((low + HEAD, high), (low, low + HEAD))
+    bands = [Band(*shaft, radius), Band(*head, radius + HEAD_OVER)]
+    name = f"{column.axis} stud"
+    return TurnedPart(frame, name, "stud", column.at, tuple(bands if up else bands[::-1]), process.joint)

@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.util import find_spec
-from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.errors import GearTrainError, Problem, QuestionError, printable, suggest
+from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
+from geartrain.export.assembly_guide import readme
 from geartrain.export.csv_tables import to_tables
 from geartrain.export.flat_files import to_dxf, to_svg
+from geartrain.export.parts_list import parts_list, to_csv
 from geartrain.export.plate_sheets import plate_sheets
 from geartrain.export.rexs import to_rexs
 from geartrain.export.wheel_sheets import WheelSheet, file_names, wheel_sheets
@@ -19,7 +20,6 @@ from geartrain.kinematics import graph
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.train_teeth import PairPlay
     from geartrain.scene.solids.solid_assembly import SolidModel
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
@@ -224,7 +224,25 @@ def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None 
     for kind, name in named.items():
         if kind in kinds:
             files.append(ExportFile(name, _WHAT[kind], _whole(work, kind, turns)))
-    return [*files, ExportFile("README.md", "what is here", lambda: readme(work, files, kinds).encode("utf-8"))]
+    if parts_wanted(kinds):
+        files.append(
+            ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
+        )
+    return [*files, ExportFile("README.md", "what is here", lambda: _readme(work, files, kinds))]
+
+
+def _listed(work: SolidModel) -> bytes:
+    return to_csv(parts_list(work)).encode("utf-8")
+
+
+def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str]) -> bytes:
+    named = [(each.path, each.title) for each in files]
+    return readme(work, named, notices(work, kinds), parts_wanted(kinds)).encode("utf-8")
+
+
+def parts_wanted(kinds: Sequence[str]) -> bool:
+    """True if some of the files show parts to make."""
+    return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
 _WHAT = {
@@ -297,7 +315,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     []
     """
     found: list[Problem] = list(work.layout.notices)
-    if work.frame is not None and {"svg", "dxf", "stl", "glb", "step"} & set(kinds):
+    if work.frame is not None and parts_wanted(kinds):
         found += [*work.frame.plan.notices, *work.frame.problems()]
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
@@ -308,39 +326,6 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
         found += left_out(work)
     return list(dict.fromkeys(found))
-
-
-def readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str]) -> str:
-    """What the files are, and what could not be made, as Markdown."""
-    declared = work.train.declaration
-    lines = [f"# {_cell(declared.name)}", "", *([_cell(declared.title), ""] if declared.title else [])]
-    lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
-    lines += ["| file | what it is |", "| --- | --- |"]
-    lines += [f"| {each.path} | {_cell(each.title)} |" for each in files]
-    if {"svg", "dxf", "stl", "glb", "step"} & set(kinds):
-        lines += _plays(work)
-    if found := notices(work, kinds):
-        lines += ["", "## What could not be made", ""]
-        lines += [f"- {_cell(each.text)}" for each in found]
-    return "\n".join([*lines, ""])
-
-
-def _plays(work: SolidModel) -> list[str]:
-    """The play of every pair whose wheels are cut, as a list."""
-    found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.plays]
-    return ["", "## Play of the teeth as cut, along the pitch circles", "", *found] if found else []
-
-
-def _angles(play: PairPlay) -> str:
-    """The play as angles of both wheels; or that they jam where they stand."""
-    turned = ", ".join(
-        f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(play.wheels, play.angles, strict=True)
-    )
-    return f"{turned}; the pair jams" if play.length < 0 else turned
-
-
-def _cell(text: str) -> str:
-    return printable(text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;"))
 
 
 def kind_of(name: str) -> str:

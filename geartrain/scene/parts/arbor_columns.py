@@ -22,7 +22,7 @@ _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a 
 _WIDEST = 6.0  # mm, of one whose size nobody gives
 
 
-class Bearing(StrEnum):
+class AxisBearing(StrEnum):
     """How an axis is borne."""
 
     THROUGH = "through"
@@ -63,7 +63,7 @@ class AxisColumn:
 
     axis: str
     at: Point
-    bearing: Bearing
+    bearing: AxisBearing
     core: float
     low: float
     high: float
@@ -74,7 +74,7 @@ class AxisColumn:
     @property
     def is_stud(self) -> bool:
         """True if the core stands still in one plate."""
-        return self.bearing is not Bearing.THROUGH
+        return self.bearing is not AxisBearing.THROUGH
 
     def passes(self, plate: tuple[float, float]) -> bool:
         """True if something of it goes on beyond both faces of a plate."""
@@ -110,7 +110,7 @@ class ColumnProblem:
         """Ways to bear the axis, the better first; each says what is in its way."""
         return [self._thinned(bearing, places) for bearing in self._bearings(places)]
 
-    def _thinned(self, bearing: Bearing, places: FramePlaces) -> AxisColumn:
+    def _thinned(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
         """With the thickest usual core that passes all wheels, if no core is given; else with the first."""
         first = self._column(bearing, places)
         if self.core is not None or not first.hit:
@@ -118,21 +118,21 @@ class ColumnProblem:
         thinner = (replace(self, core=core) for core in _CORES if core < first.core)
         return next((each for each in (one._column(bearing, places) for one in thinner) if not each.hit), first)
 
-    def _bearings(self, places: FramePlaces) -> list[Bearing]:
+    def _bearings(self, places: FramePlaces) -> list[AxisBearing]:
         back, front = sum(places.back) / 2, sum(places.front) / 2
         moving = [disc for disc in self.discs if disc.hub and disc.link != self.frame]
         own = {self.ends[disc.link] for disc in moving if disc.link in self.ends}
         low = min((disc.low for disc in moving), default=back)
         high = max((disc.high for disc in moving), default=front)
         if any((below and low > back) or (above and high < front) for below, above in own):
-            return [Bearing.THROUGH]
+            return [AxisBearing.THROUGH]
         if low > front:
-            return [Bearing.FRONT_STUD]
+            return [AxisBearing.FRONT_STUD]
         if high < back:
-            return [Bearing.BACK_STUD]
+            return [AxisBearing.BACK_STUD]
         if low > back and high < front:
-            return [Bearing.THROUGH, Bearing.BACK_STUD, Bearing.FRONT_STUD]
-        return [Bearing.THROUGH]
+            return [AxisBearing.THROUGH, AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD]
+        return [AxisBearing.THROUGH]
 
     def _links(self, places: FramePlaces) -> Iterator[CoaxialLink]:
         for link, discs in by_link(disc for disc in self.discs if disc.hub).items():
@@ -144,22 +144,22 @@ class ColumnProblem:
                 low, high = min(low, near[0]), max(high, near[1])
             yield CoaxialLink(link, tuple(disc.middle for disc in discs), low, high, link == self.frame)
 
-    def _column(self, bearing: Bearing, places: FramePlaces) -> AxisColumn:
+    def _column(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
         links = list(self._links(places))
         order, tangled = nested(links) or tuple(links), clash(links)
-        stud = bearing is not Bearing.THROUGH or all(each.fixed for each in order)
+        stud = bearing is not AxisBearing.THROUGH or all(each.fixed for each in order)
         core = self._core(order, stud)
         members = tuple(self._members(order, core, stud))
         low = min((each.low for each in members), default=places.back[1])
         high = max((each.high for each in members), default=places.front[0])
         head = SHAKE + HEAD
-        if bearing is Bearing.BACK_STUD:
+        if bearing is AxisBearing.BACK_STUD:
             low, high = (places.back[0], high + head) if high > places.back[1] else (low - head, places.back[1])
-        elif bearing is Bearing.FRONT_STUD:
+        elif bearing is AxisBearing.FRONT_STUD:
             low, high = (low - head, places.front[1]) if low < places.front[0] else (places.front[0], high + head)
         else:
             low, high = min(low, places.back[0]), max(high, places.front[1])
-        if bearing is Bearing.THROUGH and members and not stud:
+        if bearing is AxisBearing.THROUGH and members and not stud:
             members = (replace(members[0], low=low, high=high), *members[1:])
         column = AxisColumn(self.axis, self.at, bearing, core, low, high, members, (), tangled)
         return replace(column, hit=tuple(_hits(column, self.others)))

@@ -10,7 +10,7 @@ from math import cos, dist, pi, sin
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.scene.parts.arbor_columns import AxisColumn, Bearing, ColumnMember, FramePlaces
+from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.stack_discs import Point, StackDisc
@@ -128,10 +128,10 @@ class FramePlates:
         if passing:
             widest = max(passing, key=lambda each: each.outer)
             return Hole(column.axis, column.at, widest.outer + (process.press if widest.fixed else process.running))
-        if column.bearing is Bearing.THROUGH:
+        if column.bearing is AxisBearing.THROUGH:
             turns = bool(column.members) and not column.members[0].inner
             return Hole(column.axis, column.at, pivot(column) + process.running) if turns else None
-        own = self.plan.places.back if column.bearing is Bearing.BACK_STUD else self.plan.places.front
+        own = self.plan.places.back if column.bearing is AxisBearing.BACK_STUD else self.plan.places.front
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
@@ -155,7 +155,7 @@ class FramePlates:
         process = self.plan.process
         for label, column in self.plan.carried.items():
             if self.plan.seat_of(self.plan.stack.carried[label].carrier) == seat:
-                loose = column.bearing is Bearing.THROUGH
+                loose = column.bearing is AxisBearing.THROUGH
                 yield Hole(label, column.at, column.core + (process.running if loose else process.press))
         for post in self.posts:
             if seat in post.through:

@@ -19,6 +19,7 @@ _STEP = 0.25  # mm
 _GAP = 1.0  # mm between a pillar and a tip circle
 _HOLE = 4.0  # mm of plate between a pillar and the middle of a pivot's hole
 _FEWEST, _MOST = 3, 5
+_SPREAD = 4.0  # radii between the middles of neighbours, at least
 
 
 def pillar_places(axes: Sequence[Point], circles: Sequence[tuple[Point, float]], radius: float) -> list[Point]:
@@ -32,7 +33,7 @@ def pillar_places(axes: Sequence[Point], circles: Sequence[tuple[Point, float]],
     blocked += [(each, radius + _HOLE) for each in points]
     tried = np.array([_free(middle, 2 * pi * (k + 0.5) / _WAYS, blocked) for k in range(_WAYS)])
     for count in (4, _FEWEST, _MOST):
-        if (found := _around(tried, points, count)) is not None:
+        if (found := _around(tried, points, count, _SPREAD * radius)) is not None:
             return [(float(x), float(y)) for x, y in found]
     return [(float(x), float(y)) for x, y in _far_apart(tried, middle)]
 
@@ -58,7 +59,7 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
     return np.asarray(middle + (far + _STEP) * along)
 
 
-def _around(tried: Floats, axes: Floats, count: int) -> Floats | None:
+def _around(tried: Floats, axes: Floats, count: int, least_edge: float) -> Floats | None:
     """The shortest polygon of so many of the places that has all axes inside."""
     best, least = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
@@ -66,6 +67,7 @@ def _around(tried: Floats, axes: Floats, count: int) -> Floats | None:
     cross = cross - steps[:, :, None, 1] * (axes[None, None, :, 0] - tried[:, None, None, 0])
     left = np.all(cross > 0, axis=2)  # of the edge from one place to another
     length = np.hypot(steps[..., 0], steps[..., 1])
+    left &= length >= least_edge
     for chosen in combinations(range(len(tried)), count):
         edges = list(zip(chosen, (*chosen[1:], chosen[0]), strict=True))
         if all(left[a, b] for a, b in edges) and (whole := sum(float(length[a, b]) for a, b in edges)) < least:

@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.parts.arbor_columns import HEAD, HEAD_OVER, SHAKE, AxisColumn, Bearing, ColumnMember, FramePlaces
+from geartrain.scene.parts.arbor_columns import (
+    HEAD,
+    HEAD_OVER,
+    SHAKE,
+    AxisBearing,
+    AxisColumn,
+    ColumnMember,
+    FramePlaces,
+)
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point
 from geartrain.scene.solids.triangle_solids import SIDES, Solid, joined
@@ -108,7 +116,9 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
 def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
     """The closed surface that half a section makes when it is turned about z."""
     turn = 2 * pi * np.arange(SIDES) / SIDES
-    vertices, rings, start = list[Floats](), list[Integers](), 0
+    vertices: list[Floats] = []
+    rings: list[Integers] = []
+    start = 0
     for radius, height in corners:
         count = SIDES if radius else 1
         rings.append(start + np.arange(SIDES) * (count > 1))
@@ -195,7 +205,7 @@ def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
     """A pin held in one plate, with a head that keeps on it what turns."""
-    plate = places.back if column.bearing is Bearing.BACK_STUD else places.front
+    plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high
     up = high > plate[1]

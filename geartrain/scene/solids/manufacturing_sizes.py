@@ -178,7 +178,7 @@ def _is_upright(layout: Layout, place: WheelPlace) -> bool:
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Diameter (mm) of a rod on each axis that no plate bears: as given, or a third of the smallest wheel, 6 at most."""
+    """Diameter (mm) of a rod on each axis that no plate bears: as given, or a third of its smallest wheel, to 6."""
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

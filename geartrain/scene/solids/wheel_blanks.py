@@ -63,11 +63,15 @@ class Blanks:
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
     """The flat shapes of all wheels of a train without holes, at the sizes of a layout."""
     toothed = find_train_teeth(train, layout.wheels, making.backlash, layout.apart)
+    mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
     for name, problems in toothed.problems.items():
         notices += [replace(each, what=f"wheel '{name}': {each.what}", place="") for each in problems]
     for name, toothing in toothed.wheels.items():
         wheel, blank = train.declaration.wheels[name][1], _blank(toothing, layout.wheels[name])
+        if name not in mated and blank.kind == "external":
+            blank = _disc(blank)
+            notices.append(_formless(blank))
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
         notices += _leaning(name, wheel)
     return Blanks(wheels, tuple(notices), toothed.plays)
@@ -89,6 +93,18 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
         place.thickness,
         0.0,
     )
+
+
+def _disc(blank: Blank) -> Blank:
+    """A wheel that meshes nothing, such as an escape wheel, as its pitch circle: nobody says what its teeth do."""
+    r = blank.pitch_radius
+    form = "a disc of its pitch circle, its teeth are not known"
+    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r)
+
+
+def _formless(blank: Blank) -> Problem:
+    what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
+    return Problem(what, "it meshes nothing, so no form of its teeth is known", "cut its teeth for what it works with")
 
 
 def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:

@@ -1,0 +1,118 @@
+"""The list of parts of an export: how often, of what, how large, how heavy, with which fits; and as CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.numerics.files import csv_text
+
+if TYPE_CHECKING:
+    from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
+
+_STEEL = ("arbor", "stud", "pin")
+_DENSITY = {"brass": 8.4, "steel": 7.85, "acrylic": 1.19, "PLA": 1.24}  # g/cm3, handbook means
+_STOCK = {"laser": "acrylic", "fdm": "PLA"}  # of flat parts; brass for any other process
+_SAME = 4  # decimals of a mm to which parts are alike
+
+
+@dataclass(frozen=True, slots=True)
+class ListedPart:
+    """A row of the list: parts of one shape.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of all of them.
+    kind : str
+        wheel, plate, arbor, pipe, stud, collar, pillar, post or pin.
+    material : str
+        What its mass is reckoned with.
+    size : str
+        Diameter and length of turned parts, thickness of flat ones [mm].
+    mass : float
+        Of one [g].
+    fits : str
+        Holes or seats, and how they are joined.
+    """
+
+    names: tuple[str, ...]
+    kind: str
+    material: str
+    size: str
+    mass: float
+    fits: str
+
+    @property
+    def count(self) -> int:
+        """How many are needed."""
+        return len(self.names)
+
+
+def parts_list(work: SolidModel) -> list[ListedPart]:
+    """All parts of a train, those of one shape together."""
+    alike: dict[tuple[object, ...], ListedPart] = {}
+    for part in work.parts:
+        row = ListedPart((part.name,), part.kind, _material(work, part), _size(part), 0.0, "; ".join(_fits(work, part)))
+        # two-decimal volumes tell shapes of one size apart, and not the rounding of mirrored ones
+        volume = _volume(part)
+        key = (row.kind, row.size, row.fits, round(volume, 2))
+        row = replace(row, mass=volume * _DENSITY[row.material] / 1000)
+        known = alike.get(key)
+        alike[key] = row if known is None else replace(known, names=(*known.names, part.name))
+    return list(alike.values())
+
+
+def _material(work: SolidModel, part: SolidPart) -> str:
+    if part.kind in _STEEL:
+        return "steel"
+    return _STOCK.get(work.process.name, "brass") if part.turned is None else "brass"
+
+
+def _volume(part: SolidPart) -> float:
+    """In mm3: of turned and flat parts exactly, of others by their triangles."""
+    if part.turned is not None:
+        return part.turned.volume
+    if part.contours:
+        outer, *holes = (abs(contour.moments()[0]) for contour in part.contours)
+        return (outer - sum(holes)) * part.height
+    corners = part.solid.vertices[part.solid.faces]
+    return abs(float(np.linalg.det(corners).sum())) / 6
+
+
+def _size(part: SolidPart) -> str:
+    if part.turned is not None:
+        low, high = part.turned.ends
+        bore = 2 * part.turned.bands[0].bore
+        inside = f", bore {round(bore, _SAME):g}" if bore else ""
+        return f"diameter {round(part.turned.diameter, _SAME):g}, length {round(high - low, _SAME):g}{inside}"
+    if part.contours:
+        return f"thickness {round(part.height, _SAME):g}"
+    return "likeness: not to be cut"
+
+
+def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
+    blank = work.blanks.wheels.get(part.name) if part.kind == "wheel" else None
+    if blank is not None:
+        one_piece = work.frame is not None and part.name in work.frame.plan.cut
+        if one_piece:
+            yield "one piece with its arbor"
+        elif blank.bore:
+            yield f"bore {round(blank.bore, _SAME):g}, {work.process.joint}"
+    if part.turned is not None and part.turned.joint:
+        yield part.turned.joint
+
+
+def to_csv(rows: Iterable[ListedPart]) -> str:
+    """The list as CSV, a row a shape."""
+    head = ("part", "count", "kind", "material", "size_mm", "mass_g", "fits")
+    return csv_text(
+        head,
+        [
+            (", ".join(row.names), row.count, row.kind, row.material, row.size, f"{row.mass:.4g}", row.fits)
+            for row in rows
+        ],
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import hypot
 from typing import Any
 
@@ -96,12 +96,12 @@ def test_no_two_solids_overlap_where_nothing_is_said_to_be_in_the_way(name: str)
 
 @pytest.mark.parametrize("process", PROCESSES)
 def test_arbors_reach_both_plates_and_pivots_stand_in_their_holes_with_the_fit_that_is_stated(process: str) -> None:
-    """Measured on the solids: no triangle of an arbor is nearer to its plates than the fits say, and shoulders shake."""
+    """On the solids: no triangle of an arbor is nearer to its plates than the fits say, and shoulders shake."""
     work = workpiece("watch-going-train", process=process)
     fit = process_named(process).running / 2
     parts = {part.name: part for part in work.parts}
     plates = [parts[f"plate {side} plate"] for side in ("back", "front")]
-    for axis in ("third", "fourth"):
+    for axis in ("third", "escape"):  # the fourth goes on to its hand
         arbor = parts[f"{axis} arbor"]
         heights = arbor.placed.vertices[:, 2]
         radii = np.hypot(*arbor.solid.vertices[:, :2].T)
@@ -111,14 +111,14 @@ def test_arbors_reach_both_plates_and_pivots_stand_in_their_holes_with_the_fit_t
             pivot = radii[inside].max()
             assert inside.any(), "it reaches the plate"
             gap = body(arbor.placed).min_gap(body(plate.placed), 1.0)
-            assert gap == pytest.approx(fit, abs=2e-3), "all round, but for chords"
+            assert gap == pytest.approx(min(fit, 0.1), abs=2e-3), "all round, but for chords; a shoulder shakes by 0.1"
             assert pivot == pytest.approx(0.55 * radii.max(), abs=0.01)
         low, high = (
             max(p.placed.vertices[:, 2].min() for p in plates),
             min(p.placed.vertices[:, 2].max() for p in plates),
         )
         thick = heights[radii > 0.9 * radii.max()]
-        assert (low - high) - 0 == pytest.approx(np.ptp(thick) + 0.2, abs=1e-9), "0.2 mm of end shake"
+        assert low - high == pytest.approx(np.ptp(thick) + 0.2, abs=1e-9), "0.2 mm of end shake"
 
 
 def test_seven_nested_pipes_have_their_clearance_and_share_no_volume() -> None:
@@ -129,7 +129,7 @@ def test_seven_nested_pipes_have_their_clearance_and_share_no_volume() -> None:
         solids.append(body(Pipe(outer / 2, inner / 2).solid()))
         inner = outer + 0.05
     assert outer == pytest.approx(8.30)
-    for first, second in zip(solids, solids[1:], strict=False):
+    for first, second in pairwise(solids):
         assert (first ^ second).volume() == 0.0
         assert first.min_gap(second, 1.0) == pytest.approx(0.025, abs=3e-3), "but for chords of 96 sides"
 
@@ -155,7 +155,7 @@ def test_coaxial_arbors_are_pipes_with_a_running_clearance() -> None:
 
 
 def column(front: float) -> Any:
-    """The third arbor (wheels in levels 1 and 2), 34 mm from an hour wheel of tip radius 37.716 in level 5, 3 mm thick."""
+    """The third arbor (wheels in levels 1 and 2), 34 mm from an hour wheel of tip radius 37.716 in level 5."""
     own = [
         StackDisc(name, "third", "third", (0, 0), h, h + 2.5, 9.0, root=3.14) for name, h in (("t56", 3.5), ("t8", 7))
     ]
@@ -191,8 +191,9 @@ def test_pillars_keep_clear_of_wheels_and_pivots_and_hold_all_axes() -> None:
         for at in frame.pillars:
             for wheel in work.scene.wheels:
                 if low < wheel.centre[2] < high:
+                    tip = wheel.tip if wheel.circuits else wheel.radius  # what meshes nothing is cut as a disc
                     away = hypot(at[0] - wheel.centre[0], at[1] - wheel.centre[1])
-                    assert away - wheel.tip - 4 >= 0.999
+                    assert away - tip - 4 >= 0.999
             for axis in frame.plan.stack.axes.values():
                 assert hypot(at[0] - axis.point[0], at[1] - axis.point[1]) - 4 >= 4
     ring = shapely.Polygon(workpiece("watch-going-train").frame.pillars).convex_hull  # type: ignore[union-attr]

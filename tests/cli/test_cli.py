@@ -212,6 +212,7 @@ REPORT = {
     "teeth",
     "pins",
     "torques",
+    "strength",
     "motion",
     "errata",
 }

@@ -40,6 +40,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("equations", "-o"): (("equations", "worm"), (".txt",)),
     ("graph", "-o"): (("graph", "worm"), (".md", ".dot", ".graphml", ".json")),
     ("torques", "-o"): (("torques", "worm"), (".md", ".json")),
+    ("strength", "-o"): (("strength", "worm"), (".md", ".json")),
     ("torques", "--plot"): (("torques", "{loaded}"), (".svg",)),
     ("motion", "-o"): (MOTION, (".md", ".json", ".csv")),
     ("motion", "--plot"): (MOTION, (".svg",)),

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -158,14 +159,54 @@ class _OrderSearch:
         low, high = keys[self._borne[0]], keys[self._borne[0]]  # two arrays: each is changed in place below
         for stacks in self._borne[1:]:
             low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin, fmax: pass over nan
-        span = np.nansum(high - low, axis=0)
         out_below, out_above = self._running_out
+        low[out_below], high[out_above] = np.nanmin(keys, axis=0), np.nanmax(keys, axis=0)
+        span = np.nansum(high - low, axis=0)  # that to a dial is as long as it is
         low[out_below] -= np.inf
         high[out_above] += np.inf
+        tangled = self._tangled(keys, low, high)
+        for core, *pipes in self._coaxial_arbors:  # the arbor inside bears its pipes: it reaches as far as they do
+            low[core] = np.fmin(low[core], np.fmin.reduce(low[pipes]))
+            high[core] = np.fmax(high[core], np.fmax.reduce(high[pipes]))
         arbor, wheel, times = self._pierced
-        pierced = times @ ((keys[wheel] > low[arbor]) & (keys[wheel] < high[arbor]))
+        pierced = tangled + times @ ((keys[wheel] > low[arbor]) & (keys[wheel] < high[arbor]))
         levels = (np.diff(np.sort(keys, axis=0), axis=0) > 0).sum(axis=0)
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
+
+    def _tangled(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
+        """How many pairs of arbors on one axis reach into each other, so that neither can be the other's pipe."""
+        arbor, stack, starts = self._coaxial
+        if not len(starts):
+            return np.zeros(keys.shape[1])
+        inside = (keys[stack] > low[arbor]) & (keys[stack] < high[arbor])
+        covers = np.logical_or.reduceat(inside, starts, axis=0)
+        return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
+
+    @cached_property
+    def _coaxial(self) -> tuple[Indices, Indices, Indices]:
+        """Arbors beside each stack of another on their axis, and where rows of each pair begin, one way and back."""
+        rows, starts = list[tuple[int, int]](), list[int]()
+        for about in self._hubs.values():
+            for one, other in combinations(about, 2):
+                for arbor, beside in ((one, other), (other, one)):
+                    starts.append(len(rows))
+                    rows += [(arbor, stack) for stack in about[beside]]
+        arbors, stacks = np.array(rows, np.intp).reshape(-1, 2).T
+        return arbors, stacks, np.array(starts, np.intp)
+
+    @cached_property
+    def _hubs(self) -> dict[int, dict[int, dict[int, None]]]:
+        """Stacks of each arbor, by axis, without rings."""
+        hubs: dict[int, dict[int, dict[int, None]]] = {}
+        for block in self.problem.blocks:
+            if block.link in self.problem.arbors and not block.across and not block.inner:
+                arbor = self.problem.arbors.index(block.link)
+                hubs.setdefault(block.axis, {}).setdefault(arbor, {})[block.stack] = None
+        return hubs
+
+    @cached_property
+    def _coaxial_arbors(self) -> list[list[int]]:
+        return [list(about) for about in self._hubs.values() if len(about) > 1]
 
     @cached_property
     def _borne(self) -> Indices:

@@ -33,8 +33,8 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
     starts = np.cumsum([0, *map(len, parts)])
     rings = [list(range(start, end)) for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
     loop = rings[0]
-    # from the right, so that a bridge meets no hole that is not joined yet
-    for ring in sorted(rings[1:], key=lambda ring: -points[ring, 0].max()):
+    # from the right, and of equal ones from above, so that a bridge meets no hole that is not joined yet
+    for ring in sorted(rings[1:], key=lambda ring: max(map(tuple, points[ring].tolist())), reverse=True):
         loop = _bridged(points, loop, ring)
     return points, np.array(_ears(points, loop), dtype=np.int64).reshape(-1, 3)
 
@@ -47,13 +47,13 @@ def area(polygon: Floats) -> float:
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
     """The loop with a hole joined to it: from the hole's rightmost point to the nearest one it sees on its right."""
-    at = int(np.argmax(points[hole, 0]))
+    at = int(np.lexsort(points[hole].T[::-1])[-1])
     hole = hole[at:] + hole[:at]
     start = points[hole[0]]
     a, b = points[loop], points[loop[1:] + loop[:1]]
     for k in np.argsort(np.hypot(*(a - start).T), kind="stable"):
         end = a[k]
-        if end[0] < start[0] or not _inside(points, loop, int(k), start):
+        if tuple(end) <= tuple(start) or not _inside(points, loop, int(k), start):
             continue
         away = (a != end).any(axis=1) & (b != end).any(axis=1)
         cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)

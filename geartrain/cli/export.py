@@ -61,6 +61,12 @@ def run(
     process: Annotated[
         str | None, typer.Option("--process", help="How it is made: laser, cnc, fdm or hand; sets kerf, fits and play.")
     ] = None,
+    arms: Annotated[
+        int | None, typer.Option("--arms", help="Windows between so many arms of wheels that have the room.")
+    ] = None,
+    sheet: Annotated[
+        str | None, typer.Option("--sheet", help="With --to: lay all flat parts out on sheets, such as 300x200mm.")
+    ] = None,
     turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
     rate: Annotated[
         str | None,
@@ -83,15 +89,18 @@ def run(
         what = "it is not said what to write" if to is None else "--to and -o are both given"
         raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
     of_time = {"--rate": rate, "--restitution": restitution, "--step": step, "--without": without or None}
-    of_solids = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
-    of_solids |= {"--backlash": backlash, "--process": process, "--turns": turns}
+    of_solids: dict[str, object] = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
+    of_solids |= {"--backlash": backlash, "--process": process, "--arms": arms, "--sheet": sheet, "--turns": turns}
     if out is not None and out.suffix.lower() == ".fmu":
         _refuse(of_solids, "says nothing to a unit that moves in time", "leave it out")
         _unit(file, state, of_time, sink(out, force))
         return
     _refuse(of_time, "is for a unit that moves in time", "give -o FILE.fmu, or leave it out")
     train = load(file)
-    work = SolidModel(train, _making(module, thickness, bore, backlash, process), train.state_or_first(state))
+    if out is not None:
+        _refuse({"--sheet": sheet}, "is for a folder", "give --to FOLDER in place of -o")
+    lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
+    work = SolidModel(train, _making(lengths, process, arms, sheet), train.state_or_first(state))
     shown = _turns(turns)
     if out is not None:
         _one(work, out, wheel, shown, force)
@@ -126,12 +135,21 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
     raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 
-def _making(module: Size, thickness: Size, bore: Size, backlash: Size, process: str | None) -> ManufacturingSizes:
+def _making(given: Mapping[str, Size], process: str | None, arms: int | None, sheet: str | None) -> ManufacturingSizes:
     from geartrain.scene import ManufacturingSizes
 
-    given = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
-    return ManufacturingSizes(**sizes, process=process)
+    return ManufacturingSizes(**sizes, process=process, arms=arms, sheet=None if sheet is None else _sheet(sheet))
+
+
+def _sheet(text: str) -> tuple[float, float]:
+    """Width and height (mm) of what is written as 300x200mm."""
+    sides = text.lower().replace("×", "x").split("x")
+    unit = sides[-1].strip().lstrip("0123456789.+-/ ")
+    if len(sides) != 2 or not unit:
+        raise GearTrainError(Problem(f"'{text}' is no size of a sheet", "", "write it as 300x200mm", "--sheet"))
+    width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
+    return 1000 * _length("sheet", width), 1000 * _length("sheet", height)
 
 
 def _length(name: str, text: str) -> float:

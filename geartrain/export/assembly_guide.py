@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from geartrain.errors import Problem, printable
 from geartrain.export.parts_list import ListedPart, parts_list
 from geartrain.scene.parts.arbor_columns import SHAKE, AxisBearing, AxisColumn
-from geartrain.scene.parts.turned_parts import pivot
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import PairPlay
@@ -92,7 +91,7 @@ def _steps(work: SolidModel, frame: FramePlates) -> Iterator[str]:
         key=lambda column: min((disc.low for each in column.members for disc in each.discs), default=0.0),
     )
     if through:
-        names = ", ".join(f"{each.axis} (pivot {pivot(each):g})" for each in through)
+        names = ", ".join(f"{each.axis} (pivot {each.pivot:g})" for each in through)
         yield step(f"Stand the arbors in the {low} plate, lowest wheels first: {names}")
     outer = [column.axis for column in frame.plan.columns if column.bearing is AxisBearing.FRONT_STUD]
     if outer:

@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.export.assembly_guide import readme
 from geartrain.export.csv_tables import to_tables
+from geartrain.export.cut_sheets import cut_sheets, wheel_drawing
 from geartrain.export.flat_files import to_dxf, to_svg
 from geartrain.export.parts_list import parts_list, to_csv
-from geartrain.export.plate_sheets import plate_sheets
 from geartrain.export.rexs import to_rexs
-from geartrain.export.wheel_sheets import WheelSheet, file_names, wheel_sheets
+from geartrain.export.wheel_sheets import WheelSheet, wheel_sheets
 from geartrain.kinematics import graph
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 
@@ -180,7 +181,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
         from geartrain.scene.solids.triangle_solids import wheel_solid
 
         return to_stl(wheel_solid(blank), wheel)
-    return _drawn(wheel_sheets({wheel: blank})[0].drawing, suffix[1:])
+    return _drawn(wheel_drawing(work, blank), suffix[1:])
 
 
 def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None) -> list[ExportFile]:
@@ -261,21 +262,13 @@ def _whole(work: SolidModel, kind: str, turns: Fraction | None) -> Callable[[], 
 
 def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
     flat = [kind for kind in kinds if kind in ("svg", "dxf")]
-    if flat or "stl" in kinds:
+    if "stl" in kinds:
         for sheet in wheel_sheets(work.blanks.wheels):
-            for kind in flat:
-                yield ExportFile(f"wheels/{sheet.file}.{kind}", sheet.drawing.title, _drawing(sheet.drawing, kind))
-            if "stl" in kinds:
-                yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
+            yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
     if flat:
-        plates = plate_sheets(work)
-        for plate, name in zip(plates, file_names(plate.name for plate in plates), strict=True):
+        for path, drawing in cut_sheets(work):
             for kind in flat:
-                yield ExportFile(f"plates/{name}.{kind}", plate.drawing.title, _drawing(plate.drawing, kind))
-
-
-def _drawing(drawing: FlatDrawing, kind: str) -> Callable[[], bytes]:
-    return lambda: _drawn(drawing, kind)
+                yield ExportFile(f"{path}.{kind}", drawing.title, partial(_drawn, drawing, kind))
 
 
 def _drawn(drawing: FlatDrawing, kind: str) -> bytes:

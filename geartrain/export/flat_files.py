@@ -31,9 +31,9 @@ def to_svg(drawing: FlatDrawing) -> str:
         f'<path id="{CUT}" fill="none" stroke="#000000" stroke-width="0.1" d="{" ".join(map(_path, drawing.cut))}"/>',
     ]
     if drawing.pitch:
-        circles = (_circle(contour) for contour in drawing.pitch)
+        guides = (_circle(each) if each.is_circle else f'<path d="{_path(each)}"/>' for each in drawing.pitch)
         style = 'fill="none" stroke="#0060c0" stroke-width="0.05" stroke-dasharray="1 0.5"'
-        lines.append(f'<g id="{PITCH}" {style}>{"".join(circles)}</g>')
+        lines.append(f'<g id="{PITCH}" {style}>{"".join(guides)}</g>')
     if drawing.marks:
         style = 'fill="#c02020" font-family="sans-serif" text-anchor="middle" dominant-baseline="central"'
         lines.append(f'<g id="{ENGRAVE}" {style}>{"".join(map(_text, drawing.marks))}</g>')
@@ -60,7 +60,8 @@ def _circle(contour: Contour) -> str:
 
 def _text(mark: EngravedText) -> str:
     x, y = mark.at
-    return f'<text x="{x:.4f}" y="{-y:.4f}" font-size="{mark.height:.4g}">{escape(mark.text)}</text>'
+    turn = f' transform="rotate({-mark.angle:.6g} {x:.4f} {-y:.4f})"' if mark.angle else ""
+    return f'<text x="{x:.4f}" y="{-y:.4f}" font-size="{mark.height:.4g}"{turn}>{escape(mark.text)}</text>'
 
 
 _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, red
@@ -86,7 +87,7 @@ def to_dxf(drawing: FlatDrawing) -> str:
         for contour in contours:
             _draw(space, contour, name)
     for mark in drawing.marks:
-        text = space.add_text(mark.text, height=mark.height, dxfattribs={"layer": ENGRAVE})
+        text = space.add_text(mark.text, height=mark.height, rotation=mark.angle, dxfattribs={"layer": ENGRAVE})
         text.set_placement(mark.at, align=TextEntityAlignment.MIDDLE_CENTER)
     out = StringIO()
     document.write(out)

@@ -144,7 +144,7 @@ def _moved(drawing: FlatDrawing, low: np.ndarray, corner: np.ndarray, turned: bo
 
     cut = tuple(Contour(place(each.points), each.bulges) for each in drawing.cut)
     marks = tuple(
-        EngravedText(each.text, (float(at[0]), float(at[1])), each.height)
+        EngravedText(each.text, (float(at[0]), float(at[1])), each.height, 90.0 if turned else 0.0)
         for each in drawing.marks
         for at in (place(np.array(each.at)),)
     )

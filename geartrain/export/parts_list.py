@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.files import csv_text
+from geartrain.train.wheel_stock import material_named
 
 if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
+    from geartrain.train import Wheel
 
 _STEEL = ("arbor", "stud", "pin")
-_DENSITY = {"brass": 8.4, "steel": 7.85, "acrylic": 1.19, "PLA": 1.24}  # g/cm3, handbook means
 _STOCK = {"laser": "acrylic", "fdm": "PLA"}  # of flat parts; brass for any other process
 _SAME = 4  # decimals of a mm to which parts are alike
 
@@ -60,16 +61,36 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
         # two-decimal volumes tell shapes of one size apart, and not the rounding of mirrored ones
         volume = _volume(part)
         key = (row.kind, row.size, row.fits, round(volume, 2))
-        row = replace(row, mass=volume * _DENSITY[row.material] / 1000)
+        row = replace(row, mass=volume * _density(work, part, row.material) / 1e6)
         known = alike.get(key)
         alike[key] = row if known is None else replace(known, names=(*known.names, part.name))
     return list(alike.values())
 
 
 def _material(work: SolidModel, part: SolidPart) -> str:
+    declared = work.train.declaration
+    wheel = _wheel(work, part)
+    own = None if wheel is None else wheel.material or declared.material
+    if own is None and part.kind == "arbor" and part.turned is not None:
+        arbor = declared.links[part.turned.link].arbor
+        own = None if arbor is None else arbor.material
+    if own is not None:
+        return own
     if part.kind in _STEEL:
         return "steel"
     return _STOCK.get(work.process.name, "brass") if part.turned is None else "brass"
+
+
+def _wheel(work: SolidModel, part: SolidPart) -> Wheel | None:
+    return work.train.declaration.wheels[part.name][1] if part.kind == "wheel" else None
+
+
+def _density(work: SolidModel, part: SolidPart, material: str) -> float:
+    """In kg/m3; 0 of a material of the train's own that declares none."""
+    wheel, declared = _wheel(work, part), work.train.declaration
+    own = None if wheel is None else wheel.density or declared.density
+    found = own or material_named(declared, material).density
+    return 0.0 if found is None else found.si
 
 
 def _volume(part: SolidPart) -> float:

@@ -29,4 +29,5 @@ def _sheet(plate: FlatPlate) -> Plate:
     )
     sizes = ", ".join(dict.fromkeys(f"{hole.name} {hole.diameter:.4g}" for hole in plate.holes))
     title = f"{plate.name}: thickness {plate.high - plate.low:.4g} mm, scale 1:1; holes (mm): {sizes}"
-    return Plate(plate.link, plate.name.replace(" ", "-"), FlatDrawing(title, plate.contours, marks=marks))
+    drawing = FlatDrawing(title, plate.contours, marks=marks)
+    return Plate(plate.link, plate.name.replace(" ", "-"), drawing, plate.high - plate.low)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.wheel_arms import RIM
 from geartrain.scene.solids.wheel_blanks import Blank
 from geartrain.teeth.outlines.contour import Contour
 
@@ -17,11 +18,12 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # names th
 
 @dataclass(frozen=True, slots=True)
 class WheelSheet:
-    """A drawing with the name of its file, without suffix, and what it shows."""
+    """A drawing with the name of its file, without suffix, what it shows, and how thick its sheet is (mm)."""
 
     file: str
     drawing: FlatDrawing
     parts: tuple[str, ...]
+    thickness: float
 
 
 def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
@@ -31,7 +33,7 @@ def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
         alike.setdefault(_shape(blank), []).append(blank)
     names = file_names(group[0].wheel for group in alike.values())
     return tuple(
-        WheelSheet(name, _drawing(group), tuple(blank.wheel for blank in group))
+        WheelSheet(name, _drawing(group), tuple(blank.wheel for blank in group), group[0].thickness)
         for name, group in zip(names, alike.values(), strict=True)
     )
 
@@ -66,10 +68,13 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
         f"{names}{often}: {blank.teeth} {what}{' inside' if blank.kind == 'ring' else ''}, {blank.form}, module "
         f"{blank.module:.6g} mm, pitch diameter {2 * blank.pitch_radius:.4f} mm, thickness {blank.thickness:.4g} mm"
         + (f", bore {blank.bore:.4g} mm" if blank.bore else "")
+        + (f", {blank.arms} arms" if blank.arms else "")
     )
     inner, outer = blank.bore / 2, min(blank.root_radius, blank.tip_radius)
     if blank.kind == "ring":
         inner, outer = blank.root_radius, float(abs(blank.contours[0].points).max())
+    elif blank.arms:
+        inner = outer - RIM * blank.module  # on the rim: below it there is an arm or nothing
     height = min(_LETTER * (outer - inner), _GREATEST, 1.6 * outer / max(len(names), 1))
     mark = EngravedText(names, (0.0, (inner + outer) / 2), height)
     return FlatDrawing(title, blank.contours, (Contour.circle(blank.pitch_radius),), (mark,))

@@ -225,7 +225,7 @@ def test_the_list_of_parts_has_all_of_them_and_masses_of_their_volumes() -> None
     named = {name: row for row in rows for name in row["part"].split(", ")}
     assert set(named) == {part.name for part in work.parts}
     assert sum(int(row["count"]) for row in rows) == len(work.parts)
-    density = {"brass": 8.4, "steel": 7.85}
+    density = {"brass": 8.47, "steel": 7.85}
     for part in work.parts:
         row = named[part.name]
         mass = body(part.placed).volume() * density[row["material"]] / 1000

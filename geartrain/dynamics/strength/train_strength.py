@@ -12,7 +12,8 @@ from geartrain.dynamics.strength.arbor_strength import arbor_strength
 from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
 from geartrain.dynamics.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
-from geartrain.train import Material, Train, material_table
+from geartrain.train import Train
+from geartrain.train.wheel_stock import face_width, material_named
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
@@ -94,7 +95,7 @@ class StrengthQuestion:
                 mesh.gears.index(name) + 1,
                 self.teeth[name],
                 self._material_name(wheel),
-                self._material(self._material_name(wheel)),
+                material_named(self.declared, self._material_name(wheel)),
                 float(torque.torques[at]),
                 self._turns(torque, at),
             )
@@ -134,15 +135,11 @@ class StrengthQuestion:
 
     def _width(self, wheel: Wheel) -> float:
         """Width of its teeth (m), 0 where nothing says it."""
-        declared = self.declared
-        found = wheel.face_width or wheel.thickness or declared.face_width or declared.thickness
+        found = face_width(self.declared, wheel)
         return 0.0 if found is None else found.si
 
     def _material_name(self, wheel: Wheel) -> str:
         return wheel.material or self.declared.material or ""
-
-    def _material(self, name: str) -> Material:
-        return self.declared.materials.get(name) or material_table()[name]
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
         """Turns of one wheel as the carrier sees it, over the time that was given."""
@@ -165,4 +162,4 @@ class StrengthQuestion:
                         steepest = max((each.force for each in found.contact if each.couples == 1), default=0.0)
                         force += max(steepest, found.tangential)
                         torque = max(torque, 1e3 * abs(found.wheels[at].torque))
-            yield arbor_strength(link, part.arbor, self._material(part.arbor.material), force, torque)
+            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), force, torque)

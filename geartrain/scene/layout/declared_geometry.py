@@ -16,6 +16,7 @@ from geartrain.kinematics.circuits.axes import Axes
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
+from geartrain.train.wheel_stock import wheel_thickness
 
 Point = tuple[float, float]
 """A place in plan: coordinates (mm) across parallel axes."""
@@ -172,6 +173,7 @@ class DeclaredGeometry:
 
     axis       of every wheel, those first that mesh
     wheels     link and declaration of every wheel
+    thickness  of those that declare one (mm)
     front      the side of z from which the train is looked at: 1 or -1
     dial_ends  of links that run to a dial
     driven     the axis of the first input, which gets the origin where no position is declared
@@ -182,6 +184,7 @@ class DeclaredGeometry:
     contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
+    thickness: Mapping[str, float]
     strays: tuple[StrayMesh, ...]
     front: int
     dial_ends: Mapping[str, DialEnds]
@@ -238,6 +241,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         tuple(contacts),
         tuple(ties),
         declared.wheels,
+        dict(_thickness(declared)),
         tuple(strays),
         front,
         _dial_ends(declared, front),
@@ -278,6 +282,13 @@ def _given(declared: Train, axis: str) -> Vector | None:
         return None
     x, y, z = (float(millimetres(part)) for part in place)
     return x, y, z
+
+
+def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
+    for name, (_, wheel) in declared.wheels.items():
+        found = wheel_thickness(declared, wheel)
+        if found is not None:
+            yield name, float(millimetres(found))
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:

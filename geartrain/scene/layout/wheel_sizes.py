@@ -100,6 +100,7 @@ class WheelSize:
     inner       within it all is free inside a ring; 0 of other wheels
     outer       the radius it needs
     slot        its middle over that of the lowest wheel of its level, where that is divided into slots
+    plain       its thickness were it not broad enough to meet several mates
     """
 
     radius: float
@@ -108,6 +109,7 @@ class WheelSize:
     inner: float
     outer: float
     slot: float = 0.0
+    plain: float = 0.0
 
     def across_slots(self, low: int, high: int) -> WheelSize:
         """The same wheel, as broad as it must be to stand in some slots, counted from below."""
@@ -118,7 +120,7 @@ class WheelSize:
     @property
     def foot(self) -> float:
         """How far the middle of a wheel in the lowest of its slots is under its own (mm)."""
-        return (self.thickness - _WIDE * self.module) / 2
+        return (self.thickness - self.plain) / 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +154,9 @@ class SizedGeometry:
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
     """Modules, sizes and seats of all wheels."""
     modules = find_wheel_modules(declared)
-    sizes = {wheel: _size(declared, wheel, modules.module[wheel]) for wheel in declared.wheels}
+    sizes = {
+        wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels
+    }
     crossing: list[CrossingSide] = []
     for contact in declared.contacts:
         if not contact.parallel:
@@ -163,11 +167,15 @@ def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
     return SizedGeometry(declared, modules, sizes, tuple(crossing))
 
 
-def _size(geometry: DeclaredGeometry, wheel: str, module: float) -> WheelSize:
+def _size(geometry: DeclaredGeometry, wheel: str, module: float, is_given: bool) -> WheelSize:
     declared = geometry.wheel(wheel)
     radius = float(geometry.radius(wheel)) * module
-    thickness = (_WORM if declared.kind == "worm" else _WIDE) * module
+    usual = (_WORM if declared.kind == "worm" else _WIDE) * module
+    # of a wheel that may have any size a thickness says nothing
+    thickness = geometry.thickness.get(wheel, usual) if is_given else usual
     across_axis = module * declared.slant
     if declared.internal:
-        return WheelSize(radius, across_axis, thickness, max(radius - _TIP * module, 0.0), radius + _RING * module)
-    return WheelSize(radius, across_axis, thickness, 0.0, radius + _TIP * module)
+        inner, outer = max(radius - _TIP * module, 0.0), radius + _RING * module
+    else:
+        inner, outer = 0.0, radius + _TIP * module
+    return WheelSize(radius, across_axis, thickness, inner, outer, plain=thickness)

@@ -19,6 +19,7 @@ INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is
 _LEAST = 0.8  # mm: the thinnest arbor
 _USUAL = 2 / 3  # of the root radius of the smallest wheel: the diameter of an arbor
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way
+_PIVOT = 0.55  # of its arbor: so that the shoulder bears
 _WIDEST = 6.0  # mm, of one whose size nobody gives
 
 
@@ -56,6 +57,7 @@ class AxisColumn:
     """All that stands on an axis.
 
     core       diameter (mm) of the arbor or the stud in the middle, which goes from `low` to `high`
+    pivot      diameter (mm) of an arbor's pivots
     members    from the innermost; of a through arbor the first is the core
     hit        discs of other axes in the way, with the gap to them (mm, below `APART`)
     tangled    two links of which neither can be inside the other
@@ -65,6 +67,7 @@ class AxisColumn:
     at: Point
     bearing: AxisBearing
     core: float
+    pivot: float
     low: float
     high: float
     members: tuple[ColumnMember, ...]
@@ -94,6 +97,7 @@ class ColumnProblem:
     ends    link -> whether it goes out below and above the stack
     span    of the whole stack, with room for dials
     core    diameter of the arbor (mm) if it is given
+    pivot   of its pivots (mm) if that is
     """
 
     axis: str
@@ -105,6 +109,7 @@ class ColumnProblem:
     frame: str
     process: Process
     core: float | None = None
+    pivot: float | None = None
 
     def columns(self, places: FramePlaces) -> list[AxisColumn]:
         """Ways to bear the axis, the better first; each says what is in its way."""
@@ -161,7 +166,8 @@ class ColumnProblem:
             low, high = min(low, places.back[0]), max(high, places.front[1])
         if bearing is AxisBearing.THROUGH and members and not stud:
             members = (replace(members[0], low=low, high=high), *members[1:])
-        column = AxisColumn(self.axis, self.at, bearing, core, low, high, members, (), tangled)
+        pivot = round(_PIVOT * core, 2) if self.pivot is None else min(self.pivot, core)
+        column = AxisColumn(self.axis, self.at, bearing, core, pivot, low, high, members, (), tangled)
         return replace(column, hit=tuple(_hits(column, self.others)))
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:

@@ -78,9 +78,19 @@ class FramePlan:
                     span,
                     self.stack.frame,
                     self.process,
-                    self.core,
+                    *self._arbor(label),
                 )
                 yield with_discs(problem, discs)
+
+    def _arbor(self, axis: str) -> tuple[float | None, float | None]:
+        """Diameters of the arbor on an axis and of its pivots, as asked for, else as its link declares (mm)."""
+        train = self.stack.train
+        links = [link for link in train.declaration.links if train.tree.axis(link) == axis]
+        declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
+        if self.core is not None or not declared:
+            return self.core, None
+        thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the one that runs in the others
+        return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
         """Ways to seat each carrier and each ring that turns."""

@@ -14,7 +14,7 @@ from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnM
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.stack_discs import Point, StackDisc
-from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses, pivot
+from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour
 
@@ -130,7 +130,7 @@ class FramePlates:
             return Hole(column.axis, column.at, widest.outer + (process.press if widest.fixed else process.running))
         if column.bearing is AxisBearing.THROUGH:
             turns = bool(column.members) and not column.members[0].inner
-            return Hole(column.axis, column.at, pivot(column) + process.running) if turns else None
+            return Hole(column.axis, column.at, column.pivot + process.running) if turns else None
         own = self.plan.places.back if column.bearing is AxisBearing.BACK_STUD else self.plan.places.front
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 

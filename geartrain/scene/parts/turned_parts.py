@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.solids.triangulation import Integers
 
-_PIVOT = 0.55  # of its arbor: so that the shoulder bears
 _COLLAR = 1.0  # mm: length of a collar, and its wall
 _SAME = 1e-9
 
@@ -170,17 +169,12 @@ def _carries(member: ColumnMember) -> str:
     return "carries " + ", ".join(disc.name for disc in member.discs)
 
 
-def pivot(column: AxisColumn) -> float:
-    """Diameter of an arbor's pivots (mm)."""
-    return round(_PIVOT * column.core, 2)
-
-
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
     """From shoulder to shoulder with a pivot in either plate; where it goes on, a collar bears in place of it."""
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
-    thick, thin = column.core / 2, pivot(column) / 2
+    thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)
     bands = [] if below else [Band(places.back[0], low, thin)]
     bands.append(Band(member.low if below else low, member.high if above else high, thick))

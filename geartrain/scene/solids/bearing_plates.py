@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 Point = tuple[float, float]
 
+_DISC = 3.0  # mm: sheet of discs of pins and slots
 _LAND = 3.0  # mm of plate round a hole
 _PARALLEL = 1e-9  # of a cosine, or mm: less is rounding
 _PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
@@ -25,11 +26,12 @@ _PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A flat part of a link, as it is drawn."""
+    """A flat part of a link, as it is drawn, and how thick its sheet is (mm)."""
 
     link: str
     name: str
     drawing: FlatDrawing
+    thickness: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +135,8 @@ def _disc(train: GearTrain, coupling: Coupling, link: str, diameters: Mapping[st
         cut.append(Contour.circle(own / 2))
     what = "slot" if slotted else "pin"
     title = f"{link}: {what} of {coupling.name}, pin {pin:.4g} mm at {r:.6g} mm, axes {e:.6g} mm apart, scale 1:1"
+    title += f", thickness {_DISC:g} mm"
     marks = (EngravedText(link, (-(high + pin) / 2, 0.0), 0.6 * _LAND),)
     drawing = FlatDrawing(title, tuple(cut), marks=marks)
     name = f"{what}-{coupling.name}-{link}"
-    return Plate(link, name, drawing)
+    return Plate(link, name, drawing, _DISC)

@@ -24,11 +24,12 @@ TOLERANCE = 0.001  # mm, how far a chord may leave a curve
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Letters of some height (mm), their middle at a point (mm)."""
+    """Letters of some height (mm), their middle at a point (mm), their line turned from the x axis (degrees)."""
 
     text: str
     at: tuple[float, float]
     height: float
+    angle: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +38,7 @@ class FlatDrawing:
 
     title   what it is, in a line
     cut     closed curves to cut: the outer one first, then holes
-    pitch   circles that guide and are not cut
+    pitch   what guides and is not cut: pitch circles, the edge of a sheet
     marks   what is engraved
     """
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isfinite
 
@@ -37,6 +37,10 @@ class ManufacturingSizes:
         of the module.
     process : str, optional
         How it is made: laser, cnc, fdm or hand; sets kerf, fits, and the play where none is given.
+    arms : int, optional
+        Arms of wheels that have room for windows between them, 3 or more; without it webs are whole.
+    sheet : (float, float), optional
+        Width and height of the sheets that flat parts are laid out on [mm], above 0; without it they are not.
 
     Raises
     ------
@@ -46,7 +50,7 @@ class ManufacturingSizes:
     Examples
     --------
     >>> ManufacturingSizes(module=2.0, bore=6.0)
-    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None, process=None)
+    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None, process=None, arms=None, sheet=None)
     """
 
     module: float | None = None
@@ -54,12 +58,20 @@ class ManufacturingSizes:
     bore: float | None = None
     backlash: float | None = None
     process: str | None = None
+    arms: int | None = None
+    sheet: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` for what is no size."""
         process_named(self.process)
         problems = []
-        for name in (each.name for each in fields(self) if each.name != "process"):
+        if self.arms is not None and self.arms < 3:
+            what = f"a wheel of {self.arms} arms is none"
+            problems.append(Problem(what, "", "give 3 or more, or leave --arms out for whole webs", "--arms"))
+        if self.sheet is not None and not all(isfinite(side) and side > 0 for side in self.sheet):
+            what = f"a sheet of {self.sheet[0]:g} x {self.sheet[1]:g} mm is none"
+            problems.append(Problem(what, "", "give two lengths above 0, such as 300x200mm", "--sheet"))
+        for name in ("module", "thickness", "bore", "backlash"):
             value = getattr(self, name)
             zero = name in ("bore", "backlash")
             if value is not None and not (isfinite(value) and (value >= 0 if zero else value > 0)):

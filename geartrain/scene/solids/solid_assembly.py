@@ -22,7 +22,7 @@ from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs,
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
 from geartrain.scene.solids.triangle_solids import Solid, plate_solid, wheel_solid
-from geartrain.scene.solids.wheel_blanks import Blanks, bored, find_blanks
+from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
@@ -147,6 +147,9 @@ class SolidModel:
             others = [] if self.frame is None else self._own_holes(name)
             wheels[name], told = bored(blank, holes.get(name, 0.0), others)
             notices += told
+            if self.making.arms is not None:
+                wheels[name], told = crossed_out(wheels[name], self.making.arms)
+                notices += told
         return Blanks(wheels, tuple(notices), self._toothed.plays)
 
     @cached_property

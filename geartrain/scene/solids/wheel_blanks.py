@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.train_teeth import PairPlay, WheelTeeth, find_train_teeth
 from geartrain.errors import Problem
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
+from geartrain.scene.solids.wheel_arms import arm_windows
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ class Blank:
     form       of its teeth, in words
     contours   the outer one first, then holes
     helix      angle of its teeth from the axis (rad), of a right hand above 0
+    arms       that windows leave; 0 where its web is whole
     """
 
     wheel: str
@@ -44,6 +46,7 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
+    arms: int = 0
 
     @property
     def twist(self) -> float:
@@ -114,6 +117,18 @@ def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
         fix = "print it from the .stl, or have it hobbed"
         why = "a flat drawing is their section across the axis, and the .step has it raised straight"
         yield Problem(what, why, fix)
+
+
+def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
+    """With windows between its arms, if it has the room; a wheel that bears studs keeps its web."""
+    own = 1 + (blank.bore > 0)
+    if blank.kind != "external" or blank.helix:
+        return blank, []
+    windows = arm_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
+    if windows and len(blank.contours) > own:
+        what = f"wheel '{blank.wheel}' keeps its web"
+        return blank, [Problem(what, "it has holes for what it bears", "file its windows by hand", "--arms")]
+    return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:

@@ -30,6 +30,7 @@ from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
+    from geartrain.export.proof import TrainProof
     from geartrain.scene import ManufacturingSizes, SolidModel
 
 _PATIENCE = 2.0  # seconds before a progress bar is shown
@@ -175,7 +176,8 @@ def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None,
 
 def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
     from geartrain.export import export_files, notices
-    from geartrain.export.file_set import KINDS, installed
+    from geartrain.export.assembly_guide import UNPROVED
+    from geartrain.export.file_set import KINDS, installed, parts_wanted
     from geartrain.numerics.files import check_folder, write_folder
 
     if wheel is not None:
@@ -184,7 +186,8 @@ def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns
     missing: list[Problem] = []
     if kinds is None:
         wanted, missing = installed(wanted)
-    files = export_files(work, wanted, turns)
+    proof = _proof(work) if parts_wanted(wanted) else None
+    files = export_files(work, wanted, turns, proof)
     check_folder(to, [each.path for each in files], force)
     try:
         count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)), force)
@@ -193,6 +196,18 @@ def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns
         raise typer.Exit(INTERRUPTED) from None
     _remark([*missing, *notices(work, wanted)])
     tell(f"wrote {plural(count, 'file')} to {to}")
+    if parts_wanted(wanted):
+        tell(UNPROVED.replace("*", "").replace("`", "") if proof is None else proof.verdict)
+
+
+def _proof(work: SolidModel) -> TrainProof | None:
+    """What is proved of the train, with a progress bar once it takes long; None without the libraries."""
+    from geartrain.export.proof import proof_is_installed, proof_steps, prove_train
+
+    if not proof_is_installed():
+        return None
+    with progress("proof", proof_steps(work), _PATIENCE) as bar:
+        return prove_train(work, bar.advance)
 
 
 def _remark(problems: Sequence[Problem]) -> None:

@@ -15,6 +15,7 @@ from geartrain.dynamics.gear_meshes import find_sizes
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import FrozenDict
 from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
+from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
@@ -108,12 +109,16 @@ class WheelTeeth:
 
 @dataclass(frozen=True, slots=True)
 class PairPlay:
-    """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels."""
+    """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels.
+
+    contact_ratio   of conjugate teeth that stand where they are made for; None of others
+    """
 
     pair: str
     wheels: tuple[str, str]
     length: float
     angles: tuple[float, float]
+    contact_ratio: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,7 +293,16 @@ class _Toothing:
             if arc is not None:
                 radii = [(self._wheel(name).count or 0) / 2 for name in gear.pair]
                 angles = arc / radii[0], arc / radii[1]
-                yield PairPlay(gear.name, gear.pair, arc * self.places[gear.pair[0]].module, angles)
+                size = self.places[gear.pair[0]].module
+                yield PairPlay(gear.name, gear.pair, arc * size, angles, self._contact_ratio(gear))
+
+    def _contact_ratio(self, gear: GearPair) -> float | None:
+        mesh = self._mesh(gear)
+        if gear.name in self.apart or mesh is not None:
+            return mesh.path.contact_ratio if isinstance(mesh, ConjugateMesh) and gear.name not in self.apart else None
+        first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
+        form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
+        return conjugate_pair_of(form, wheels).path.contact_ratio
 
     def _play(self, gear: GearPair) -> float | None:
         """Of a pair as it stands, along the pitch circles (modules); None where it does not stand as its law has it."""

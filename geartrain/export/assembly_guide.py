@@ -8,28 +8,55 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, printable
 from geartrain.export.parts_list import ListedPart, parts_list
+from geartrain.export.proof.verdict_text import proof_lines, verdict_lines
 from geartrain.scene.parts.arbor_columns import SHAKE, AxisBearing, AxisColumn
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import PairPlay
+    from geartrain.export.proof import TrainProof
     from geartrain.scene.parts.frame_plates import FramePlates
     from geartrain.scene.solids.solid_assembly import SolidModel
 
 
-def readme(work: SolidModel, files: Sequence[tuple[str, str]], missing: Sequence[Problem], parts: bool) -> str:
-    """What the files are, the parts and their assembly if some show them, and what could not be made, as Markdown."""
+UNPROVED = (
+    "**Not proved**: nothing was turned, for shapely and manifold3d are missing: `pip install 'geartrain[proof]'`."
+)
+"""What stands first in a README where nothing can be proved."""
+
+
+def readme(
+    work: SolidModel,
+    files: Sequence[tuple[str, str]],
+    missing: Sequence[Problem],
+    parts: bool,
+    proof: TrainProof | None = None,
+) -> str:
+    """Whether the parts are ready to cut, what the files are, how the parts go together, and what could not be made.
+
+    files     paths, and what each shows
+    missing   what could not be made
+    parts     whether some of the files show parts
+    proof     None where nothing was proved
+    """
     declared = work.train.declaration
     lines = [f"# {_cell(declared.name)}", "", *([_cell(declared.title), ""] if declared.title else [])]
+    if proof is not None:
+        lines += verdict_lines(proof, _cell)
+    elif parts:
+        lines += [UNPROVED, ""]
     lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
     lines += ["| file | what it is |", "| --- | --- |"]
     lines += [f"| {path} | {_cell(title)} |" for path, title in files]
+    if proof is not None:
+        lines += proof_lines(proof, _cell)
     if parts:
         lines += [*_plays(work), *_parts(parts_list(work))]
         if work.frame is not None:
             lines += ["", "## Fits", "", *_fits(work), "", "## Putting it together", "", *_steps(work, work.frame)]
-    if missing:
+    told = set() if proof is None else {found.problem for found in proof.findings}
+    if left := [each for each in missing if each not in told]:
         lines += ["", "## What could not be made", ""]
-        lines += [f"- {_cell(each.text)}" for each in missing]
+        lines += [f"- {_cell(each.text)}" for each in left]
     return "\n".join([*lines, ""])
 
 

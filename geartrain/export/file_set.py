@@ -15,6 +15,7 @@ from geartrain.export.csv_tables import to_tables
 from geartrain.export.cut_sheets import cut_sheets, wheel_drawing
 from geartrain.export.flat_files import to_dxf, to_svg
 from geartrain.export.parts_list import parts_list, to_csv
+from geartrain.export.proof import TrainProof, proof_is_installed, prove_train
 from geartrain.export.rexs import to_rexs
 from geartrain.export.wheel_sheets import WheelSheet, wheel_sheets
 from geartrain.kinematics import graph
@@ -184,7 +185,9 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     return _drawn(wheel_drawing(work, blank), suffix[1:])
 
 
-def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None) -> list[ExportFile]:
+def export_files(
+    work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
+) -> list[ExportFile]:
     """All files of some kinds, small ones first, a README that lists them last.
 
     Parameters
@@ -195,6 +198,9 @@ def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None 
         Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
     turns : Fraction, optional
         Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+    proof : TrainProof, optional
+        What was proved of the train, for the README; by default it is proved when that is made, where the extra `proof`
+        is installed.
 
     Returns
     -------
@@ -229,16 +235,18 @@ def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None 
         files.append(
             ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
         )
-    return [*files, ExportFile("README.md", "what is here", lambda: _readme(work, files, kinds))]
+    return [*files, ExportFile("README.md", "what is here", lambda: _readme(work, files, kinds, proof))]
 
 
 def _listed(work: SolidModel) -> bytes:
     return to_csv(parts_list(work)).encode("utf-8")
 
 
-def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str]) -> bytes:
-    named = [(each.path, each.title) for each in files]
-    return readme(work, named, notices(work, kinds), parts_wanted(kinds)).encode("utf-8")
+def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str], proof: TrainProof | None) -> bytes:
+    named, parts = [(each.path, each.title) for each in files], parts_wanted(kinds)
+    if proof is None and parts and proof_is_installed():
+        proof = prove_train(work)
+    return readme(work, named, notices(work, kinds), parts, proof).encode("utf-8")
 
 
 def parts_wanted(kinds: Sequence[str]) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import cos, sin
 from typing import TYPE_CHECKING
@@ -150,7 +150,7 @@ class SolidModel:
             if self.making.arms is not None:
                 wheels[name], told = crossed_out(wheels[name], self.making.arms)
                 notices += told
-        return Blanks(wheels, tuple(notices), self._toothed.plays)
+        return replace(self._toothed, wheels=wheels, notices=tuple(notices))
 
     @cached_property
     def _bores(self) -> dict[str, float]:

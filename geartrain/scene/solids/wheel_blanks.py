@@ -56,11 +56,16 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut."""
+    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut.
+
+    uncut   why by wheel; `flat`, the wheels whose teeth stand straight in a plane, cut or not
+    """
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     plays: tuple[PairPlay, ...]
+    uncut: Mapping[str, tuple[Problem, ...]]
+    flat: frozenset[str]
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
@@ -77,7 +82,7 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
             notices.append(_formless(blank))
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
         notices += _leaning(name, wheel)
-    return Blanks(wheels, tuple(notices), toothed.plays)
+    return Blanks(wheels, tuple(notices), toothed.plays, toothed.problems, toothed.flat)
 
 
 def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:

@@ -251,20 +251,21 @@ def test_wheels_of_other_sizes_on_one_axle_pair_do_not_hold_or_do_not_fit() -> N
 
 
 def test_solids_of_two_links_in_one_place_are_named_with_their_volume() -> None:
-    """By hand: the shorter arbor, 1.83 mm thick with 24 sides, lies in the longer one as far as both reach."""
-    model = work("longcase-clock-cycloidal")
+    """By hand: two studs, of a diameter that is told, go on each through the disc of the other ring, 3 mm thick."""
+    model = work("wolfrom-175")
     parts = {part.name: part for part in model.parts}
-    found = prove_solids(model)
-    ends = [parts[f"{name} arbor"].placed.vertices @ (0, 0, 1) for name in ("centre", "hour")]
-    shared = min(ends[0].max(), ends[1].max()) - max(ends[0].min(), ends[1].min())
-    area = 24 / 2 * sin(2 * pi / 24) * (model.blanks.wheels["c8"].bore / 2) ** 2
-    named = [each for each in found if "'centre arbor' and 'hour arbor'" in each.problem.what]
-    if shared <= 0:
-        assert not named
-    else:
-        (each,) = named
-        volume = float(re.search(r"by (\S+) mm3", each.problem.what)[1])  # type: ignore[index]
-        assert 0.9 * shared * area <= volume <= 1.1 * shared * area
+    found = [each for each in prove_solids(model) if "'planet stud' and 'r72 disc'" in each.problem.what]
+    (each,) = found
+    stud, disc = parts["planet stud"], parts["r72 disc"]
+    assert stud.turned is not None
+    low, high = (disc.placed.vertices[:, 2].min(), disc.placed.vertices[:, 2].max())
+    ends = stud.placed.vertices[:, 2]
+    assert ends.min() < low
+    assert high < ends.max()
+    sides = 96
+    area = sides / 2 * sin(2 * pi / sides) * (stud.turned.bands[0].radius) ** 2
+    volume = float(re.search(r"by (\S+) mm3", each.problem.what)[1])  # type: ignore[index]
+    assert volume == pytest.approx(area * (high - low), rel=0.01)
 
 
 # ------------------------------------------------------------------------------------------------------- what is told

@@ -270,13 +270,11 @@ def _whole(work: SolidModel, kind: str, turns: Fraction | None) -> Callable[[], 
 
 def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
     flat = [kind for kind in kinds if kind in ("svg", "dxf")]
-    if "stl" in kinds:
-        for sheet in wheel_sheets(work.blanks.wheels):
-            yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
-    if flat:
-        for path, drawing in cut_sheets(work):
-            for kind in flat:
-                yield ExportFile(f"{path}.{kind}", drawing.title, partial(_drawn, drawing, kind))
+    for path, drawing in cut_sheets(work) if flat else ():
+        for kind in flat:
+            yield ExportFile(f"{path}.{kind}", drawing.title, partial(_drawn, drawing, kind))
+    for sheet in wheel_sheets(work.blanks.wheels) if "stl" in kinds else ():
+        yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
 
 
 def _drawn(drawing: FlatDrawing, kind: str) -> bytes:

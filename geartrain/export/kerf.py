@@ -56,7 +56,7 @@ def _moved(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) -> 
     except ImportError:
         raise MissingExtraError("shapely", "proof", "an outline compensated for its kerf") from None
     found = Polygon(contour.flattened(drawing.tolerance)).buffer(by, quad_segs=_AROUND)
-    rings = list(_rings(found.simplify(drawing.tolerance / 4)))
+    rings = list(_rings(found))
     if len(rings) != 1:
         raise _too_narrow(drawing, 2 * abs(by))
     return Contour.of([(x, y, 0.0) for x, y in rings[0]])

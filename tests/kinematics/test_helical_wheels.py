@@ -243,7 +243,7 @@ def test_solids_turn_along_their_axis_by_the_helix() -> None:
         blank = blanks[name]
         assert blank.twist == pytest.approx(sign * blank.thickness * tan(radians(30)) / blank.pitch_radius)
         leaning, straight = (volume(wheel_solid(each)) for each in (blank, replace(blank, helix=0.0)))
-        assert leaning == pytest.approx(straight, rel=2e-3)  # chords of the helix
+        assert leaning == pytest.approx(straight, rel=4e-3)  # chords of the helix
 
 
 def test_the_shipped_pair_runs() -> None:

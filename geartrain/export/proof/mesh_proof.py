@@ -12,7 +12,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.export.flat_files import to_svg
 from geartrain.export.kerf import compensated
 from geartrain.export.proof.cut_outlines import TOLERANCE, plane_geometry, read_material
-from geartrain.export.proof.turned_pair import NOTHING, FreeTurn, TurnedPair
+from geartrain.export.proof.turned_pair import NOTHING, SAME, FreeTurn, TurnedPair
 from geartrain.export.wheel_sheets import wheel_sheets
 from geartrain.kinematics.buildability import BuildFinding, BuildLevel
 from geartrain.numerics.plain_data import Result
@@ -29,6 +29,7 @@ ALLOWED = 1e-3
 """By how much (mm) the play that is measured may be less than what is declared: what outlines are cut to."""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: least room under a tip, and least width of one that is cut
 _AROUND = 32  # chords of a quarter turn that the middle of a cut makes about a corner
+_BUFFER = 0.01  # of a kerf: how far off the lines are that shapely moves
 _WHOLE = 1 - 1e-9  # contact ratio below which a couple parts before the next meets
 _EASY_RATIO = 1.1  # contact ratio from which a pair hands over with something to spare
 _TOUCH = 1e-4  # mm: play that is none
@@ -98,9 +99,13 @@ def read_wheels(work: SolidModel) -> CutTrain:
                 what = f"wheel {' and '.join(map(repr, sheet.parts))}: {problem.what}"
                 findings.append(BuildFinding("T0", "error", Problem(what, problem.why, problem.fix)))
             continue
-        left = material.buffer(kerf / (2 if pins else -2), quad_segs=_AROUND) if kerf else material
+        left = _burnt(material, kerf / (2 if pins else -2)) if kerf else material
         materials |= dict.fromkeys(sheet.parts, left)
     return CutTrain(materials, tuple(findings))
+
+
+def _burnt(material: Any, by: float) -> Any:
+    return material.buffer(by, quad_segs=_AROUND)
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairPlay, tuple[Blank, Blank], TurnedPair]]:
@@ -114,7 +119,9 @@ def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairPlay, 
             first, second = (cut.materials[name] for name in names)
             counts = wheels[0].teeth, wheels[1].teeth
             apart = axis_distance(work.layout, (names[0], names[1]))
-            found[play.pair] = play, wheels, TurnedPair((first, second), counts, apart, wheels[1].kind == "ring")
+            same = max(SAME, _BUFFER * work.process.kerf)
+            turned = TurnedPair((first, second), counts, apart, wheels[1].kind == "ring", same)
+            found[play.pair] = play, wheels, turned
     return found
 
 

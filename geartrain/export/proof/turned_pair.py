@@ -13,7 +13,6 @@ from math import acos, cos, hypot, lcm, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from geartrain.export.proof.cut_outlines import plane_geometry
 
@@ -28,7 +27,7 @@ _DENSE = 36  # positions in a pitch at which overlaps are looked for: between tw
 _OFF = 0.137  # of a step: no position is a symmetric one
 _HALVINGS = 22  # of half a pitch: to a ten-millionth of it
 _TRIES = 48  # places in a pitch at which a wheel that does not stand free is tried
-_SAME = 5e-6  # mm: teeth that differ by less are alike, above the digits of a drawing
+SAME = 5e-6  # mm: above the digits of a drawing
 _ENDS = 0.2  # of a tooth's height: what counts as its tip, and as its root
 
 
@@ -55,12 +54,14 @@ class TurnedPair:
 
     counts     teeth of both
     distance   of the axles (mm); `ring`, wheel 2 is one
+    same       teeth that differ by less (mm) are alike
     """
 
     materials: tuple[Any, Any]
     counts: tuple[int, int]
     distance: float
     ring: bool = False
+    same: float = SAME
 
     @cached_property
     def pitches(self) -> tuple[float, float]:
@@ -213,7 +214,8 @@ class TurnedPair:
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        return _alike(self.materials[0], self.counts[0], False), _alike(self.materials[1], self.counts[1], self.ring)
+        first, second = self.materials
+        return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 
     # ---------------------------------------------------------------------------------------------------------- words
 
@@ -255,18 +257,14 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
     return ends[::-1] if ring else ends
 
 
-def _alike(material: Any, count: int, ring: bool) -> tuple[int, ...]:
+def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
     """Teeth by the first that is like them: a wheel that is the same after a pitch has one kind."""
     shapely = plane_geometry()
-    if material.geom_type == "Polygon":
-        points = shapely.get_coordinates(_tooth_lines(material, ring)) @ (1, 1j)
-    else:  # pins: their middles, and how large they are beside them
-        pins = shapely.get_parts(material)
-        middles = shapely.get_coordinates(shapely.centroid(pins)) @ (1, 1j)
-        points = middles * (1 + np.sqrt(shapely.area(pins)) / np.abs(middles))
-    turned = points * np.exp(2j * pi / count)
-    apart, _ = KDTree(np.column_stack([points.real, points.imag])).query(np.column_stack([turned.real, turned.imag]))
-    return (0,) * count if float(np.max(apart)) <= _SAME else tuple(range(count))
+    lines = _tooth_lines(material, ring)
+    shapely.prepare(lines)
+    turned = shapely.get_coordinates(lines) @ (1, 1j) * np.exp(2j * pi / count)
+    near = shapely.dwithin(shapely.points(turned.real, turned.imag), lines, same)
+    return (0,) * count if near.all() else tuple(range(count))
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:

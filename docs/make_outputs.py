@@ -34,6 +34,7 @@ NAMES = (
     "strength",
     "motion",
     "dynamics",
+    "buildability",
     "closure",
     "sphere",
     "tooth-numbers",

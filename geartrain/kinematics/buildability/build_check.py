@@ -9,6 +9,7 @@ from geartrain.kinematics.buildability.axis_kinds import check_kinds
 from geartrain.kinematics.buildability.axis_triangles import check_triangles
 from geartrain.kinematics.buildability.build_findings import BuildFinding
 from geartrain.kinematics.buildability.clutch_axes import check_clutches
+from geartrain.kinematics.buildability.equal_planets import check_planets
 from geartrain.kinematics.buildability.idle_wheels import check_mates
 from geartrain.kinematics.buildability.pitch_distances import PitchDistances
 from geartrain.kinematics.buildability.pitch_pairs import pitch_pairs
@@ -27,5 +28,6 @@ def check_build(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterat
     sizes = PitchDistances(train, tree, circuits, pairs)
     yield from sizes.findings
     yield from check_triangles(sizes)
+    yield from check_planets(train, tree, circuits, pairs, sizes)
     yield from check_clutches(train, tree)
     yield from check_mates(train)

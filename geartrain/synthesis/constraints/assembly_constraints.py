@@ -13,6 +13,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
 from geartrain.synthesis.constraints.constraint_options import ConstraintOptions, turns
 from geartrain.synthesis.constraints.count_conditions import (
     Condition,
@@ -23,6 +24,7 @@ from geartrain.synthesis.constraints.count_conditions import (
     DifferentCount,
     LinearSum,
     NearZero,
+    distance_of,
     equality,
     free_of,
     plainest,
@@ -32,7 +34,6 @@ from geartrain.synthesis.constraints.declared_positions import DeclaredPositions
 from geartrain.synthesis.constraints.involute_interference import interference, least_teeth
 from geartrain.synthesis.constraints.planet_assembly import equal_planets, reason
 from geartrain.synthesis.constraints.planet_clearance import PlanetRoom
-from geartrain.synthesis.constraints.train_assembly import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
 
 if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
@@ -51,7 +52,7 @@ def find_constraints(train: Train, free: Mapping[str, Counts], asked: Constraint
     from geartrain.synthesis.formulas.output_formulas import with_counts
 
     stand_in = with_counts(train, {wheel: counts[0] for wheel, counts in free.items()})
-    return tuple(_Asking(train, TrainAssembly(stand_in, frozenset(free)), asked).rules()) if free else ()
+    return tuple(_Asking(train, TrainAssembly.of(stand_in, free), asked).rules()) if free else ()
 
 
 @dataclass(frozen=True)
@@ -122,7 +123,7 @@ class _Asking:
                 yield from self._one_distance(before, mesh)
 
     def _one_distance(self, before: AssemblyMesh, mesh: AssemblyMesh) -> Iterator[CountConstraint]:
-        total = before.distance - mesh.distance
+        total = distance_of(before) - distance_of(mesh)
         shift = self.asked.shift * min(before.module or 1, mesh.module or 1)
         if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
             return

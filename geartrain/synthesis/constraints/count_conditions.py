@@ -17,14 +17,12 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
 
 CandidateColumns = Mapping[str, "Ints"]
 """Wheel -> tooth counts of many candidates, int64 arrays of one length."""
-
-CountRef = str | int
-"""A tooth count in a rule: that of a free wheel, by id, or a fixed one."""
 
 
 class CandidateTest(Protocol):
@@ -258,3 +256,14 @@ class Divisible:
         for modulus, total in self.sums:
             found = found & (total.of(columns) % modulus == 0)
         return np.asarray(found)
+
+
+def teeth_of(mesh: AssemblyMesh) -> LinearSum:
+    """Twice the centre distance of a spur pair, in modules."""
+    return LinearSum.of(mesh.terms)
+
+
+def distance_of(mesh: AssemblyMesh) -> LinearSum:
+    """Twice the centre distance of a spur pair with one module, in units of its measure."""
+    assert mesh.module is not None
+    return teeth_of(mesh).times(mesh.module)

@@ -13,12 +13,20 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing import MeshPhasing, find_phasing
-from geartrain.synthesis.constraints.count_conditions import Condition, Divisible, LinearSum, WholeSum, free_of, whole
+from geartrain.synthesis.constraints.count_conditions import (
+    Condition,
+    Divisible,
+    LinearSum,
+    WholeSum,
+    free_of,
+    teeth_of,
+    whole,
+)
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, TrainAssembly
     from geartrain.numerics.arrays import Bools
     from geartrain.synthesis.constraints.count_conditions import CandidateColumns
-    from geartrain.synthesis.constraints.train_assembly import AssemblyMesh, TrainAssembly
     from geartrain.train import Train
 
 PLAY = 0.05
@@ -108,7 +116,7 @@ class DeclaredPositions:
         for mesh in meshes:
             first = (fixed or meshes)[0]
             if mesh is not first:
-                yield from self._as(mesh, first.teeth, self._length(mesh) / self._length(first), f"'{first.name}'")
+                yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
 
     def _is_sized(self, mesh: AssemblyMesh) -> bool:
         """True if the module of a mesh and the positions of its axes are in one measure."""
@@ -120,7 +128,7 @@ class DeclaredPositions:
         }
 
     def _as(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
-        one, two = whole(mesh.teeth, other)
+        one, two = whole(teeth_of(mesh), other)
         wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
         if wheels:
             name = f"declared positions: '{mesh.name}' reaches as {what} says"

@@ -18,9 +18,9 @@ from geartrain.synthesis.constraints.decimal_sines import decimal, is_positive, 
 if TYPE_CHECKING:
     from decimal import Decimal
 
+    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Floats
-    from geartrain.synthesis.constraints.count_conditions import CandidateColumns, CountRef
-    from geartrain.synthesis.constraints.train_assembly import AssemblyMesh
+    from geartrain.synthesis.constraints.count_conditions import CandidateColumns
 
 
 def least_teeth(pressure: Fraction, addendum: Fraction) -> int:

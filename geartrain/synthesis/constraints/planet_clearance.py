@@ -5,42 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.constraints.count_conditions import Condition, LinearSum, whole
+from geartrain.kinematics.buildability.planet_assembly import neighbour_terms, passing_terms
+from geartrain.synthesis.constraints.count_conditions import Condition, LinearSum, distance_of, teeth_of, whole
 from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
     from geartrain.numerics.arrays import Bools
     from geartrain.synthesis.constraints.count_conditions import CandidateColumns, WholeSum
-    from geartrain.synthesis.constraints.train_assembly import AssemblyMesh, Planet, PlanetSet, TrainAssembly
-
-
-def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
-    """Terms of the room between neighbouring equal planets: 2 a sin(pi/n) less their tips and what is to be left.
-
-    reach   2 a, with a from the central axis to a planet's: m (z_s + z_p), or m (z_r - z_p)
-    tips    m (z_p + 2 h) + clearance
-    chord   sin(pi/n)
-    """
-    return reach * chord, -tips
-
-
-def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Terms of the room between a planet and the one that meshes with its neighbour: (2 distance)^2 less (2 reach)^2.
-
-    A, B   twice the distances of the two planets' axes from the central axis
-    D      twice their centre distance where they mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
-    tips   tip diameters, summed, and twice what is to be left
-    c, s   cosine and sine of the turn psi to the neighbour: the distance is that at the angle psi - delta,
-           (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
-    """
-    Q = A * A + B * B - D * D
-    sines = root(4 * A * A * B * B - Q * Q)
-    return A * A, B * B, -c * Q, -s * sines, -tips * tips
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,10 +103,10 @@ class PlanetRoom:
         if A is None or B is None or mesh.ring is not None:
             return
         assert mesh.module is not None
-        tips = mesh.teeth.plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
+        tips = teeth_of(mesh).plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
         pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
         name = f"neighbours: {pair} of {self.number} planets reach each other and keep {_shown(self.clearance)} apart"
-        yield from _condition(name, PassingClearance(self.number, *whole(A, B, mesh.distance, tips)))
+        yield from _condition(name, PassingClearance(self.number, *whole(A, B, distance_of(mesh), tips)))
         for inner, outer in ((planet, other), (other, planet)):
             if _is_plain(inner, True) and _is_plain(outer, False):
                 yield from self._between(inner, outer)
@@ -161,7 +138,7 @@ def _is_plain(planet: Planet, external: bool) -> bool:
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
     """Twice the distance of a planet's axis from the central one: by a mesh of a wheel, else by an external one."""
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
-    return meshes[0].distance if meshes else None
+    return distance_of(meshes[0]) if meshes else None
 
 
 def _once(planet: Planet) -> list[AssemblyMesh]:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.kinematics.buildability.planet_assembly import neighbour_terms, passing_terms
 from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
-from geartrain.synthesis.constraints.planet_clearance import neighbour_terms, passing_terms
 from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
 
 if TYPE_CHECKING:

@@ -1,8 +1,11 @@
-"""What assembly asks of a declared train: meshes with their axes and modules, and the sets of planets on a carrier."""
+"""Meshes of a train with their axes and modules, and the sets of planets on a carrier, those that are alike together.
+
+A tooth count stands for itself, or is that of a wheel which is free, by its id: then it is to be found.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -11,11 +14,12 @@ from typing import TYPE_CHECKING, Literal
 
 from geartrain.kinematics.circuits import Circuit, Tree, find_circuits, find_tree
 from geartrain.numerics.graphs import joined_groups
-from geartrain.synthesis.constraints.count_conditions import LinearSum
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.constraints.count_conditions import CountRef
     from geartrain.train import Train
+
+CountRef = str | int
+"""A tooth count in a rule: that of a free wheel, by id, or a fixed one."""
 
 Measure = Literal["", "plain", "m"]
 """How the size of a tooth is declared: not at all, as a plain number, as a length."""
@@ -54,18 +58,10 @@ class AssemblyMesh:
         return any(isinstance(part, str) for part in self.parts)
 
     @property
-    def teeth(self) -> LinearSum:
-        """Twice the centre distance of a spur pair, in modules: z1 + z2, or the ring less its mate."""
-        signs = [1, 1]
-        if self.ring is not None:
-            signs[1 - self.ring] = -1
-        return LinearSum.of(zip(signs, self.parts, strict=True))
-
-    @property
-    def distance(self) -> LinearSum:
-        """Twice the centre distance of a spur pair with one module, in units of `measure`."""
-        assert self.module is not None
-        return self.teeth.times(self.module)
+    def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
+        """Twice the centre distance of a spur pair, in modules: z1 + z2, or the ring less its mate; sign and count."""
+        first, second = self.parts
+        return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,20 +134,21 @@ class PlanetSet:
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """A train whose free wheels have some of their allowed counts, and the counts that are free."""
+    """A train whose free wheels have some of their allowed counts, and the counts that are free.
+
+    tree, circuits   its turning pairs; its gear pairs and couplings
+    """
 
     train: Train
     free: frozenset[str]
+    tree: Tree
+    circuits: tuple[Circuit, ...]
 
-    @cached_property
-    def tree(self) -> Tree:
-        """Its turning pairs."""
-        return find_tree(self.train)
-
-    @cached_property
-    def circuits(self) -> tuple[Circuit, ...]:
-        """Its gear pairs and couplings."""
-        return find_circuits(self.train, self.tree)
+    @classmethod
+    def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
+        """That of a train that nothing is known of yet."""
+        tree = find_tree(train)
+        return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
         """The count of a wheel in a rule: its id where it is free, else its number."""
@@ -239,7 +236,15 @@ class TrainAssembly:
         return joined_groups(chain(*planets), planets)
 
     def _meshes_of(self, carrier: str) -> list[AssemblyMesh]:
-        return [mesh for mesh in self.meshes if mesh.carrier == carrier and not mesh.worm]
+        return self._by_carrier.get(carrier, [])
+
+    @cached_property
+    def _by_carrier(self) -> Mapping[str, list[AssemblyMesh]]:
+        found: dict[str, list[AssemblyMesh]] = {}
+        for mesh in self.meshes:
+            if not mesh.worm:
+                found.setdefault(mesh.carrier, []).append(mesh)
+        return found
 
     def _set(self, carrier: str, links: list[str]) -> PlanetSet:
         among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]

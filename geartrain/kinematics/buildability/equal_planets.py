@@ -1,0 +1,260 @@
+"""Equal planets declared one by one: whether all of them can be put in, and whether they have room."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import asin, atan2, ceil, cos, pi, sin, sqrt, tau
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.kinematics.buildability.build_findings import BuildFinding
+from geartrain.kinematics.buildability.planet_assembly import assembly_number, neighbour_terms, passing_terms
+from geartrain.kinematics.buildability.planet_sets import PlanetSet, TrainAssembly, corresponding
+from geartrain.numerics.quantity import millimetres
+from geartrain.numerics.vectors import Vector, dot, frame, minus, unit
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.pitch_distances import PitchDistances
+    from geartrain.kinematics.buildability.pitch_pairs import PitchPair
+    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, Planet
+    from geartrain.kinematics.circuits import Circuit, Tree
+    from geartrain.train import Train
+
+_MISS, _LITTLE = 0.1, 0.01  # pitches: more than any play takes up; less than any play
+_CLEAR = 0.2  # modules that neighbours should leave each other
+
+
+def check_planets(
+    train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair], sizes: PitchDistances
+) -> Iterator[BuildFinding]:
+    """Rules A1 to A3, for sets of two planets and more that mesh with the same central wheels and have equal counts."""
+    if len(train.gears) < 2:
+        return
+    addenda = _addenda(pairs)
+    for one in TrainAssembly(train, frozenset(), tree, tuple(circuits)).sets:
+        copies = [copy for copy in one.copies if _is_equal(train, one, copy)]
+        if one.planets is None or not copies or not all(mesh.spur for mesh in one.planets.central):
+            continue
+        found = _EqualPlanets(train, tree, one, copies, sizes, addenda)
+        yield from found.assembly()
+        yield from found.room()
+
+
+def _addenda(pairs: Sequence[PitchPair]) -> Mapping[str, float]:
+    """Wheel -> the greatest addendum (modules) that its teeth have; 1 where none is declared."""
+    found: dict[str, float] = {}
+    for pair in pairs:
+        declared = getattr(pair.form, "addendum", None)
+        heights = [1.0, 1.0] if declared is None else [float(figure.value) for figure in declared]
+        for wheel, height in zip(pair.wheels, heights, strict=True):
+            found[wheel] = max(found.get(wheel, 0.0), height)
+    return found
+
+
+def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
+    wheels = train.wheels
+    return all(wheels[mine][1].count == wheels[its][1].count for mine, its in corresponding(one, copy).items())
+
+
+class _EqualPlanets:
+    """Equal sets of planets of one carrier, evenly spaced unless all their axes have positions."""
+
+    def __init__(
+        self,
+        train: Train,
+        tree: Tree,
+        one: PlanetSet,
+        copies: Sequence[PlanetSet],
+        sizes: PitchDistances,
+        addenda: Mapping[str, float],
+    ) -> None:
+        assert one.planets is not None
+        self.train, self.one, self.planet, self.sizes, self.addenda = train, one, one.planets, sizes, addenda
+        self.firsts = [self.planet.link, *(copy.planets.link for copy in copies if copy.planets is not None)]
+        self.number = len(self.firsts)
+        self.step = assembly_number(self.planet)
+        axes = [tree.axis(link) for link in self.firsts]
+        self.points = _points(train, tree.axis(one.carrier), axes)
+        self.place = train.place("links", self.firsts[-1])
+        self.names = ", ".join(f"'{link}'" for link in self.firsts)
+
+    # -------------------------------------------------------------------------------------------------------- assembly
+
+    def assembly(self) -> Iterator[BuildFinding]:
+        """Rule A1 for planets of one wheel, A2 for others."""
+        if not self.step:
+            return
+        rule = "A1" if len(self.planet.wheels) == 1 and not self.planet.outward else "A2"
+        if self.points is not None:
+            yield from self._placed(rule, self.points)
+        elif self.step % self.number:
+            yield self._uneven(rule)
+
+    def _placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
+        turns = [atan2(y, x) / tau for x, y in points]
+        misses = [self.step * (turn - turns[0]) for turn in turns]
+        off = [abs(miss - round(miss)) for miss in misses]
+        worst = max(off)
+        if worst <= _LITTLE:
+            return
+        at = off.index(worst)
+        what = (
+            f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are off by {worst:.3g} of a pitch"
+        )
+        why = (
+            f"seen from '{self.one.carrier}' it stands {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
+            f"'{self.firsts[0]}', and such planets go in every {self._degrees}"
+        )
+        moved = [
+            f"'{link}' {360 * (round(miss) / self.step % 1):.6g} deg"
+            for link, miss, far in zip(self.firsts, misses, off, strict=True)
+            if far > _LITTLE
+        ]
+        fix = f"place {', '.join(moved)} from '{self.firsts[0]}'"
+        problem = Problem(what, why, self._fix(rule, fix), self.place)
+        yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
+
+    def _uneven(self, rule: str) -> BuildFinding:
+        """Planets that cannot stand evenly: an error where they have no room elsewhere either."""
+        least = max((self._least_turn(planet) for planet in self.planet.walk()), default=0.0)
+        steps = max(1, ceil(least * self.step - 1e-9))
+        fits = self.number * steps <= self.step
+        whole, rest = divmod(self.step, self.number)
+        even = [count for count in range(2, self._most() + 1) if self.step % count == 0]
+        what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot stand evenly"
+        why = f"they go in every {self._degrees}, and {self.step} is no multiple of {self.number}"
+        if not fits:
+            why += "; other places leave them no room"
+        others = f"{_listed(even)} would stand evenly" if even else "change a tooth count"
+        spread = (
+            f"give them places {whole} and {whole + 1} of these steps apart ({rest} times {whole + 1}), or "
+            if fits
+            else ""
+        )
+        return BuildFinding(
+            rule,
+            "note" if fits or rule == "A2" else "error",
+            Problem(what, why, self._fix(rule, spread + others), self.place),
+        )
+
+    @property
+    def _degrees(self) -> str:
+        return f"{360 / self.step:.6g} deg (1/{self.step} turn)"
+
+    @staticmethod
+    def _fix(rule: str, fix: str) -> str:
+        return fix if rule == "A1" else f"{fix}; or join the wheels of each planet at an angle of its own"
+
+    # ------------------------------------------------------------------------------------------------------------ room
+
+    def room(self) -> Iterator[BuildFinding]:
+        """Rule A3."""
+        for planet in self.planet.walk():
+            for mesh in _once(planet):
+                gap = self._gap(planet, mesh, self.number)
+                if gap is not None and gap < _CLEAR:
+                    yield self._crowded(planet.own(mesh), gap)
+            for mesh, other in planet.outward:
+                gap = self._passing(planet, other, mesh)
+                if gap is not None and gap < 0:
+                    pair = f"'{planet.own(mesh)}' and the '{other.own(mesh)}'"
+                    what = f"{pair} of the next of {self.number} equal sets overlap"
+                    why = f"their tips would be {-gap:.4g} modules in each other"
+                    fix = "take fewer planets, or change their tooth counts"
+                    yield BuildFinding("A3", "error", Problem(what, why, fix, self.place))
+
+    def _crowded(self, wheel: str, gap: float) -> BuildFinding:
+        module = self.sizes.module(wheel)
+        far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * float(module):.4g} mm"
+        grave = gap <= 0
+        what = f"the tips of {self.number} planets '{wheel}' " + (f"overlap by {far}" if grave else f"leave only {far}")
+        why = "neighbours stand 2 a sin(pi/n) apart, less than their tip diameter" + (
+            "" if grave else f" and {_CLEAR:g} modules"
+        )
+        if self.points is not None:
+            why = why.replace("2 a sin(pi/n) apart", "where they are placed")
+        problem = Problem(what, why, f"take at most {self._most()}, or smaller planets", self.place)
+        return BuildFinding("A3", "error" if grave else "note", problem)
+
+    def _gap(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
+        """Room (modules) between the tips of a wheel of neighbouring planets."""
+        tips = self._tips(planet, mesh)
+        if self.points is not None and planet is self.planet and number == self.number:
+            module = self.sizes.module(planet.own(mesh))
+            if module is None:
+                return None
+            near = min(
+                sqrt((x - u) ** 2 + (y - v) ** 2) for at, (x, y) in enumerate(self.points) for u, v in self.points[:at]
+            )
+            return near / float(module) - tips
+        reach = self._reach(planet, planet.own(mesh))
+        return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
+
+    def _tips(self, planet: Planet, mesh: AssemblyMesh) -> float:
+        """Tip diameter (modules) of a planet's wheel."""
+        wheel = planet.own(mesh)
+        return (self.train.wheels[wheel][1].count or 0) + 2 * self.addenda.get(wheel, 1.0)
+
+    def _reach(self, planet: Planet, wheel: str = "") -> float | None:
+        """Twice the distance of a planet's axis from the central one, in modules of the wheel where it meets one."""
+        meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
+        if not meshes:
+            return None
+        scale = self.sizes.sizes.ratio(("wheel", planet.own(meshes[0])), ("wheel", wheel or planet.own(meshes[0])))
+        return None if scale is None else float(sum(sign * int(part) for sign, part in meshes[0].terms) * scale)
+
+    def _passing(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
+        """Room (modules) between a planet and those that mesh with its neighbours; None where it is not known."""
+        A, B = self._reach(planet, planet.own(mesh)), self._reach(other, other.own(mesh))
+        if A is None or B is None or mesh.ring is not None or self.points is not None:
+            return None
+        D = float(sum(sign * int(part) for sign, part in mesh.terms))
+        if not abs(A - B) <= D <= A + B:
+            return None
+        tips = self._tips(planet, mesh) + self._tips(other, mesh)
+        squares = []
+        for step in range(1, self.number):
+            turn = tau * step / self.number
+            terms = passing_terms(lambda square: sqrt(max(square, 0.0)), A, B, D, 0.0, cos(turn), sin(turn))
+            squares.append(sum(terms))
+        return (sqrt(max(min(squares), 0.0)) - tips) / 2
+
+    def _least_turn(self, planet: Planet) -> float:
+        """The least angle (turns) between neighbours that leaves their tips apart."""
+        found = 0.0
+        for mesh in _once(planet):
+            reach = self._reach(planet, planet.own(mesh))
+            if reach:
+                found = max(found, 2 * asin(min(self._tips(planet, mesh) / reach, 1.0)) / tau)
+        return found
+
+    def _most(self) -> int:
+        """Planets that have room, evenly spaced."""
+        least = max((self._least_turn(planet) for planet in self.planet.walk()), default=0.0)
+        return max(1, int(1 / least + 1e-9)) if least else self.number
+
+
+def _once(planet: Planet) -> list[AssemblyMesh]:
+    """A mesh for each wheel of a planet."""
+    inward = [planet.inward] if planet.inward else []
+    meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
+    return list({planet.own(mesh): mesh for mesh in meshes}.values())
+
+
+def _points(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
+    """Where planets stand about their carrier's axis (mm); None unless all positions are declared."""
+    places = [train.axes[label].position if label in train.axes else None for label in (centre or "", *map(str, axes))]
+    if any(place is None for place in places):
+        return None
+    direction = train.axes[centre or ""].direction
+    x, y = frame(unit((float(direction[0].value), float(direction[1].value), float(direction[2].value))))
+    spots: list[Vector] = []
+    for place in places:
+        assert place is not None
+        spots.append((float(millimetres(place[0])), float(millimetres(place[1])), float(millimetres(place[2]))))
+    return [(dot(minus(spot, spots[0]), x), dot(minus(spot, spots[0]), y)) for spot in spots[1:]]
+
+
+def _listed(counts: Sequence[int]) -> str:
+    *some, last = map(str, counts)
+    return f"{', '.join(some)} or {last}" if some else last

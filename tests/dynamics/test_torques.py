@@ -174,8 +174,7 @@ def test_without_losses_powers_sum_to_zero_exactly(name: str) -> None:
         pytest.skip("several inputs")
     (source,) = case.inputs
     answer = train.solve()
-    plain = {gear.name for gear in train.declaration.gears if gear.efficiency is None}
-    assert plain
+    plain = {gear.name for gear in train.declaration.gears if gear.efficiency is None and gear.friction is None}
     lossy = bool(train.meshes) or len(plain) < len(train.declaration.gears)
     for output in list(case.outputs)[:4]:
         link = answer.outputs[output].of

@@ -25,6 +25,7 @@ FINE = 0.005  # mm, how far chords, or the curves through them, may leave a flan
 _CORNER = 0.35  # rad: where a line turns by more it has a corner
 _CURVED = 4  # points from which a run without corners is one curve
 _STRAIGHT = 1e-9
+_POINT = 1e-5  # mm: an edge shorter than this is none
 _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # the same train is the same file
 
 
@@ -204,8 +205,10 @@ class _Arc(NamedTuple):
 
 def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
     """Arcs, chords (two points), and runs of points (more) that are smooth, one after the other."""
-    count = len(contour.points)
-    straight = abs(contour.bulges) < _STRAIGHT
+    apart = np.linalg.norm(np.roll(contour.points, -1, axis=0) - contour.points, axis=1) > _POINT
+    points, bulges = contour.points[apart], contour.bulges[apart]
+    count = len(points)
+    straight = abs(bulges) < _STRAIGHT
     # begin after an arc, so that no run of chords is cut in two
     first = 0 if straight.all() or not straight.any() else int(np.flatnonzero(~straight)[0]) + 1
     order = [(first + k) % count for k in range(count)]
@@ -215,10 +218,10 @@ def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
             run.append(at)
             continue
         if run:
-            yield from _smooth(contour.points[[*run, (run[-1] + 1) % count]])
+            yield from _smooth(points[[*run, (run[-1] + 1) % count]])
             run = []
         if at >= 0:
-            start, end, bulge = contour.points[at], contour.points[(at + 1) % count], contour.bulges[at]
+            start, end, bulge = points[at], points[(at + 1) % count], bulges[at]
             chord = end - start
             # the middle of an arc is off the middle of its chord by half the bulge times the chord, to its right
             yield _Arc(start, (start + end) / 2 + np.array([chord[1], -chord[0]]) * bulge / 2, end)

@@ -310,6 +310,32 @@ def test_how_far_axes_pass_is_told() -> None:
     assert "pass each other at 7 mm" in words(pair(kind("bevel"), kind("bevel", 40), PASS))
 
 
+SCREW = "{teeth: 2, kind: worm, helix_angle: 80 deg, hand: right, module: 2 mm}"
+WORM_WHEEL = "{teeth: 40, helix_angle: 10 deg, hand: right}"
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "far", "said"),
+    [
+        # 1.5 (20 + 40)/(2 cos 45)
+        (HELICAL.replace("}", ", module: 1.5 mm}"), HELICAL.replace("20", "40"), "63.639610307", []),
+        (HELICAL.replace("}", ", module: 1.5 mm}"), HELICAL.replace("20", "40"), "63.65", [("K4", "note")]),
+        (HELICAL.replace("}", ", module: 1.5 mm}"), HELICAL.replace("20", "40"), "60", [("K4", "error")]),
+        (HELICAL, HELICAL.replace("20", "40"), "60", []),  # no module: any distance
+        # 2/(2 sin 10) * 2 = 11.51754 and 2 * 40/(2 cos 10) = 40.61706
+        (SCREW, WORM_WHEEL, "52.134605442", []),
+        (SCREW, WORM_WHEEL, "40", [("K4", "error")]),
+    ],
+)
+def test_axes_pass_each_other_at_the_sum_of_pitch_radii(first: str, second: str, far: str, said: list) -> None:
+    assert found(pair(first, second, PASS.replace("9 mm, 7 mm", f"9 mm, {far} mm"))) == said
+
+
+def test_the_distance_that_skew_axes_need_is_told() -> None:
+    told = words(pair(SCREW, WORM_WHEEL, PASS.replace("9 mm, 7 mm", "9 mm, 40 mm")))
+    assert "pass each other at 40 mm, and the pair needs 52.1346 mm" in told
+
+
 # --------------------------------------------------------------------------------------------------------------- G1, G2
 
 

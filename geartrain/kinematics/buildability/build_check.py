@@ -14,6 +14,7 @@ from geartrain.kinematics.buildability.idle_wheels import check_mates
 from geartrain.kinematics.buildability.pitch_distances import PitchDistances
 from geartrain.kinematics.buildability.pitch_pairs import pitch_pairs
 from geartrain.kinematics.buildability.ring_mates import check_rings
+from geartrain.kinematics.buildability.skew_distances import check_skew
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
@@ -27,6 +28,7 @@ def check_build(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterat
     yield from check_rings(pairs)
     sizes = PitchDistances(train, tree, circuits, pairs)
     yield from sizes.findings
+    yield from check_skew(train, tree, pairs, sizes)
     yield from check_triangles(sizes)
     yield from check_planets(train, tree, circuits, pairs, sizes)
     yield from check_clutches(train, tree)

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
+_LEAVES = 12.5  # teeth below which clockmakers cut cycloids
+
 
 def tip_gap(path: PathOfContact) -> float:
     """Angle (rad of the ring) between the tip of a pinion's tooth and that of the ring's it has driven.
@@ -114,6 +116,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
             least = wheel.cut - wheel.r * sin(wheel.psi) ** 2
             # a whole number that rounding has raised a little is that number
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
+            other = ", or take `form: cycloidal`, which suits few leaves" if 2 * wheel.r <= _LEAVES else ""
             yield ToothFault(
                 "undercut",
                 gear,
@@ -121,7 +124,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
                 f"gear {gear} is undercut",
                 f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, and contact goes down "
                 f"to {lowest:.6g}",
-                f"shift gear {gear} outwards by {least:.4g} modules, or give it {teeth} teeth",
+                f"shift gear {gear} outwards by {least:.4g} modules, or give it {teeth} teeth{other}",
             )
 
 

@@ -1,0 +1,176 @@
+"""Exported folders, read by programs that know nothing of geartrain: trimesh, manifold3d, svgelements, shapely."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from math import degrees
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+import svgelements
+import trimesh
+from commands import call
+from shapely.affinity import rotate, translate
+from studies.assembled_folder import AssembledPart, MeasuredFit, find_fits, find_overlaps, read_parts
+
+TRAINS = ("watch-going-train", "planetary-24-18-60")
+CHORD = 0.005  # mm: corners of a round hole stand outside its circle
+SHARE = 1e-6  # of a part: a larger common volume is no touch
+
+
+@cache
+def folder(name: str, *options: str) -> Path:
+    to = Path(mkdtemp()) / name
+    done = call("export", name, "--to", to, "--as", "svg,stl,glb", *options)
+    assert done.exit_code == 0, done.output
+    return to
+
+
+@cache
+def parts(name: str) -> list[AssembledPart]:
+    return read_parts(folder(name))
+
+
+@cache
+def fits(name: str) -> list[MeasuredFit]:
+    return find_fits(parts(name))
+
+
+def stated(name: str) -> tuple[str, float, float]:
+    """The README, the running clearance and that of what is joined (mm)."""
+    text = (folder(name) / "README.md").read_text(encoding="utf-8")
+    running = re.search(r"hole of what turns is (\S+) mm wider", text)
+    joined = re.search(r"\(hole ([+-]\S+) mm\)", text)
+    assert running is not None
+    assert joined is not None
+    return text, float(running[1]), float(joined[1])
+
+
+# ---------------------------------------------------------------------------------------------------------- volumes
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_every_part_is_closed_and_no_two_stand_in_each_other(name: str) -> None:
+    assert all(part.mesh.is_watertight and part.mesh.volume > 0 for part in parts(name))
+    assert [each for each in find_overlaps(parts(name)) if each.share > SHARE] == []
+
+
+def test_two_parts_that_are_pushed_into_each_other_are_seen() -> None:
+    """A hundredth of a millimetre of an arbor's radius in the plate that bears it."""
+    arbor = next(part for part in parts("watch-going-train") if part.name == "third arbor")
+    pushed = arbor.mesh.copy()
+    pushed.apply_translation((0.05, 0.0, 0.0))
+    others = [part for part in parts("watch-going-train") if part is not arbor]
+    found = find_overlaps([*others, AssembledPart(arbor.name, arbor.body, pushed)])
+    assert {each.one for each in found if each.share > SHARE} >= {"plate back plate", "plate front plate"}
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_the_stl_holds_the_same_parts_as_the_glb(name: str) -> None:
+    whole = trimesh.load(folder(name) / "assembly.stl")
+    assert whole.volume == pytest.approx(sum(part.mesh.volume for part in parts(name)), rel=1e-6)
+    assert len(whole.split(only_watertight=True)) >= len(parts(name))
+
+
+# ------------------------------------------------------------------------------------------------------------- fits
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_pivots_stand_in_their_holes_with_the_stated_fit(name: str) -> None:
+    """Every arbor that reaches both plates has a hole in both, so much wider, about one middle."""
+    text, running, _ = stated(name)
+    plates = [part for part in parts(name) if re.search(r"(front|back) plate$", part.name)]
+    assert len(plates) == 2
+    reach = [part for part in parts(name) if part.name.endswith("arbor")]
+    assert reach
+    for arbor in reach:
+        borne = [fit for fit in fits(name) if fit.rod_of == arbor.name and "plate" in fit.hole_of and not fit.joined]
+        assert {fit.hole_of for fit in borne} == {plate.name for plate in plates}, arbor.name
+        assert all(running - 1e-4 <= fit.clearance <= running + CHORD for fit in borne)
+        assert all(fit.aside < 1e-5 for fit in borne)
+    for diameter in re.findall(r"\(pivot (\S+?)\)", text):
+        assert any(fit.rod == pytest.approx(float(diameter), abs=1e-4) for fit in fits(name))
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock-cycloidal"])
+def test_pipes_run_on_what_they_are_on_with_the_stated_clearance(name: str) -> None:
+    _, running, _ = stated(name)
+    pipes = {part.name for part in parts(name) if part.name.endswith("pipe")}
+    inside = {fit.hole_of: fit for fit in fits(name) if fit.hole_of in pipes}
+    assert pipes
+    assert set(inside) == pipes
+    for fit in inside.values():
+        assert fit.clearance == pytest.approx(running, abs=CHORD)
+        assert fit.aside < 1e-5
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_what_is_joined_has_the_hole_that_is_stated_and_all_else_turns_freely(name: str) -> None:
+    _, running, joint = stated(name)
+    for fit in fits(name):
+        if fit.joined:
+            assert joint - 1e-4 <= fit.clearance <= joint + CHORD, fit
+        else:
+            assert fit.clearance >= running - 1e-4, fit
+    wheels = {part.name for part in parts(name)} & {path.stem for path in (folder(name) / "wheels").glob("*.stl")}
+    held = {fit.hole_of for fit in fits(name)} | {fit.rod_of for fit in fits(name)}
+    assert wheels <= held, "no wheel hangs in the air"
+
+
+# ----------------------------------------------------------------------------------- one wheel cut for all its mates
+
+
+def outline(path: Path) -> Any:
+    """The material that a written drawing leaves, arcs as chords of a thousandth of a millimetre's height."""
+    text = path.read_text(encoding="utf-8")
+    cut = re.search(r'id="CUT".*? d="([^"]*)"', text)
+    assert cut is not None
+    lines = []
+    for line in svgelements.Path(cut[1]).as_subpaths():
+        points: list[complex] = []
+        for segment in line:
+            count = 24 if isinstance(segment, svgelements.Arc) else 1
+            ends = [segment.point(k / count) for k in range(1, count + 1)] if segment.end is not None else []
+            points += [complex(float(end.x), float(end.y)) for end in ends]
+        lines.append(shapely.Polygon([(z.real, -z.imag) for z in points]))
+    outer, *holes = sorted(lines, key=lambda each: -float(each.area))
+    return outer.difference(shapely.union_all(holes))
+
+
+@pytest.mark.parametrize("pair", ["s~p", "p~ring"])
+def test_a_planet_as_written_turns_with_its_sun_and_with_its_ring(pair: str) -> None:
+    """Cut for its sun alone the planet overlapped its ring by 1.27e-3 mm2 and left 0.0890 of 0.1 mm of play."""
+    names = pair.split("~")
+    to = folder("planetary-24-18-60", "--module", "2mm", "--backlash", "0.1mm")
+    first, second = (outline(to / "wheels" / f"{name}.svg") for name in names)
+    z1, z2 = ({"s": 24, "p": 18, "ring": 60}[name] for name in names)
+    inside = names[1] == "ring"
+    away, facing = (-42.0, 180 / z2) if inside else (42.0, 180 + 180 / z2)
+    steps = 36
+    rooms = []
+    for k in range(steps):
+        one = rotate(first, degrees(2 * np.pi / z1 * (k + 0.31) / steps), origin=(0, 0))
+        turn = facing + 360 / z1 * (k + 0.31) / steps * z1 / z2 * (1 if inside else -1)
+
+        def common(lag: float, one: Any = one, turn: float = turn) -> float:
+            other = translate(rotate(second, turn + lag, origin=(0, 0)), away)
+            return float(one.intersection(other).area)
+
+        assert common(0.0) <= 1e-9
+        if k % 6 == 0:
+            rooms.append(sum(_room(common, way, 360 / z2 / 2) for way in (-1, 1)))
+    assert np.radians(min(rooms)) * z2 >= 0.1 - 1e-3  # mm along the pitch circle, of radius z2
+
+
+def _room(common: Any, way: int, far: float) -> float:
+    """How far (degrees) the second wheel turns one way until it touches."""
+    free, met = 0.0, far
+    for _ in range(16):
+        middle = (free + met) / 2
+        free, met = (middle, met) if common(way * middle) <= 1e-9 else (free, middle)
+    return free

@@ -90,7 +90,7 @@ def read_parts(folder: Path) -> list[AssembledPart]:
         mesh.apply_transform(matrix)
         mesh.apply_scale(1000.0)
         mesh.merge_vertices(merge_norm=True, merge_tex=True)
-        *_, body, _ = scene.graph.transforms.shortest_path(scene.graph.base_frame, node)
+        *_, body, _ = scene.graph.transforms.shortest_path(scene.graph.base_frame, node)  # type: ignore[no-untyped-call]
         parts.append(AssembledPart(str(node), str(body), mesh))
     return parts
 

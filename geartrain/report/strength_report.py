@@ -12,8 +12,13 @@ from geartrain.report.document import Document, Section, Table, figure, filled_t
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import ArborStrength, PairStrength, TrainStrength
-    from geartrain.dynamics.strength.strength_results import WearRange
+    from geartrain.dynamics.strength.strength_results import WearRange, WheelForce
 
+_FORCES = (
+    "At the circles on which wheels roll, as means. Axial above 0 along the direction of the axis; radial towards the "
+    "axis, below 0 outwards. Friction counts along teeth that slide along each other, not up and down them. Where no "
+    "form says it the pressure angle is 20 degrees."
+)
 _CONTACT = (
     "Hertz pressure of smooth flanks under the mean torque; couples that touch at once carry the same force, as rigid "
     "exact teeth of equal stiffness do. Positions in pitches past the pitch point."
@@ -105,7 +110,7 @@ def describe_strength(found: StrengthReport) -> Document:
     >>> train = geartrain.load("longcase-clock-loaded")
     >>> page = describe_strength(collect_strength_report(train, [train.strength()]))
     >>> [section.title for section in page.sections]
-    ['Strength', 'Contact pressure', 'Teeth', 'Arbors']
+    ['Strength', 'Forces', 'Contact pressure', 'Teeth', 'Arbors']
     """
     sections = [section for each in found.states for section in strength_sections(each)]
     return Document(f"Strength of {found.name}", (f"Train '{found.name}'.",), tuple(sections))
@@ -115,6 +120,8 @@ def strength_sections(found: TrainStrength) -> Iterator[Section]:
     """Sections of one state."""
     head = "" if found.state is None else f"State {found.state}: "
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
+    if found.forces:
+        yield Section(_title(head, "Forces"), (_FORCES,), (_forces(found.forces),))
     if not found.pairs and not found.arbors:
         return
     pairs = tuple(found.pairs.values())
@@ -147,6 +154,19 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
         yield f"Left out: {', '.join(each.where)}: {each.why}."
     if found.verdict and not found.pairs and not found.left_out:
         yield "There is no gear pair."
+
+
+def _forces(forces: Sequence[WheelForce]) -> Table:
+    header = ("pair", "wheel", "radius (mm)", "tangential (N)", "axial (N)", "radial (N)")
+    rows = [
+        (*(each.pair, each.wheel, figure(each.radius, 5)), *(figure(part, 4) for part in _parts(each)))
+        for each in forces
+    ]
+    return Table(header, rows)
+
+
+def _parts(force: WheelForce) -> tuple[float, float, float | None]:
+    return force.tangential, force.axial, force.radial
 
 
 def _contact(pair: PairStrength) -> Table:

@@ -35,7 +35,7 @@ def changed(old: str, new: str) -> geartrain.GearTrain:
 
 
 def test_a_declared_pair_has_the_stresses_of_the_example() -> None:
-    # building.md, case A: 1176.47 N, 638.33 and 706.85 MPa, 87.99 and 80.33 MPa
+    # case A of docs/strength.md: 1176.47 N, 638.33 and 706.85 MPa, 87.99 and 80.33 MPa
     pair = geartrain.load(PAIR).strength().pairs["p~w"]
     assert pair.tangential == pytest.approx(1176.47, abs=0.01)
     assert pair.iso is not None
@@ -165,4 +165,4 @@ def test_the_command_tells_the_same_as_the_library() -> None:
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout) == json.loads(json.dumps(report.to_dict()))
     titles = [section.title for section in describe_strength(report).sections]
-    assert titles == ["Strength", "Contact pressure", "Teeth", "Arbors"]
+    assert titles == ["Strength", "Forces", "Contact pressure", "Teeth", "Arbors"]

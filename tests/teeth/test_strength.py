@@ -77,7 +77,7 @@ def test_shigleys_example_14_3_of_a_steel_pinion_on_cast_iron() -> None:
 
 
 def test_couples_share_and_the_worst_place_is_found() -> None:
-    # building.md, 4.2: 1362 at the start of contact, shared in halves; 796.348 at B; 719 at the pitch point
+    # computed beforehand: 1362 at the start of contact, shared in halves; 796.348 at B; 719 at the pitch point
     law = Involute(form="involute").law(17, 51)
     load = ContactLoad(law.path, 2, 20, 20_000, elasticity_factor(STEEL, STEEL))
     places = {each.where: each for each in load.places()}
@@ -222,6 +222,21 @@ Ji Minggang, Machine Design (in Chinese), 8th ed. 2006."""
 def test_factors_at_the_tip_are_those_of_a_printed_table(z: int) -> None:
     found = root_stress(RackWheel(z, 0, z / 2 + 1), TWENTY, 1000, 10, 2, z / 2 + 1)
     assert pytest.approx(AT_THE_TIP[z], rel=0.02) == (found.YF, found.YS)
+
+
+def test_worked_example_10_1_of_a_textbook() -> None:
+    """Spur wheels 24/77, 1.3 times 99 480 N mm, allowed 522.5 MPa, width equal to diameter: d1 = 65.396 mm.
+
+    And the factors of their roots, 2.65 and 1.58, 2.226 and 1.764: Pu Lianggui and Ji Minggang, as above.
+    """
+    d1, u = 65.396, 77 / 24
+    pair = RackPair(RackWheel(24, 0, 13), RackWheel(77, 0, 39.5), TWENTY, TWENTY, 1.7)
+    found = contact_stress(pair, elasticity_factor(STEEL, STEEL), 2 * 1.3 * 99_480 / d1, d1, d1 / 24)
+    assert found.nominal / found.Zeps == pytest.approx(522.5, rel=0.005)  # the book leaves the contact ratio out
+    assert u == pytest.approx(3.2, rel=0.005)
+    for z, printed in ((24, (2.65, 1.58)), (77, (2.226, 1.764))):
+        root = root_stress(RackWheel(z, 0, z / 2 + 1), TWENTY, 1000, 10, 2, z / 2 + 1)
+        assert pytest.approx(printed, rel=0.02) == (root.YF, root.YS)
 
 
 def test_a_contact_ratio_beyond_the_standard_is_refused() -> None:

@@ -50,6 +50,36 @@ class FlankWear(Result):
 
 
 @dataclass(frozen=True)
+class WheelForce(Result):
+    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
+
+    Attributes
+    ----------
+    pair, wheel : str
+        The pair, and which of its wheels.
+    radius : float
+        Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm].
+    tangential : float
+        Along that circle, of the sign of its torque.
+    axial : float
+        Above 0 along the direction of its axis.
+    radial : float or None
+        Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    wheel: str
+    radius: float
+    tangential: float
+    axial: float
+    radial: float | None
+
+
+@dataclass(frozen=True)
 class WheelStrength(Result):
     """One wheel of a loaded pair.
 
@@ -232,6 +262,8 @@ class TrainStrength(FrozenFields, Result):
         Loaded gear pairs by name.
     arbors : tuple of ArborStrength
         Arbors that are declared.
+    forces : tuple of WheelForce
+        Of all pairs that carry a torque and whose module is known.
     turns : float or None
         Turns of the input over which wear is counted; None where no time was given.
     wear_coefficients : WearRange
@@ -261,7 +293,7 @@ class TrainStrength(FrozenFields, Result):
     (1176.47, 706.85, 87.99)
     """
 
-    KEYS = ("state", "verdict", "pairs", "arbors", "weakest", "turns", "wear_coefficients", Key("left_out"))
+    KEYS = ("state", "verdict", "forces", "pairs", "arbors", "weakest", "turns", "wear_coefficients", Key("left_out"))
 
     state: str | None
     verdict: TorqueVerdict
@@ -270,6 +302,7 @@ class TrainStrength(FrozenFields, Result):
     turns: float | None = None
     wear_coefficients: WearRange = NO_WEAR
     left_out: tuple[NeglectedEffect, ...] = ()
+    forces: tuple[WheelForce, ...] = ()
 
     @property
     def weakest(self) -> WeakestPart | None:

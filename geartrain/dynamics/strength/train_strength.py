@@ -11,6 +11,7 @@ from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
 from geartrain.dynamics.strength.arbor_strength import arbor_strength
 from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
 from geartrain.dynamics.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
+from geartrain.dynamics.strength.tooth_forces import ToothForces
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.train import Train
 from geartrain.train.wheel_stock import face_width, material_named
@@ -78,6 +79,7 @@ class StrengthQuestion:
             self.turns,
             self.wear,
             tuple(self.left_out.values()),
+            tuple(ToothForces(self.setting, self.modules, self.torques.pairs, meshes).find()),
         )
 
     # ------------------------------------------------------------------------------------------------------- pairs

@@ -1,0 +1,133 @@
+"""Forces at the pitch points of a train under load: along the pitch circles, along the axes, and between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan2, cos, sin, tan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.dynamics.strength.strength_results import WheelForce
+from geartrain.errors import RangeError
+from geartrain.kinematics.circuits import Axes
+from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
+from geartrain.teeth.strength.pitch_force import bevel_force, friction_angle, helical_force
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.train import Wheel
+
+_MM = 1e3
+WheelParts = tuple[float, float, float | None]
+
+
+@dataclass(frozen=True)
+class ToothForces:
+    """The forces of one case.
+
+    modules   transverse modules (m) by wheel; pairs without one are passed over
+    pairs     torques by pair
+    meshes    pairs with real teeth
+    """
+
+    setting: LoadCase
+    modules: Mapping[str, float]
+    pairs: Mapping[str, PairTorque]
+    meshes: Mapping[str, GearMesh]
+
+    def find(self) -> Iterator[WheelForce]:
+        """Of both wheels of every pair that carries a torque, as the pair names them."""
+        for circuit in self.setting.circuits:
+            if circuit.kind != "gear":
+                continue
+            torque = self.pairs[circuit.id]
+            if torque.multiplier and not torque.loose and all(wheel in self.modules for wheel in circuit.wheels):
+                yield from self._of_pair(circuit, torque)
+
+    def _of_pair(self, circuit: Circuit, torque: PairTorque) -> Iterator[WheelForce]:
+        wheels = [self.setting.train.wheels[name][1] for name in circuit.wheels]
+        if any(wheel.kind == "contrate" for wheel in wheels):
+            return
+        labels = [self.setting.tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
+        crossing = None if self._axes.are_parallel(labels) else _shaft_angle(self.setting, circuit)
+        for at, name in enumerate(circuit.wheels):
+            load = float(torque.torques[at]) * _MM
+            if self._axes.are_parallel(labels):
+                radius, force = self._parallel(circuit, at, load)
+            elif crossing is not None:
+                radius, force = self._bevel(circuit, at, load, crossing)
+            elif all(wheel.helix_angle is not None for wheel in wheels):
+                radius, force = self._skew(circuit, at, load, torque.driver == circuit.wheels[at])
+            else:
+                return
+            yield WheelForce(circuit.id, name, radius, *force)
+
+    @cached_property
+    def _axes(self) -> Axes:
+        return Axes(self.setting.train, self.setting.tree)
+
+    def _wheel(self, circuit: Circuit, at: int) -> Wheel:
+        return self.setting.train.wheels[circuit.wheels[at]][1]
+
+    def _radius(self, circuit: Circuit, at: int) -> float:
+        """Of the pitch circle [mm]: m z/2, over the cosine of the helix angle."""
+        wheel = self._wheel(circuit, at)
+        normal = self.modules[circuit.wheels[at]] / wheel.slant
+        return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
+
+    def _angle(self, circuit: Circuit) -> float:
+        """Pressure angle across the teeth where no path of contact gives it."""
+        form = self.setting.train.form_of(self.setting.gears[circuit.id])
+        return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
+
+    def _parallel(self, circuit: Circuit, at: int, load: float) -> tuple[float, WheelParts]:
+        """At the circles that roll on each other, which shifted involutes have elsewhere than standard ones."""
+        wheel, radius, mesh = self._wheel(circuit, at), self._radius(circuit, at), self.meshes.get(circuit.id)
+        outwards = -1 if wheel.internal else 1
+        if mesh is None:
+            force = helical_force(load / radius, wheel.helix, self._angle(circuit))
+            return radius, (force.tangential, force.axial, outwards * force.radial)
+        if mesh.path is None:
+            radius *= 1.0 if mesh.own_size is None else mesh.own_size.stretch
+            return radius, (load / radius, 0.0, None)
+        rolling = abs(mesh.path.pitch.axle_of(mesh.gears.index(circuit.wheels[at]) + 1)) / ((wheel.count or 0) / 2)
+        pushed = load / (radius * rolling)
+        transverse = abs(float(mesh.path.at(np.zeros(1)).psi[0]))
+        # one lead at all radii: teeth lean the more the farther out
+        return radius * rolling, (
+            pushed,
+            0.0 - pushed * rolling * tan(wheel.helix),
+            outwards * abs(pushed) * tan(transverse),
+        )
+
+    def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
+        """With the friction of teeth that slide along each other."""
+        own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
+        friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
+        angle, radius = self._angle(circuit), self._radius(circuit, at)
+        sliding = 0.0 if friction is None or friction.sliding is None else friction.sliding
+        sense = (1 if tan(own.helix) + tan(mate.helix) >= 0 else -1) * (-1 if drives else 1)
+        return radius, helical_force(load / radius, own.helix, angle, sense * friction_angle(sliding, angle))
+
+    def _bevel(self, circuit: Circuit, at: int, load: float, crossing: float) -> tuple[float, WheelParts]:
+        """At the middle of the teeth where a width is declared, else at the outer pitch circle."""
+        own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
+        cone = atan2(sin(crossing), cos(crossing) + (mate.count or 0) / (own.count or 1))
+        width = min((_MM * each.face_width.si for each in (own, mate) if each.face_width is not None), default=0.0)
+        radius = self._radius(circuit, at) - width / 2 * sin(cone)
+        return radius, bevel_force(load / radius, cone, self._angle(circuit), own.facing)
+
+
+def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
+    """Of axes that meet; None of others."""
+    try:
+        return shaft_angle(setting.train, setting.tree, circuit)
+    except RangeError:
+        return None

@@ -20,10 +20,10 @@ DOCS = Path(__file__).resolve().parent
 PAGE, DATA = DOCS / "ready-to-cut.md", DOCS / "data" / "ready-to-cut.json"
 TRAINS = {
     "Clocks and mills": ("longcase-clock-cycloidal", "longcase-clock-bs978", "watch-going-train", "lantern-mill"),
-    "Antikythera": ("price-1974", "freeth-2006", "freeth-2008", "freeth-2021"),
+    "Antikythera": ("price-1974", "voulgaris-2024-a", "freeth-2008", "freeth-2021"),
     "Gearboxes": ("planetary-24-18-60", "ravigneaux-set", "wolfrom-175", "nrel-grc-750"),
 }
-ASSEMBLED = ("longcase-clock-cycloidal", "lantern-mill", "price-1974", "planetary-24-18-60")
+ASSEMBLED = ("longcase-clock-cycloidal", "watch-going-train", "freeth-2008", "wolfrom-175")
 SHOWN = 12  # obstacles of a train on the page
 
 HEAD = """# Ready to cut, or not

@@ -259,3 +259,38 @@ def test_plates_of_a_thicker_material_keep_wheels_apart() -> None:
     work = workpiece("watch-going-train", thickness=6.0)
     assert list(overlaps(work)) == []
     assert {part.height for part in work.parts if part.contours} == {6.0}
+
+
+# ------------------------------------------------------------------------------- axes that a carrier bears side by side
+
+
+def test_two_axes_a_millimetre_apart_stand_on_one_stud_with_a_step() -> None:
+    """The Moon's k1 and k2, 1.1 mm apart on e3: the foot holds all of the thinner end, which begins where it ends."""
+    model = workpiece("freeth-2008")
+    parts = {part.name: part for part in model.parts}
+    foot, end, seat = parts["K2 stud"], parts["K1 stud"], parts["e3"]
+    assert foot.turned is not None
+    assert end.turned is not None
+    apart = float(np.hypot(*(foot.place - end.place)[:2]))
+    assert apart == pytest.approx(1.1, abs=1e-9)
+    thick, thin = (max(band.radius for band in each.turned.bands[-1:]) for each in (foot, end) if each.turned)
+    assert thin + apart <= thick
+    heights = {
+        name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for name, part in parts.items()
+    }
+    assert heights["K2 stud"][1] == pytest.approx(heights["e3"][1]), "held in the wheel"
+    assert heights["K1 stud"][1] == pytest.approx(heights["K2 stud"][0]), "one goes on where the other ends"
+    assert seat.body == foot.body == end.body
+    # from above e3, k2, k1, as found in the fragments, and nothing between that the pin could meet
+    assert heights["k1"][1] < heights["k2"][0] < heights["k2"][1] < heights["e3"][0]
+    between = {name for name, (low, high) in heights.items() if heights["k1"][1] <= low and high <= heights["k2"][0]}
+    assert between == set()
+
+
+def test_the_carrier_of_a_wolfrom_set_stands_between_its_planets_and_the_disc_of_a_ring() -> None:
+    model = workpiece("wolfrom-175")
+    heights = {part.name: float(part.placed.vertices[:, 2].mean()) for part in model.parts}
+    discs = sorted((heights["r70 disc"], heights["r72 disc"]))
+    assert discs[0] < min(heights["p28"], heights["p30"])
+    assert max(heights["p28"], heights["p30"]) < discs[1]
+    assert discs[0] < heights["arm carrier plate"] < discs[1]

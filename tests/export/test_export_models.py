@@ -117,22 +117,37 @@ def test_every_part_of_an_assembly_is_closed_and_looks_outwards() -> None:
 
 
 def test_pins_stand_in_their_slots() -> None:
-    """A pin at 9.6 mm about an axis 1.1 mm off; the slot's bar reaches past 10.7 mm, and the hole holds the pin."""
+    """A pin at 9.6 mm about an axis 1.1 mm off, in 'k1', goes through the slot that is cut into 'k2'."""
     work = workpiece("freeth-2008")
     parts = {part.name: part for part in work.parts}
     bodies = [body.id for body in work.scene.bodies]
-    pin, slot = parts["anomaly pin"], parts["anomaly slot"]
-    assert [bodies[part.body] for part in (pin, slot)] == ["k1", "k2"]
+    pin, held, slotted = parts["anomaly pin"], parts["k1"], parts["k2"]
+    assert bodies[pin.body] == "k1"
     k1, k2 = (np.array(work.layout.axes[label].point[:2]) for label in ("K1", "K2"))
     middle = pin.placed.vertices[:, :2].mean(axis=0)
     assert np.hypot(*(middle - k1)) == pytest.approx(9.6, abs=1e-6)
     assert 8.5 - 1e-6 <= np.hypot(*(middle - k2)) <= 10.7 + 1e-6
-    assert np.ptp(pin.placed.vertices[:, 2]) > np.ptp(slot.placed.vertices[:, 2])
-    flat = shapely.Polygon(slot.contours[0].flattened(0.01), [slot.contours[1].flattened(0.01)])
-    own = (pin.placed.vertices - slot.place) @ slot.turn  # the pin as the bar sees it
+    for wheel, play in ((held, 0.0), (slotted, 0.05)):
+        own = (pin.placed.vertices - wheel.place) @ wheel.turn  # the pin as the wheel sees it
+        assert own[:, 2].min() <= -wheel.height / 2 + 1e-9, "it goes through"
+        assert own[:, 2].max() >= wheel.height / 2 - 1e-9
+        edge, *holes = (shapely.Polygon(contour.flattened(1e-3)) for contour in wheel.contours)
+        rod = shapely.MultiPoint(own[:, :2]).convex_hull
+        (hole,) = [each for each in holes if each.contains(rod.centroid)]
+        assert edge.contains(hole)
+        assert hole.buffer(1e-2 - play).contains(rod), "clear of the sides of a slot"
+
+
+def test_pins_in_bars_where_wheels_are_too_small() -> None:
+    """The follower of a planet's epicycle: a bar with a slot beyond all wheels of its link."""
+    work = workpiece("freeth-jones-2012")
+    parts = {part.name: part for part in work.parts}
+    pin, slot = parts["venus pin"], parts["venus slot"]
+    own = (pin.placed.vertices - slot.place) @ slot.turn
+    bar, hole = (shapely.Polygon(contour.flattened(0.01)) for contour in slot.contours)
     assert own[:, 2].min() < 0 < own[:, 2].max(), "it goes through"
-    assert not flat.intersects(shapely.MultiPoint(own[:, :2]).convex_hull), "in the slot, clear of its sides"
-    assert shapely.Polygon(slot.contours[0].flattened(0.01)).contains(shapely.Point(own[:, :2].mean(axis=0)))
+    assert bar.contains(hole)
+    assert hole.contains(shapely.MultiPoint(own[:, :2]).convex_hull)
 
 
 def test_likenesses_stand_where_their_cones_say() -> None:

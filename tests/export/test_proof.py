@@ -251,21 +251,19 @@ def test_wheels_of_other_sizes_on_one_axle_pair_do_not_hold_or_do_not_fit() -> N
 
 
 def test_solids_of_two_links_in_one_place_are_named_with_their_volume() -> None:
-    """By hand: two studs, of a diameter that is told, go on each through the disc of the other ring, 3 mm thick."""
-    model = work("wolfrom-175")
+    """In plane geometry: the stud of 'O' goes through the rim of 'p1', and has what it takes from that rim."""
+    model = work("freeth-2006")
     parts = {part.name: part for part in model.parts}
-    found = [each for each in prove_solids(model) if "'planet stud' and 'r72 disc'" in each.problem.what]
-    (each,) = found
-    stud, disc = parts["planet stud"], parts["r72 disc"]
+    (each,) = [each for each in prove_solids(model) if "'p1' and 'O stud'" in each.problem.what]
+    wheel, stud = parts["p1"], parts["O stud"]
     assert stud.turned is not None
-    low, high = (disc.placed.vertices[:, 2].min(), disc.placed.vertices[:, 2].max())
-    ends = stud.placed.vertices[:, 2]
-    assert ends.min() < low
-    assert high < ends.max()
-    sides = 96
-    area = sides / 2 * sin(2 * pi / sides) * (stud.turned.bands[0].radius) ** 2
+    middle = wheel.turn.T @ (stud.place - wheel.place)
+    edge, *holes = (shapely.Polygon(contour.flattened(1e-3)) for contour in wheel.contours)
+    rod = shapely.Point(middle[:2]).buffer(stud.turned.bands[0].radius, quad_segs=64)
+    area = edge.difference(shapely.union_all(holes)).intersection(rod).area
     volume = float(re.search(r"by (\S+) mm3", each.problem.what)[1])  # type: ignore[index]
-    assert volume == pytest.approx(area * (high - low), rel=0.01)
+    assert volume == pytest.approx(area * wheel.height, rel=0.02)
+    assert volume > 1
 
 
 # ------------------------------------------------------------------------------------------------------- what is told

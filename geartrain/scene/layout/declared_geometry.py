@@ -136,11 +136,12 @@ class PitchContact:
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """A pin in a slot: axes of the pin and of the slot, and their distance (mm) if declared.
+    """A pin in a slot: links and axes of the pin and of the slot, and the distance (mm) of these if declared.
 
     encloses   True if the pin's circle encloses the slot's axis, so that the two axes stand close together
     """
 
+    links: tuple[str, str]
     axes: tuple[str, str]
     offset: Fraction | None
     encloses: bool
@@ -226,7 +227,8 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         ends = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
         if circuit.kind != "gear":
             offset = couplings[circuit.id].offset
-            ties.append(PinSlotTie(ends[::-1], None if offset is None else millimetres(offset), circuit.b != 0))
+            apart = None if offset is None else millimetres(offset)
+            ties.append(PinSlotTie((circuit.j, circuit.i), ends[::-1], apart, circuit.b != 0))
             continue
         for wheel, end in zip(circuit.wheels, ends, strict=True):
             if axis.setdefault(wheel, end) != end:

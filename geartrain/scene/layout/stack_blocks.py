@@ -7,14 +7,14 @@ of them. Wheels on axes across keep their height to the wheel they mesh with, an
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot, sqrt
 
 import numpy as np
 
 from geartrain.numerics.vectors import dot
-from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, Point
+from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, PinSlotTie, Point
 from geartrain.scene.layout.stack_order import StackProblem
 from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock, find_plan_overlap
 from geartrain.scene.layout.wheel_sizes import CrossingSide, SizedGeometry, rim
@@ -66,13 +66,9 @@ def build_wheel_stack(
     builder = _BlockBuilder(geometry, parallels, places)
     blocks = builder.blocks()
     arbors = list(dict.fromkeys(block.link for block in blocks if block.link and block.link != parallels.frame))
-    problem = StackProblem(
-        blocks,
-        find_plan_overlap(blocks, arbors, parallels, places, swept),
-        arbors,
-        geometry.declared.dial_ends,
-        _plates(blocks, parallels),
-    )
+    plates, pins = _plates(blocks, parallels), list(_pins(blocks, geometry.declared.ties))
+    overlap = find_plan_overlap(blocks, arbors, parallels, places, swept, plates, pins)
+    problem = StackProblem(blocks, overlap, arbors, geometry.declared.dial_ends, plates, pins)
     thickness = [geometry.sizes[block.wheel].thickness for block in blocks]
     gap = _GAP * float(np.median(thickness)) if blocks else 1.0
     return WheelStack(parallels.up, problem, gap, swept, builder.given(constraints))
@@ -80,17 +76,32 @@ def build_wheel_stack(
 
 def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str]:
     """The widest wheel of the carrier of each arbor, on which its axis is carried round."""
-    widest: dict[str, WheelBlock] = {}
     upright = [block for block in blocks if not block.across]
-    for block in upright:
-        if block.link not in widest or block.outer > widest[block.link].outer:
-            widest[block.link] = block
+    widest = _widest(upright)
     bearers = {block.link: parallels.lines[block.axis].bearers[0] for block in upright}
     return {
         link: widest[bearer].wheel
         for link, bearer in bearers.items()
         if bearer in widest and parallels.frame not in (link, bearer)
     }
+
+
+def _pins(blocks: Sequence[WheelBlock], ties: Sequence[PinSlotTie]) -> Iterator[tuple[str, str]]:
+    """The widest wheels of the links of a pin and its slot, where the pin's circle encloses the slot's axis."""
+    widest = _widest([block for block in blocks if not block.across])
+    for tie in ties:
+        pin, slot = (widest.get(link) for link in tie.links)
+        if tie.encloses and pin is not None and slot is not None and pin.stack != slot.stack:
+            yield pin.wheel, slot.wheel
+
+
+def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
+    """Of every link."""
+    found: dict[str, WheelBlock] = {}
+    for block in blocks:
+        if block.link not in found or block.outer > found[block.link].outer:
+            found[block.link] = block
+    return found
 
 
 class _BlockBuilder:

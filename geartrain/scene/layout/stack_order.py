@@ -41,6 +41,7 @@ class StackProblem:
     arbors    links that carry wheels; the rows of `overlap.pierce`
     ends      of arbors that run out of the stack to a dial
     plates    arbor -> the wheel on which its axis is carried round
+    pins      wheels with a pin and with its slot; rows of `overlap.pierce` after those of arbors
     """
 
     blocks: Sequence[WheelBlock]
@@ -48,6 +49,7 @@ class StackProblem:
     arbors: Sequence[str]
     ends: Mapping[str, DialEnds]
     plates: Mapping[str, str]
+    pins: Sequence[tuple[str, str]] = ()
 
     @property
     def count(self) -> int:
@@ -91,7 +93,8 @@ class _OrderSearch:
         stack_of = {block.wheel: block.stack for block in problem.blocks if not block.across}
         for arbor, plate in problem.plates.items():
             carried[arbor][stack_of[plate]] = None
-        return [tuple(stacks) for stacks in carried.values()]
+        pins = [(stack_of[pin], stack_of[slot]) for pin, slot in problem.pins]
+        return [*(tuple(stacks) for stacks in carried.values()), *pins]
 
     def _mates(self, at: int) -> Iterator[int]:
         """Stacks that share an arbor with a stack, as often as they do, itself among them."""
@@ -229,6 +232,7 @@ class _OrderSearch:
     def _running_out(self) -> tuple[Indices, Indices]:
         """Arbors that run out of the stack at the low end, and at the high one."""
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
+        ends += [DialEnds()] * len(self.problem.pins)
         low, high = np.array(ends, bool).reshape(-1, 2).T
         return np.nonzero(low)[0], np.nonzero(high)[0]
 

@@ -138,7 +138,7 @@ class PlanOverlap:
     """What stands in whose way, in plan.
 
     clash    (blocks, blocks): two that must not share a height
-    pierce   (links, blocks): wheels that an arbor would go through at their height
+    pierce   (links and pins, blocks): wheels that an arbor, or a pin, would go through at their height
     """
 
     clash: Flags
@@ -151,8 +151,13 @@ def find_plan_overlap(
     parallels: Parallels,
     places: Mapping[str, Point],
     swept: SweptDistances,
+    plates: Mapping[str, str],
+    pins: Sequence[tuple[str, str]] = (),
 ) -> PlanOverlap:
-    """Which blocks overlap in plan, and through which an arbor at its place would go."""
+    """Which blocks overlap in plan, and through which an arbor at its place would go, or a pin from wheel to wheel.
+
+    plates   arbor -> the wheel that bears its axis, and has a hole for it
+    """
     if not blocks:
         return PlanOverlap(np.zeros((0, 0), bool), np.zeros((len(links), 0), bool))
     lines = parallels.lines
@@ -173,13 +178,21 @@ def find_plan_overlap(
     pierce = off[arbor] < outer[None, :]
     pierce &= (swept.far[np.ix_(arbor, axis)] >= inner[None, :]) | (inner[None, :] == 0)
     pierce &= axis[None, :] != arbor[:, None]
-    own: dict[str, list[int]] = {}
-    for at, block in enumerate(blocks):
-        if not block.across:
-            own.setdefault(block.link, []).append(at)
-    for row, at in enumerate(arbor.tolist()):  # a plate has holes for the arbors that it bears
-        pierce[row, [block for bearer in lines[at].bearers for block in own.get(bearer, ())]] = False
+    named = {block.wheel: at for at, block in enumerate(blocks) if not block.across}
+    for row, link in enumerate(links):
+        if link in plates:
+            pierce[row, named[plates[link]]] = False
+    rows = [_in_the_way(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
+    pierce = np.vstack([pierce, *rows])
     return PlanOverlap(clash, pierce)
+
+
+def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
+    """Blocks of other links that a pin may meet between its wheel and that of its slot."""
+    pin, slot = (blocks[at] for at in ends)
+    outer = np.array([block.outer for block in blocks])
+    own = np.array([block.link in (pin.link, slot.link) for block in blocks])
+    return np.asarray((off[pin.axis] - pin.outer < outer) & ~own)
 
 
 def _from_segment(point: Point, start: Point, end: Point) -> float:

@@ -15,6 +15,7 @@ SHAKE = 0.2  # mm along the axis
 HEAD = 0.6  # mm: thickness of a stud's head
 HEAD_OVER = 1.0  # mm that a head is wider than its stud, all round
 APART = 0.2  # mm between a column and a wheel of another axis
+HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what turns before its head
 INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
 _LEAST = 0.8  # mm: the thinnest arbor
 _USUAL = 2 / 3  # of the root radius of the smallest wheel: the diameter of an arbor
@@ -61,6 +62,7 @@ class AxisColumn:
     members    from the innermost; of a through arbor the first is the core
     hit        discs of other axes in the way, with the gap to them (mm, below `APART`)
     tangled    two links of which neither can be inside the other
+    on         of a stud that stands on the end of another one, the axis of that; `topped`, of the other
     """
 
     axis: str
@@ -73,6 +75,8 @@ class AxisColumn:
     members: tuple[ColumnMember, ...]
     hit: tuple[tuple[StackDisc, float], ...] = ()
     tangled: tuple[str, str] | None = None
+    on: str = ""
+    topped: bool = False
 
     @property
     def is_stud(self) -> bool:
@@ -98,6 +102,7 @@ class ColumnProblem:
     span    of the whole stack, with room for dials
     core    diameter of the arbor (mm) if it is given
     pivot   of its pivots (mm) if that is
+    head    how far a stud goes on beyond what it bears (mm)
     """
 
     axis: str
@@ -110,6 +115,7 @@ class ColumnProblem:
     process: Process
     core: float | None = None
     pivot: float | None = None
+    head: float = SHAKE + HEAD
 
     def columns(self, places: FramePlaces) -> list[AxisColumn]:
         """Ways to bear the axis, the better first; each says what is in its way."""
@@ -157,7 +163,7 @@ class ColumnProblem:
         members = tuple(self._members(order, core, stud))
         low = min((each.low for each in members), default=places.back[1])
         high = max((each.high for each in members), default=places.front[0])
-        head = SHAKE + HEAD
+        head = self.head
         if bearing is AxisBearing.BACK_STUD:
             low, high = (places.back[0], high + head) if high > places.back[1] else (low - head, places.back[1])
         elif bearing is AxisBearing.FRONT_STUD:
@@ -168,7 +174,7 @@ class ColumnProblem:
             members = (replace(members[0], low=low, high=high), *members[1:])
         pivot = round(_PIVOT * core, 2) if self.pivot is None else min(self.pivot, core)
         column = AxisColumn(self.axis, self.at, bearing, core, pivot, low, high, members, (), tangled)
-        return replace(column, hit=tuple(_hits(column, self.others)))
+        return with_hits(column, self.others)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
         """Diameter of the core: as given, or so that every pipe fits into the roots of its smallest wheel."""
@@ -202,6 +208,11 @@ class ColumnProblem:
 
 def _overlap(member: ColumnMember, low: float, high: float) -> bool:
     return member.low < high and low < member.high
+
+
+def with_hits(column: AxisColumn, others: Iterable[StackDisc]) -> AxisColumn:
+    """The column with all that is in its way."""
+    return replace(column, hit=tuple(_hits(column, others)))
 
 
 def _hits(column: AxisColumn, others: Iterable[StackDisc]) -> Iterator[tuple[StackDisc, float]]:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 from math import dist
 
-from geartrain.scene.parts.arbor_columns import AxisColumn, ColumnProblem, FramePlaces
+from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, AxisColumn, ColumnProblem, FramePlaces, with_hits
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 
 BOSS = 2.0  # mm of plate round a stud, at least
 _NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm in a gap: carriers are nearest to what they carry, then discs of rings
 _WIDEST = 3.0  # mm: a stud's radius, reckoned with before it is known
+_STEP = 3.0  # mm: diameter of a stud that stands on the end of another, at most
+_BLADE = 0.1  # mm of metal between two holes, or round the foot of a stud
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,15 +90,67 @@ def _gap(slab_gaps: Sequence[float], face: float, side: int) -> float:
     return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
 
 
-def carried_column(
-    axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc], process: Process, core: float | None
+def carried_columns(
+    axes: Sequence[CarriedAxis],
+    seat: StackDisc,
+    discs: Sequence[StackDisc],
+    process: Process,
+    core: float | None,
+    head: float = SHAKE + HEAD,
+) -> list[AxisColumn]:
+    """What stands on the axes that one carrier bears, in their order, seen from it; 0 for heads still without room.
+
+    Where two axes are so near that their studs would meet, the farther one stands on the end of the nearer: one stud,
+    turned with a step.
+    """
+    found = [_carried_column(axis, seat, discs, process, core, head) for axis in axes]
+    for one, other in combinations(range(len(axes)), 2):
+        near, far = sorted((one, other), key=lambda at: _away(axes[at], seat))
+        apart, meeting = dist(axes[near].at, axes[far].at), (found[near].core + found[far].core) / 2 + _BLADE
+        if 0 < apart < meeting and found[near].bearing is found[far].bearing and found[near].is_stud:
+            thin = min(found[far].core, _STEP)
+            wide = round(thin + 2 * apart + _BLADE, 2)  # the nearer wheel's end holds all of the farther stud
+            foot = _carried_column(axes[near], seat, discs, process, wide, head)
+            end = _carried_column(axes[far], seat, discs, process, thin, head)
+            found[near], found[far] = _stepped(foot, end, _others(axes[near], seat, discs))
+    return found
+
+
+def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
+    """The stud of the nearer axis without a head, and that of the other one from its end on."""
+    up = max(each.high for each in far.members) > max(each.high for each in near.members)
+    if up:
+        end = max(each.high for each in near.members) + SHAKE / 2
+        near, far = replace(near, high=end, topped=True), replace(far, low=end, on=near.axis)
+    else:
+        end = min(each.low for each in near.members) - SHAKE / 2
+        near, far = replace(near, low=end, topped=True), replace(far, high=end, on=near.axis)
+    return with_hits(near, others), with_hits(far, others)
+
+
+def _away(axis: CarriedAxis, seat: StackDisc) -> float:
+    """How far from its seat its wheels begin."""
+    return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
+
+
+def _carried_column(
+    axis: CarriedAxis,
+    seat: StackDisc,
+    discs: Sequence[StackDisc],
+    process: Process,
+    core: float | None,
+    head: float,
 ) -> AxisColumn:
-    """What stands on a carried axis, seen from its carrier; the first way, as there is but one plate."""
-    others = tuple(_seen_from(axis.carrier, seat.at, disc) for disc in discs if disc.name != seat.name)
+    """The first way, as there is but one plate."""
     ends: Mapping[str, tuple[bool, bool]] = {}
     faces = seat.low, seat.high
-    problem = ColumnProblem(axis.label, axis.at, axis.discs, others, ends, faces, "", process, core)
+    others = _others(axis, seat, discs)
+    problem = ColumnProblem(axis.label, axis.at, axis.discs, others, ends, faces, "", process, core, head=head)
     return problem.columns(FramePlaces(faces, faces))[0]
+
+
+def _others(axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc]) -> tuple[StackDisc, ...]:
+    return tuple(_seen_from(axis.carrier, seat.at, disc) for disc in discs if disc.name != seat.name)
 
 
 def _seen_from(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:

@@ -8,18 +8,17 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector, plus, scaled
 from geartrain.scene.parts.arbor_columns import APART, INTEGRAL, AxisColumn, ColumnMember, ColumnProblem, FramePlaces
 from geartrain.scene.parts.carried_axes import (
     CarriedAxis,
     CarrierSeat,
     TurningPlate,
-    carried_column,
+    carried_columns,
     carrier_seats,
     ring_seats,
 )
 from geartrain.scene.parts.frame_stack import FrameStack
-from geartrain.scene.parts.plate_places import PlateChoice, best_column, plate_choices, with_discs
+from geartrain.scene.parts.plate_places import PlateChoice, best_column, obstacles, plate_choices, with_discs
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
 from geartrain.scene.parts.stack_heights import StackHeights, stack_up
@@ -59,7 +58,8 @@ class FramePlan:
     @cached_property
     def choice(self) -> PlateChoice:
         """Places of plates with the fewest obstacles, then the fewest studs."""
-        asked = list(self._axes(self.stack.discs, self._slabs)), self.stack.discs, list(self._seats()), self._gaps
+        axes = list(self._axes(self.stack.discs, self._slabs))
+        asked = axes, self.stack.discs, list(self._seats()), self._gaps, self._blocked
         best = min(plate_choices(*asked), key=lambda choice: choice.cost)
         if not best.cost[0]:
             return best
@@ -108,12 +108,23 @@ class FramePlan:
             if not disc.hub and disc.link != self.stack.frame and disc.carrier is None:
                 yield ring_seats(disc, disc.outer, self._gaps)
 
-    def _carried_cost(self, way: CarrierSeat, carried: Sequence[CarriedAxis]) -> int:
-        """Obstacles on the axes that a carrier bears."""
-        every = [*self.stack.discs, *(plate.disc for plate in way.plates)]
+    def _blocked(self, seats: Sequence[CarrierSeat]) -> int:
+        """Obstacles on all axes that carriers bear, all plates in their gaps."""
+        plates = [plate for seat in seats for plate in seat.plates]
+        return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
+
+    def _borne_by(self, seat: CarrierSeat) -> list[CarriedAxis]:
+        return [] if _holds_ring(seat) else [each for each in self.stack.carried.values() if each.carrier == seat.link]
+
+    def _carried_cost(
+        self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
+    ) -> int:
+        """Obstacles on the axes that a carrier bears; heads of studs get their room later."""
+        every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
+        if not carried:
+            return 0
         seat = next(disc for disc in every if disc.name == way.seat)
-        columns = (carried_column(each, seat, every, self.process, self.core) for each in carried)
-        return sum(len(column.hit) + bool(column.tangled) for column in columns)
+        return obstacles(carried_columns(carried, seat, every, self.process, self.core, head=0.0))
 
     # ------------------------------------------------------------------------------------------------------ as built
 
@@ -154,11 +165,14 @@ class FramePlan:
     def carried(self) -> dict[str, AxisColumn]:
         """What stands on each axis that is carried round."""
         named = {disc.name: disc for disc in self.discs}
-        found = {}
-        for label, each in self.stack.carried.items():
-            own = tuple(named[disc.name] for disc in each.discs)
-            seat = named[self.seat_of(each.carrier)]
-            found[label] = carried_column(replace(each, discs=own), seat, self.discs, self.process, self.core)
+        found: dict[str, AxisColumn] = {}
+        for seat in self.choice.seats:
+            own = self._borne_by(seat)
+            if not own:
+                continue
+            axes = [replace(each, discs=tuple(named[disc.name] for disc in each.discs)) for each in own]
+            columns = carried_columns(axes, named[seat.seat], self.discs, self.process, self.core)
+            found |= dict(zip((each.label for each in own), columns, strict=True))
         return found
 
     def seat_of(self, carrier: str) -> str:
@@ -198,19 +212,7 @@ class FramePlan:
     @cached_property
     def layout(self) -> Layout:
         """The layout with wheels moved along the plates' normal, those of axes across with their mates."""
-        normal, old = self.stack.normal, self.stack.layout
-        assert normal is not None
-        rise = {disc.name: self.heights.shift(disc.middle) for disc in self.stack.discs}
-        across = {label: self.heights.shift(sum(ends) / 2) for label, ends in self.stack.tied.items()}
-        wheels = {
-            name: replace(place, centre=_moved(place.centre, normal, rise.get(name, across.get(place.axis, 0.0))))
-            for name, place in old.wheels.items()
-        }
-        axes = {
-            label: replace(axis, point=_moved(axis.point, normal, across.get(label, 0.0)))
-            for label, axis in old.axes.items()
-        }
-        return replace(old, wheels=wheels, axes=axes)
+        return self.stack.raised(self.heights.shift)
 
     @cached_property
     def notices(self) -> tuple[Problem, ...]:
@@ -223,7 +225,7 @@ class FramePlan:
             if column.tangled:
                 one, other = column.tangled
                 why = f"each has a wheel between two of the other, on axis '{column.axis}'"
-                fix = "give them places (`layer`) one after the other, or an axis each"
+                fix = "give one of them another axis, or do without one of these wheels"
                 yield Problem(f"arbors '{one}' and '{other}' cannot run in each other", why, fix)
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
@@ -244,7 +246,3 @@ class FramePlan:
 
 def _holds_ring(seat: CarrierSeat) -> bool:
     return any(plate.ring for plate in seat.plates)
-
-
-def _moved(point: Vector, normal: Vector, by: float) -> Vector:
-    return plus(point, scaled(normal, by)) if by else point

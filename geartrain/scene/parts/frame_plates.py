@@ -154,7 +154,7 @@ class FramePlates:
     def _seat_holes(self, seat: str) -> Iterator[Hole]:
         process = self.plan.process
         for label, column in self.plan.carried.items():
-            if self.plan.seat_of(self.plan.stack.carried[label].carrier) == seat:
+            if not column.on and self.plan.seat_of(self.plan.stack.carried[label].carrier) == seat:
                 loose = column.bearing is AxisBearing.THROUGH
                 yield Hole(label, column.at, column.core + (process.running if loose else process.press))
         for post in self.posts:

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector, dot
+from geartrain.numerics.vectors import Vector, dot, plus, scaled
+from geartrain.scene.parts.arbor_columns import HEAD_ROOM
 from geartrain.scene.parts.carried_axes import CarriedAxis
-from geartrain.scene.parts.stack_discs import Point, StackDisc
+from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
 from geartrain.scene.solids.bearing_plates import basis
 
 if TYPE_CHECKING:
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     from geartrain.scene.layout import AxisPlace, Layout
     from geartrain.scene.solids.wheel_blanks import Blank
 
+_SAME = 1e-6  # mm
 _PARALLEL = 1e-9  # of a cosine
 _STANDARD = 1.25  # modules: depth of teeth that are not cut flat
 
@@ -138,6 +142,36 @@ class FrameStack:
                     found += [upright[one].low, upright[one].high]
         return {label: (min(each), max(each)) for label, each in heights.items()}
 
+    def raised(self, shift: Callable[[float], float]) -> Layout:
+        """The layout with what stands at each height moved along the normal, wheels of axes across with their mates."""
+        normal, old = self.normal, self.layout
+        assert normal is not None
+        rise = {disc.name: shift(disc.middle) for disc in self.discs}
+        across = {label: shift(sum(ends) / 2) for label, ends in self.tied.items()}
+        wheels = {
+            name: replace(place, centre=_moved(place.centre, normal, rise.get(name, across.get(place.axis, 0.0))))
+            for name, place in old.wheels.items()
+        }
+        axes = {
+            label: replace(axis, point=_moved(axis.point, normal, across.get(label, 0.0)))
+            for label, axis in old.axes.items()
+        }
+        return replace(old, wheels=wheels, axes=axes)
+
+    def with_head_room(self) -> FrameStack:
+        """With room for a stud's head beside whatever carriers bear."""
+        taken = slabs(self.discs, list(self.tied.values())) if self.carried else []
+        if not taken:
+            return self
+        ends = [face for each in self.carried.values() for face in _ends(each.discs)]
+        starts, shifts, rise = [taken[0][0]], [0.0], 0.0
+        for below, above in pairwise(taken):
+            beside = any(below[0] - _SAME < face < above[1] + _SAME for face in ends)
+            rise += max(0.0, HEAD_ROOM - (above[0] - below[1])) if beside else 0.0
+            starts.append(above[0])
+            shifts.append(rise)
+        return replace(self, layout=self.raised(lambda height: shifts[max(bisect_right(starts, height) - 1, 0)]))
+
     def left_out(self) -> Iterator[Problem]:
         """Axes for which no bearings are made."""
         for label, axis in self.layout.axes.items():
@@ -156,6 +190,15 @@ class FrameStack:
 def rim(blank: Blank) -> float:
     """Radius of a ring's outside (mm)."""
     return float(abs(blank.contours[0].points).max())
+
+
+def _ends(discs: Sequence[StackDisc]) -> tuple[float, float]:
+    """Lowest and highest face."""
+    return min(disc.low for disc in discs), max(disc.high for disc in discs)
+
+
+def _moved(point: Vector, normal: Vector, by: float) -> Vector:
+    return plus(point, scaled(normal, by)) if by else point
 
 
 def _upwards(direction: Vector) -> Vector:

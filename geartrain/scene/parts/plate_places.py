@@ -6,7 +6,7 @@ Of the places with the fewest obstacles the one with the fewest studs and arbors
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, product
 
@@ -23,18 +23,19 @@ class PlateChoice:
     """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis.
 
     outside   1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not
+    blocked   obstacles on axes that carriers bear
     """
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
+    blocked: int = 0
 
     @property
     def cost(self) -> tuple[int, float]:
         """Obstacles, then studs and arbors that pass."""
-        bad = sum(len(each.hit) + bool(each.tangled) for each in self.columns)
-        return bad, sum(self._effort(each) for each in self.columns)
+        return self.blocked + obstacles(self.columns), sum(self._effort(each) for each in self.columns)
 
     def _effort(self, column: AxisColumn) -> float:
         passing = [plate for plate in (self.places.back, self.places.front) if column.passes(plate)]
@@ -49,21 +50,31 @@ def plate_choices(
     discs: Sequence[StackDisc],
     seats: Sequence[Sequence[CarrierSeat]],
     slab_gaps: Sequence[float],
+    blocked: Callable[[Sequence[CarrierSeat]], int],
     inside: bool = False,
 ) -> Iterator[PlateChoice]:
-    """Places of the plates with every way to seat carriers: one plate at an end of the stack, or both `inside` it."""
+    """Places of the plates with every way to seat carriers: one plate at an end of the stack, or both `inside` it.
+
+    blocked   counts the obstacles on axes that carriers bear
+    """
     count = len(slab_gaps)
     pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
     for chosen in islice(product(*seats), _TRIED):
         every = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
         problems = [with_discs(axis, every) for axis in axes]
+        bad = blocked(chosen)
         for low, high in pairs:
             if (low > 0 and high < count - 1) != inside:
                 continue
             places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
             columns = tuple(best_column(problem.columns(places)) for problem in problems)
             outside = (high < count - 1) - (low > 0)
-            yield PlateChoice(places, chosen, columns, outside)
+            yield PlateChoice(places, chosen, columns, outside, bad)
+
+
+def obstacles(columns: Iterable[AxisColumn]) -> int:
+    """How many things are in the way of some columns."""
+    return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
 def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:

@@ -6,11 +6,11 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from geartrain.scene.parts.arbor_columns import FramePlaces
+from geartrain.scene.parts.arbor_columns import HEAD_ROOM, FramePlaces
 from geartrain.scene.parts.carried_axes import TurningPlate
 
 BEHIND = 1.5  # mm between a plate of the frame and what turns next to it
-BETWEEN = 1.0  # mm between a plate that turns and its neighbours
+BETWEEN = HEAD_ROOM  # mm between a plate that turns and its neighbours
 
 
 @dataclass(frozen=True, slots=True)

@@ -198,12 +198,14 @@ def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """A pin held in one plate, with a head that keeps on it what turns."""
+    """A pin held in one plate, with a head that keeps on it what turns; or the foot of another pin in its place."""
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high
     up = high > plate[1]
     shaft, head = ((low, high - HEAD), (high - HEAD, high)) if up else ((low + HEAD, high), (low, low + HEAD))
     bands = [Band(*shaft, radius), Band(*head, radius + HEAD_OVER)]
-    name = f"{column.axis} stud"
-    return TurnedPart(frame, name, "stud", column.at, tuple(bands if up else bands[::-1]), process.joint)
+    if column.topped:
+        bands = [Band(low, high, radius)]
+    joint = f"one piece with {column.on} stud" if column.on else process.joint
+    return TurnedPart(frame, f"{column.axis} stud", "stud", column.at, tuple(bands if up else bands[::-1]), joint)

@@ -13,7 +13,6 @@ from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_train import GearTrain
     from geartrain.teeth.pin_coupling import Coupling
 
 Point = tuple[float, float]
@@ -42,10 +41,10 @@ class Plates:
     notices: tuple[Problem, ...]
 
 
-def coupling_discs(train: GearTrain, bores: Mapping[str, float]) -> Plates:
+def coupling_discs(couplings: Sequence[Coupling], bores: Mapping[str, float]) -> Plates:
     """Discs of pins and slots; `bores` are holes (mm) for arbors, by link."""
     notices: list[Problem] = []
-    plates = tuple(_discs(train, bores, notices))
+    plates = tuple(_discs(couplings, bores, notices))
     return Plates(plates, tuple(notices))
 
 
@@ -101,14 +100,14 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 # ------------------------------------------------------------------------------------------------------ pins and slots
 
 
-def _discs(train: GearTrain, diameters: Mapping[str, float], notices: list[Problem]) -> Iterator[Plate]:
-    for coupling in train.declaration.couplings:
+def _discs(couplings: Sequence[Coupling], diameters: Mapping[str, float], notices: list[Problem]) -> Iterator[Plate]:
+    for coupling in couplings:
         if coupling.pin_radius is None or coupling.offset is None:
             what = f"'{coupling.name}' has no drawing of pin and slot"
             notices.append(Problem(what, "its dimensions are not declared", "give pin_radius and offset"))
             continue
-        yield _disc(train, coupling, coupling.pin, diameters, slotted=False)
-        yield _disc(train, coupling, coupling.slot, diameters, slotted=True)
+        yield _disc(coupling, coupling.pin, diameters, slotted=False)
+        yield _disc(coupling, coupling.slot, diameters, slotted=True)
 
 
 def pin_diameter(radius: float) -> float:
@@ -122,7 +121,7 @@ def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 
 
-def _disc(train: GearTrain, coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
+def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
     """The disc of a pin, or of its slot: the pin comes as near its axis as |r - e|, and as far as r + e."""
     assert coupling.pin_radius is not None
     assert coupling.offset is not None

@@ -21,6 +21,7 @@ from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs, pin_diameter, slotted_bar
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
+from geartrain.scene.solids.pin_couplings import CutCoupling, cut_couplings, holes, pin_axis, slot_frame
 from geartrain.scene.solids.triangle_solids import Solid, plate_solid, wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks
 from geartrain.teeth.outlines.contour import Contour
@@ -28,7 +29,7 @@ from geartrain.teeth.outlines.contour import Contour
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene.elements import SceneWheel
+    from geartrain.scene.elements import SceneCoupling, SceneWheel
     from geartrain.scene.layout import Layout
     from geartrain.scene.train_scene import Scene
 _SHEET = 3.0  # mm, the thickness of plates
@@ -134,6 +135,7 @@ class SolidModel:
         stack = FrameStack(self.sized, self._spread, self._toothed.wheels)
         if self.making.bore == 0 or stack.normal is None:
             return None
+        stack = stack.with_head_room()
         ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
         plan = FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
         return FramePlates(plan)
@@ -144,7 +146,7 @@ class SolidModel:
         holes = self._bores
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
-            others = [] if self.frame is None else self._own_holes(name)
+            others = self._own_holes(name)
             wheels[name], told = bored(blank, holes.get(name, 0.0), others)
             notices += told
             if self.making.arms is not None:
@@ -160,22 +162,31 @@ class SolidModel:
         return found if self.frame is None else found | self.frame.plan.bores
 
     def _own_holes(self, name: str) -> list[Contour]:
-        """Holes in a wheel for studs and posts, in its own coordinates."""
-        assert self.frame is not None
+        """Holes in a wheel for studs, posts and pins, and its slots, in its own coordinates."""
         wheel = next(wheel for wheel in self.scene.wheels if wheel.id == name)
         turn, place = wheel_frame(wheel)
-        stack = self.frame.plan.stack
         found = []
+        for cut in self.cut_couplings.values():
+            found += holes(self.scene, cut, name, turn, place, self.process.press)
+        if self.frame is None:
+            return found
+        stack = self.frame.plan.stack
         for hole in self.frame.seat_holes(name):
             x, y, _ = turn.T @ (np.array(stack.in_space(hole.at)) - place)
             found.append(Contour.circle(hole.diameter / 2, (float(x), float(y))))
         return found
 
     @cached_property
+    def cut_couplings(self) -> dict[str, CutCoupling]:
+        """Pins and slots that are cut into wheels."""
+        return cut_couplings(self.scene, self._toothed.wheels, self._bores)
+
+    @cached_property
     def couplings(self) -> Plates:
-        """Discs of pins and slots."""
+        """Discs of pins and slots that are not cut into wheels."""
         of = {place.link: name for name, place in self.layout.wheels.items()}
-        return coupling_discs(self.sized, {link: self._bores[wheel] for link, wheel in of.items()})
+        loose = [each for each in self.sized.declaration.couplings if each.name not in self.cut_couplings]
+        return coupling_discs(loose, {link: self._bores[wheel] for link, wheel in of.items()})
 
     @cached_property
     def _spread(self) -> Layout:
@@ -270,41 +281,36 @@ class _Parts:
             yield SolidPart(body, plate.name, "plate", solid, turn, place, "", cut, thickness)
 
     def couplings(self) -> Iterator[SolidPart]:
-        """Pins, from their wheel to the slot's, and bars with a slot as long as the pin wanders."""
+        """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
         for coupling in self.scene.couplings:
-            body = self.scene.bodies[coupling.slot]
-            along = np.array(body.direction)
-            pin, hub = (np.array(each) for each in (coupling.pin_at, coupling.slot_at))
-            low, high = sorted(
-                (self._level(coupling.pin, pin @ along, along), self._level(coupling.slot, pin @ along, along))
-            )
-            r, e = coupling.pin_radius, coupling.offset
-            thick = pin_diameter(r)
-            across = np.column_stack([*basis(body.direction), body.direction])
-            middle = pin - along * (pin @ along)
-            part = TurnedPart(
-                body.id, f"{coupling.id} pin", "pin", (0.0, 0.0), (Band(low - _GAP, high + _GAP, thick / 2),)
-            )
-            yield SolidPart(coupling.pin, part.name, part.kind, part.solid(), across, middle, turned=part)
-            out = pin - hub
-            x = out / np.linalg.norm(out)
-            c, s = cos(coupling.slot_turn), sin(coupling.slot_turn)
-            x = c * x + s * np.cross(along, x)
-            turn = np.column_stack([x, np.cross(along, x), along])
-            contours = slotted_bar(r, e, thick)
-            level = self._level(coupling.slot, pin @ along, along)
-            place = hub + along * (level - hub @ along)
-            yield SolidPart(
-                coupling.slot,
-                f"{coupling.id} slot",
-                "plate",
-                plate_solid(contours, _GAP),
-                turn,
-                place,
-                "",
-                contours,
-                _GAP,
-            )
+            turn, middle = pin_axis(self.scene, coupling)
+            along, cut = turn[:, 2], self.work.cut_couplings.get(coupling.id)
+            if cut is None:
+                height = float(coupling.pin_at @ along)
+                levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
+                low, high = min(levels) - _GAP, max(levels) + _GAP
+            else:
+                low, high = self._faces(cut.pin, cut.slot, along)
+            band = Band(low, high, pin_diameter(coupling.pin_radius) / 2)
+            name, joint = f"{coupling.id} pin", self.work.process.joint
+            part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
+            yield SolidPart(coupling.pin, name, part.kind, part.solid(), turn, middle, turned=part)
+            if cut is None:
+                yield self._bar(coupling, along)
+
+    def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
+        """From the far face of the pin's wheel to that of the slot's."""
+        ends = [
+            float(wheel.centre @ along) + side * self._thick(wheel) / 2 for wheel in (pin, slot) for side in (-1, 1)
+        ]
+        return min(ends), max(ends)
+
+    def _bar(self, coupling: SceneCoupling, along: Floats) -> SolidPart:
+        hub, turn = np.array(coupling.slot_at), slot_frame(self.scene, coupling)
+        level = self._level(coupling.slot, float(coupling.pin_at @ along), along)
+        cut = slotted_bar(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
+        place, solid = hub + along * (level - hub @ along), plate_solid(cut, _GAP)
+        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", solid, turn, place, "", cut, _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
         """The face, nearest to a height, of the wheels of a body."""

@@ -21,6 +21,7 @@ import make_mesh_accuracy
 import make_missing
 import make_motion_accuracy
 import make_outputs
+import make_ready_to_cut
 import make_shapes_accuracy
 import make_sources
 import make_sphere_accuracy
@@ -58,6 +59,7 @@ def main() -> None:
         make_left_out,
         make_missing,
         make_outputs,
+        make_ready_to_cut,
         make_sources,
     )
     for maker in (*accuracy, *facts):

@@ -1,4 +1,4 @@
-"""Write docs/ready-to-cut.md: the verdict of `geartrain export` on twelve shipped trains, and four folders measured.
+"""Write docs/ready-to-cut.md: the verdict of `geartrain export` on twelve shipped trains; five folders measured.
 
 `python docs/make_ready_to_cut.py --measure` exports them anew and keeps what is found in docs/data/ready-to-cut.json
 (some minutes); without it the page is written from what is kept.
@@ -23,7 +23,7 @@ TRAINS = {
     "Antikythera": ("price-1974", "voulgaris-2024-a", "freeth-2008", "freeth-2021"),
     "Gearboxes": ("planetary-24-18-60", "ravigneaux-set", "wolfrom-175", "nrel-grc-750"),
 }
-ASSEMBLED = ("longcase-clock-cycloidal", "watch-going-train", "freeth-2008", "wolfrom-175")
+ASSEMBLED = ("longcase-clock-cycloidal", "watch-going-train", "pennestri-2002", "freeth-2008", "wolfrom-175")
 SHOWN = 12  # obstacles of a train on the page
 
 HEAD = """# Ready to cut, or not
@@ -43,11 +43,12 @@ the solids, held against each other in eight poses. Seconds are those of the who
 """
 
 FOLDERS = """
-Four folders were read by programs that know nothing of geartrain: trimesh reads `assembly.glb` and `assembly.stl`,
-manifold3d finds volumes, sections across the axes are cut and circles measured on their corners. A round hole has its
-corners outside its circle, so that every chord leaves the stated room: that is why holes are up to 0.004 mm wider than
-stated. "Turning" are holes with something of another link in them, "aside" says how far apart the middles of hole and
-rod are, "overlap" is the greatest volume that two parts share, over that of the smaller one.
+The folders of five were read by programs that know nothing of geartrain: trimesh reads `assembly.glb` and
+`assembly.stl`, manifold3d finds volumes, sections across the axes are cut and circles measured on their corners. A
+round hole has its corners outside its circle, so that every chord leaves the stated room: that is why holes are up to
+0.004 mm wider than stated. "Turning" are holes with something of another link in them, "aside" says how far apart the
+middles of hole and rod are, "overlap" is the greatest volume that two parts share, over that of the smaller one. That
+of a1 and b1 is the likeness of a contrate, which is not to be cut, in the wheel that it meshes with.
 """
 
 
@@ -145,7 +146,7 @@ def page(kept: Mapping[str, Any]) -> Iterator[str]:
             yield from (f"- {text}" for text in each["obstacles"][:SHOWN])
             if (more := len(each["obstacles"]) - SHOWN) > 0:
                 yield f"- and {more} more"
-    yield from ("", "## Four folders, read by other programs", "", paragraphs(FOLDERS))
+    yield from ("", "## Five folders, read by other programs", "", paragraphs(FOLDERS))
     yield "Clearances are in mm: of so many holes the least and the greatest."
     yield ""
     yield "| train | parts | closed | turning | pipes | joined | aside mm | overlap |"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, cos, pi, sin
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RE
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene
+from geartrain.scene.dial_scale import DialScale, clock_point
 from geartrain.scene.pose import body_errors, turns_of
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
 _COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE)
 _INNER = 0.42  # radius of the innermost turn of a spiral over the outermost
-_MARKS = 360  # divisions of a turn that are still drawn singly
+_TICK = 0.07  # inches: a border of a cell
 _FINE = 8.0  # points
 
 
@@ -137,8 +138,8 @@ def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
 
 def place(centre: tuple[float, float], radius: float, turn: float | Fraction) -> tuple[float, float]:
     """The point at some turns past the zero mark above, clockwise."""
-    angle = 2 * pi * float(turn)
-    return centre[0] + radius * sin(angle), centre[1] + radius * cos(angle)
+    x, y = clock_point(radius, turn)
+    return centre[0] + x, centre[1] + y
 
 
 def _draw_face(
@@ -166,43 +167,26 @@ def _draw_face(
     write(axes, centre[0], centre[1] + _FACE / 2 + 0.02, name, fontsize=SMALL, fontweight="bold", gid=f"dial {name}")
 
 
-def radius_at(face: DialPicture, outer: float, turned: float) -> float:
-    """Radius of a spiral after some turns from its inner end; of a circle, always the outer one."""
-    return outer if face.turns == 1 else outer * (_INNER + (1 - _INNER) * turned / face.turns)
+def scale_of(face: DialPicture, outer: float) -> DialScale:
+    """The scale of a face of some radius."""
+    return DialScale(face.turns, face.divisions, outer, outer if face.turns == 1 else _INNER * outer)
 
 
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
     """The line along which cells lie, their borders, and numbers at some of them."""
-    turned = np.linspace(0, face.turns, 120 * face.turns + 1)
-    line = np.array([place(centre, radius_at(face, outer, each), each) for each in turned])
-    axes.plot(*line.T, color=BLACK, linewidth=1.0, zorder=3, gid=f"scale {face.name}")
-    tick = 0.07 if face.turns == 1 else min(0.07, outer * (1 - _INNER) / face.turns * 0.45)
-    every = max(1, ceil(face.divisions / face.turns / _MARKS))
-    ends = []
-    for cell in range(0, face.divisions + (face.turns > 1), every):
-        turn = Fraction(cell * face.turns, face.divisions)
-        radius = radius_at(face, outer, float(turn))
-        ends += [place(centre, radius, turn), place(centre, radius - tick, turn), (np.nan, np.nan)]
+    scale = scale_of(face, outer)
+    axes.plot(*(scale.line() + centre).T, color=BLACK, linewidth=1.0, zorder=3, gid=f"scale {face.name}")
+    ends = [point for mark in scale.marks(_TICK) for point in (*mark, (np.nan, np.nan))]
     fine = 0.9 if len(ends) < 300 else 0.4
-    axes.plot(*zip(*ends, strict=True), color=GREY, linewidth=fine, zorder=3, gid=f"cells {face.name}")
+    axes.plot(*(np.array(ends) + centre).T, color=GREY, linewidth=fine, zorder=3, gid=f"cells {face.name}")
     if face.name:
-        _draw_numbers(axes, face, centre, outer)
-
-
-def _draw_numbers(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
-    """Numbers of cells at round steps: about twelve to a turn of a circle, the first cell of each turn of a spiral."""
-    if face.turns > 1:
-        for turn in range(face.turns):
-            x, y = place(centre, radius_at(face, outer, turn), turn)
-            write(axes, x - 0.02, y, str(turn * face.divisions // face.turns), GREY, ha="right", fontsize=5.5)
-        return
-    steps = (1, 2, 5, 10, 15, 20, 30, 50, 60, 100, 200, 500)
-    step = next((step for step in steps if face.divisions / step <= 12), max(face.divisions // 12, 1))
-    for cell in range(0, face.divisions, step):
-        if face.divisions - cell < step * 0.6 and cell:
-            continue
-        x, y = place(centre, outer + 0.12, Fraction(cell, face.divisions))
-        write(axes, x, y, str(cell), GREY, fontsize=6.5)
+        for cell, turn in scale.numbers():
+            if face.turns > 1:
+                x, y = place(centre, scale.radius(float(turn)), turn)
+                write(axes, x - 0.02, y, str(cell), GREY, ha="right", fontsize=5.5)
+            else:
+                x, y = place(centre, outer + 0.12, turn)
+                write(axes, x, y, str(cell), GREY, fontsize=6.5)
 
 
 def _draw_pointer(
@@ -212,7 +196,7 @@ def _draw_pointer(
     if reading.turned is None:
         return
     along = (float(reading.turned % face.turns) + reading.error) % face.turns
-    tip = place(centre, radius_at(face, reach, along), reading.angle)
+    tip = place(centre, scale_of(face, reach).radius(along), reading.angle)
     tail = place(centre, -0.12, reading.angle)
     style: dict[str, Any] = {"solid_capstyle": "round", "zorder": 6}
     axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, **style)

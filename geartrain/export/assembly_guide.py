@@ -7,14 +7,15 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, printable
+from geartrain.export.assembly_pictures import picture_path
+from geartrain.export.assembly_steps import assembly_steps
 from geartrain.export.parts_list import ListedPart, parts_list
 from geartrain.export.proof.verdict_text import proof_lines, verdict_lines
-from geartrain.scene.parts.arbor_columns import SHAKE, AxisBearing, AxisColumn
+from geartrain.scene.parts.arbor_columns import SHAKE
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import PairPlay
     from geartrain.export.proof import TrainProof
-    from geartrain.scene.parts.frame_plates import FramePlates
     from geartrain.scene.solids.solid_assembly import SolidModel
 
 
@@ -46,13 +47,16 @@ def readme(
         lines += [UNPROVED, ""]
     lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
     lines += ["| file | what it is |", "| --- | --- |"]
-    lines += [f"| {path} | {_cell(title)} |" for path, title in files]
+    pictures = any(path == picture_path(1) for path, _ in files)
+    lines += [f"| {path} | {_cell(title)} |" for path, title in files if not path.startswith("assembly/")]
+    if pictures:
+        lines.append("| assembly/ | a picture of each step of putting it together |")
     if proof is not None:
         lines += proof_lines(proof, _cell)
     if parts:
         lines += [*_plays(work), *_parts(parts_list(work))]
         if work.frame is not None:
-            lines += ["", "## Fits", "", *_fits(work), "", "## Putting it together", "", *_steps(work, work.frame)]
+            lines += ["", "## Fits", "", *_fits(work), "", "## Putting it together", "", *_steps(work, pictures)]
     told = set() if proof is None else {found.problem for found in proof.findings}
     if left := [each for each in missing if each not in told]:
         lines += ["", "## What could not be made", ""]
@@ -92,59 +96,10 @@ def _fits(work: SolidModel) -> Iterator[str]:
     yield f"In drawings {kerf}. The numbers are usual ones: cut a test piece first."
 
 
-def _steps(work: SolidModel, frame: FramePlates) -> Iterator[str]:
-    """In the order of heights: arbors and their wheels, the back plate with studs, all arbors, the front plate."""
-    number = 0
-
-    def step(text: str) -> str:
-        nonlocal number
-        number += 1
-        return f"{number}. {_cell(text)}"
-
-    low, high = (next(side for side, faces in frame.sides.items() if faces == each) for each in _order(frame))
-    for column in frame.plan.all_columns:
-        for text in _column_steps(work, column):
-            yield step(text)
-    for plate in frame.plan.turning:
-        yield step(
-            f"Fix '{plate.disc.name}' to '{plate.disc.link}'" + (", pins through the ring" if plate.ring else "")
-        )
-    yield step(f"Press the pillars, and the posts of rings, into the {low} plate")
-    studs = [column.axis for column in frame.plan.columns if column.bearing is AxisBearing.BACK_STUD]
-    if studs:
-        yield step(f"Put the pipes on the studs of {', '.join(studs)} and press the studs into the {low} plate")
-    through = sorted(
-        (column for column in frame.plan.columns if not column.is_stud and column.members),
-        key=lambda column: min((disc.low for each in column.members for disc in each.discs), default=0.0),
-    )
-    if through:
-        names = ", ".join(f"{each.axis} (pivot {each.pivot:g})" for each in through)
-        yield step(f"Stand the arbors in the {low} plate, lowest wheels first: {names}")
-    outer = [column.axis for column in frame.plan.columns if column.bearing is AxisBearing.FRONT_STUD]
-    if outer:
-        yield step(f"Put the pipes on the studs of {', '.join(outer)} and press the studs into the {high} plate")
-    yield step(
-        f"Lead all upper pivots into the {high} plate, press it on the pillars, and try the end shake of each arbor"
-    )
-    yield step("Turn it by the lead through a whole turn of the slowest wheel before it is oiled")
-
-
-def _order(frame: FramePlates) -> tuple[tuple[float, float], tuple[float, float]]:
-    return frame.plan.places.back, frame.plan.places.front
-
-
-def _column_steps(work: SolidModel, column: AxisColumn) -> Iterator[str]:
-    """Which wheels go on which arbor or pipe, and which pipes over which."""
-    cut = set() if work.frame is None else work.frame.plan.cut
-    for member in column.members:
-        wheels = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low) if disc.name not in cut]
-        what = "pipe" if member.inner else "arbor"
-        if wheels:
-            order = ", from below in this order" if len(wheels) > 1 else ""
-            yield f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
-    pipes = [member.link for member in column.members if member.inner]
-    if pipes and not column.is_stud:
-        yield f"On axis {column.axis} slide on the pipes, innermost first: {', '.join(pipes)}"
+def _steps(work: SolidModel, pictures: bool) -> Iterator[str]:
+    for number, step in enumerate(assembly_steps(work), 1):
+        picture = f" ([picture]({picture_path(number)}))" if pictures and step.parts else ""
+        yield f"{number}. {_cell(step.text)}{picture}"
 
 
 def _cell(text: str) -> str:

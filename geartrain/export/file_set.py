@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.export.assembly_guide import readme
+from geartrain.export.assembly_pictures import step_pictures
 from geartrain.export.csv_tables import to_tables
 from geartrain.export.cut_sheets import cut_sheets, wheel_drawing
 from geartrain.export.flat_files import to_dxf, to_svg
@@ -225,7 +226,7 @@ def export_files(
         raise QuestionError(
             Problem(f"there is no export '{unknown[0]}'", "", f"use some of {', '.join(KINDS)}", "--as")
         )
-    files = [*_sheets(work, kinds), *_tables(work, kinds)]
+    files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
     named |= {kind: f"assembly.{kind}" for kind in ("stl", "glb", "step")}
     for kind, name in named.items():
@@ -275,6 +276,11 @@ def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
             yield ExportFile(f"{path}.{kind}", drawing.title, partial(_drawn, drawing, kind))
     for sheet in wheel_sheets(work.blanks.wheels) if "stl" in kinds else ():
         yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
+
+
+def _pictures(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
+    for path, title, draw in step_pictures(work) if "svg" in kinds else ():
+        yield ExportFile(path, title, draw)
 
 
 def _drawn(drawing: FlatDrawing, kind: str) -> bytes:

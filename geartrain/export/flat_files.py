@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from html import escape
 from io import StringIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
 from geartrain.numerics.files import csv_text
 from geartrain.scene.solids.flat_drawing import CUT, ENGRAVE, LAYERS, PITCH, EngravedText, FlatDrawing, wheel_drawing
 from geartrain.teeth.outlines.contour import Contour, arc_radius
 from geartrain.teeth.outlines.cut_wheel import WheelOutline
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
 
 _STRAIGHT = 1e-9  # bulges below this are drawn as lines
 
@@ -34,9 +37,11 @@ def to_svg(drawing: FlatDrawing) -> str:
         guides = (_circle(each) if each.is_circle else f'<path d="{_path(each)}"/>' for each in drawing.pitch)
         style = 'fill="none" stroke="#0060c0" stroke-width="0.05" stroke-dasharray="1 0.5"'
         lines.append(f'<g id="{PITCH}" {style}>{"".join(guides)}</g>')
-    if drawing.marks:
+    if drawing.marks or drawing.lines:
         style = 'fill="#c02020" font-family="sans-serif" text-anchor="middle" dominant-baseline="central"'
-        lines.append(f'<g id="{ENGRAVE}" {style}>{"".join(map(_text, drawing.marks))}</g>')
+        drawn = f'<path fill="none" stroke="#c02020" stroke-width="0.1" d="{" ".join(map(_chords, drawing.lines))}"/>'
+        letters = "".join(map(_text, drawing.marks))
+        lines.append(f'<g id="{ENGRAVE}" {style}>{drawn if drawing.lines else ""}{letters}</g>')
     return printable("\n".join([*lines, "</svg>", ""]))
 
 
@@ -51,6 +56,10 @@ def _path(contour: Contour) -> str:
             radius, large, turn = arc_radius(start, end, bulge), int(abs(bulge) > 1), int(bulge < 0)
             parts.append(f"A {radius:.6f} {radius:.6f} 0 {large} {turn} {to}")
     return " ".join([*parts, "Z"])
+
+
+def _chords(line: Floats) -> str:
+    return "M " + " L ".join(f"{x:.4f} {-y:.4f}" for x, y in line)
 
 
 def _circle(contour: Contour) -> str:
@@ -79,13 +88,19 @@ def to_dxf(drawing: FlatDrawing) -> str:
     document.header["$TDCREATE"] = document.header["$TDUPDATE"] = 0  # the same drawing is the same file
     document.header.custom_vars.append("Title", drawing.title)
     space = document.modelspace()
-    used: dict[str, int] = {CUT: len(drawing.cut), PITCH: len(drawing.pitch), ENGRAVE: len(drawing.marks)}
+    used: dict[str, int] = {
+        CUT: len(drawing.cut),
+        PITCH: len(drawing.pitch),
+        ENGRAVE: len(drawing.marks) + len(drawing.lines),
+    }
     for name, count in used.items():
         if count:
             document.layers.add(name, color=_COLOURS[name])
     for name, contours in ((CUT, drawing.cut), (PITCH, drawing.pitch)):
         for contour in contours:
             _draw(space, contour, name)
+    for line in drawing.lines:
+        space.add_lwpolyline([(float(x), float(y)) for x, y in line], dxfattribs={"layer": ENGRAVE})
     for mark in drawing.marks:
         text = space.add_text(mark.text, height=mark.height, rotation=mark.angle, dxfattribs={"layer": ENGRAVE})
         text.set_placement(mark.at, align=TextEntityAlignment.MIDDLE_CENTER)

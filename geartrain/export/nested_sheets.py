@@ -119,8 +119,10 @@ def _sheet(file: str, placed: list[FlatPart], size: tuple[float, float]) -> Nest
     names = tuple(piece.name for piece in placed)
     title = f"{file}: {len(names)} parts on {size[0]:g} x {size[1]:g} mm, scale 1:1"
     marks = tuple(mark for piece in placed for mark in piece.drawing.marks)
+    lines = tuple(line for piece in placed for line in piece.drawing.lines)
     tolerance = min(piece.drawing.tolerance for piece in placed)
-    return NestedSheet(file, FlatDrawing(title, cut, (border,), marks, tolerance), names, area / (size[0] * size[1]))
+    drawing = FlatDrawing(title, cut, (border,), marks, tolerance, lines)
+    return NestedSheet(file, drawing, names, area / (size[0] * size[1]))
 
 
 def _bounds(drawing: FlatDrawing) -> tuple[np.ndarray, np.ndarray]:
@@ -148,7 +150,7 @@ def _moved(drawing: FlatDrawing, low: np.ndarray, corner: np.ndarray, turned: bo
         for each in drawing.marks
         for at in (place(np.array(each.at)),)
     )
-    return replace(drawing, cut=cut, pitch=(), marks=marks)
+    return replace(drawing, cut=cut, pitch=(), marks=marks, lines=tuple(map(place, drawing.lines)))
 
 
 def _too_large(piece: FlatPart, extent: np.ndarray, size: tuple[float, float]) -> Problem:

@@ -12,7 +12,8 @@ from geartrain.numerics.files import csv_text
 from geartrain.train.wheel_stock import material_named
 
 if TYPE_CHECKING:
-    from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
+    from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.scene.solids.solid_part import SolidPart
     from geartrain.train import Wheel
 
 _STEEL = ("arbor", "stud", "pin")

@@ -1,4 +1,4 @@
-"""Drawings of all plates of a train: those of the frame, those that turn, discs of pins and slots."""
+"""Drawings of all plates of a train: those of the frame, those that turn, dials, discs of pins and slots."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ _LETTER = 1.8  # mm: height of letters beside holes
 def plate_sheets(work: SolidModel) -> list[Plate]:
     """A drawing for each plate."""
     frame = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
-    return [*frame, *work.couplings.plates]
+    base = work.train.declaration.frame
+    dials = [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
+    return [*frame, *dials, *work.couplings.plates]
 
 
 def _sheet(plate: FlatPlate) -> Plate:

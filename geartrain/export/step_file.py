@@ -18,7 +18,8 @@ from geartrain.scene.parts.turned_parts import profile
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.turned_parts import TurnedPart
-    from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
+    from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.scene.solids.solid_part import SolidPart
     from geartrain.teeth.outlines.contour import Contour
 
 FINE = 0.005  # mm, how far chords, or the curves through them, may leave a flank

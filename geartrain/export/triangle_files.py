@@ -12,7 +12,8 @@ import numpy as np
 
 from geartrain.errors import MissingExtraError
 from geartrain.scene.solids.keyframes import Keyframes
-from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart, by_body
+from geartrain.scene.solids.solid_assembly import SolidModel
+from geartrain.scene.solids.solid_part import SolidPart, by_body
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

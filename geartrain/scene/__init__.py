@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from geartrain.scene.scene_run import SceneRun as SceneRun
     from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes as ManufacturingSizes
     from geartrain.scene.solids.solid_assembly import SolidModel as SolidModel
-    from geartrain.scene.solids.solid_assembly import SolidPart as SolidPart
+    from geartrain.scene.solids.solid_part import SolidPart as SolidPart
     from geartrain.scene.train_scene import DialFace as DialFace
     from geartrain.scene.train_scene import Pointer as Pointer
     from geartrain.scene.train_scene import Scene as Scene

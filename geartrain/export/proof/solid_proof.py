@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
+    from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.scene.solids.solid_part import SolidPart
 
 _POSES = tuple(Fraction(k * 41, 97) for k in range(8))  # turns of the lead
 SLIVER = 1e-3

@@ -169,7 +169,7 @@ def find_plan_overlap(
     off = swept.near[:, axis].copy()  # axes against blocks
     for at, block in enumerate(blocks):
         if block.trace is not None:
-            away = np.array([_from_segment(places[line.label], *block.trace) for line in lines])
+            away = np.array([segment_distance(places[line.label], *block.trace) for line in lines])
             off[:, at] = away
             apart[at, :] = apart[:, at] = away[axis]
     clash = (apart < outer[:, None] + outer[None, :]) & (stacks[:, None] != stacks[None, :])
@@ -195,7 +195,7 @@ def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]
     return np.asarray((off[pin.axis] - pin.outer < outer) & ~own)
 
 
-def _from_segment(point: Point, start: Point, end: Point) -> float:
+def segment_distance(point: Point, start: Point, end: Point) -> float:
     """Distance of a point from a segment."""
     u, v = end[0] - start[0], end[1] - start[1]
     x, y = point[0] - start[0], point[1] - start[1]

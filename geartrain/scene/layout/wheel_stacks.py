@@ -101,7 +101,9 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Arbors with the wheels they go through."""
+        """Arbors with the wheels they go through, but of pins and slots, whose axes share one stud."""
+        tied = {frozenset(pair) for pair in self.problem.pins}
+        ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}
         for block in self.upright:
             spans.setdefault(block.link, []).append(height[block.wheel])
@@ -113,5 +115,7 @@ class WheelStack:
                 continue
             for at in np.nonzero(self.problem.overlap.pierce[row])[0].tolist():
                 block = self.problem.blocks[at]
+                if frozenset((ends.get(arbor, ""), block.wheel)) in tied:
+                    continue
                 if not block.across and block.link != arbor and min(own) < height[block.wheel] < max(own):
                     yield arbor, block.wheel

@@ -39,7 +39,8 @@ class FlatDrawing:
     title   what it is, in a line
     cut     closed curves to cut: the outer one first, then holes
     pitch   what guides and is not cut: pitch circles, the edge of a sheet
-    marks   what is engraved
+    marks   letters that are engraved
+    lines   chords that are engraved, (n, 2) each
     """
 
     title: str
@@ -47,6 +48,7 @@ class FlatDrawing:
     pitch: tuple[Contour, ...] = ()
     marks: tuple[EngravedText, ...] = ()
     tolerance: float = TOLERANCE
+    lines: tuple[Floats, ...] = ()
 
     @property
     def box(self) -> tuple[Floats, Floats]:

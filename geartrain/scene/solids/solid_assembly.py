@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,9 +19,11 @@ from geartrain.scene.parts.processes import Process, process_named
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs, pin_diameter, slotted_bar
 from geartrain.scene.solids.bevel_solids import likeness_solid
+from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
 from geartrain.scene.solids.pin_couplings import CutCoupling, cut_couplings, holes, pin_axis, slot_frame
-from geartrain.scene.solids.triangle_solids import Solid, plate_solid, wheel_solid
+from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
+from geartrain.scene.solids.triangle_solids import plate_solid, wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks
 from geartrain.teeth.outlines.contour import Contour
 
@@ -34,53 +35,6 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import Scene
 _SHEET = 3.0  # mm, the thickness of plates
 _GAP = 1.0  # mm between a plate and what turns before it
-
-
-@dataclass(frozen=True, slots=True)
-class SolidPart:
-    """One solid of a body: a point p of it stands at turn p + place.
-
-    Attributes
-    ----------
-    body : int
-        Index of its body in the scene.
-    name : str
-        Of the wheel, or what it belongs to.
-    kind : {"wheel", "arbor", "pipe", "stud", "collar", "pillar", "post", "pin", "plate"}
-        What it is.
-    solid : Solid
-        A closed surface of triangles about its own origin [mm].
-    turn, place : array of float, (3, 3) and (3,)
-        Rotation and shift [mm] that put it into the zero pose.
-    status : str
-        Of a wheel as declared: surviving, reconstructed, ...
-    contours : tuple of Contour
-        Its flat shape, from which the solid is made; empty where it has none.
-    height : float
-        Thickness over the flat shape [mm].
-    turned : TurnedPart or None
-        What it is turned to, about its own z, if it is a body of revolution.
-
-    See Also
-    --------
-    SolidModel : gives it, in `parts`.
-    """
-
-    body: int
-    name: str
-    kind: str
-    solid: Solid
-    turn: Floats
-    place: Floats
-    status: str = ""
-    contours: tuple[Contour, ...] = ()
-    height: float = 0.0
-    turned: TurnedPart | None = None
-
-    @property
-    def placed(self) -> Solid:
-        """The solid where it stands."""
-        return self.solid.moved(self.turn, self.place.tolist())
 
 
 @dataclass(frozen=True)
@@ -189,6 +143,12 @@ class SolidModel:
         return coupling_discs(loose, {link: self._bores[wheel] for link, wheel in of.items()})
 
     @cached_property
+    def dials(self) -> list[DialPlate]:
+        """Plates of dials; none without plates of the frame."""
+        thickness = self.making.thickness or THICKNESS
+        return [] if self.frame is None else dial_plates(self.scene, self.frame, thickness)
+
+    @cached_property
     def _spread(self) -> Layout:
         """Places before there are plates."""
         return thick(self._laid if self.sized is self.train else lay_out(self.sized), self.making)
@@ -224,6 +184,7 @@ class _Parts:
         if self.work.frame is not None:
             yield from self.turned(self.work.frame)
             yield from self.plates(self.work.frame)
+            yield from self.dials(self.work.frame)
         yield from self.couplings()
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
@@ -280,6 +241,14 @@ class _Parts:
             body, turn = self.bodies[plate.link], frame.plan.stack.turn
             yield SolidPart(body, plate.name, "plate", solid, turn, place, "", cut, thickness)
 
+    def dials(self, frame: FramePlates) -> Iterator[SolidPart]:
+        """Plates of dials, which the frame holds."""
+        body, turn = self.bodies[frame.plan.stack.frame], frame.plan.stack.turn
+        for dial in self.work.dials:
+            thickness, place = dial.high - dial.low, frame.plan.stack.in_space(dial.at, (dial.low + dial.high) / 2)
+            solid = plate_solid(dial.contours, thickness)
+            yield SolidPart(body, dial.name, "plate", solid, turn, np.array(place), "", dial.contours, thickness)
+
     def couplings(self) -> Iterator[SolidPart]:
         """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
         for coupling in self.scene.couplings:
@@ -321,19 +290,3 @@ class _Parts:
             for side in (-1, 1)
         ]
         return min(faces, key=lambda face: abs(face - height), default=float(height))
-
-
-def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
-    """Axes of a wheel's own coordinates as columns, x through its first tooth, and its middle (mm)."""
-    along, reference = np.array(wheel.direction), np.array(wheel.reference)
-    across = np.cross(along, reference)
-    x = cos(wheel.turn) * reference + sin(wheel.turn) * across
-    return np.column_stack([x, np.cross(along, x), along]), np.array(wheel.centre)
-
-
-def by_body(parts: Sequence[SolidPart]) -> Mapping[int, list[SolidPart]]:
-    """Parts in the order of their bodies."""
-    found: dict[int, list[SolidPart]] = {}
-    for part in parts:
-        found.setdefault(part.body, []).append(part)
-    return found

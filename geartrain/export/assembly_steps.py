@@ -1,0 +1,133 @@
+"""How the parts of a train are put together, step by step, in the order of heights."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn
+
+if TYPE_CHECKING:
+    from geartrain.scene.parts.frame_plates import FramePlates
+    from geartrain.scene.solids.solid_assembly import SolidModel
+
+
+@dataclass(frozen=True, slots=True)
+class AssemblyStep:
+    """One step: what is done, and which parts come in by it."""
+
+    text: str
+    parts: tuple[str, ...]
+
+
+def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
+    """Arbors and their wheels, what carriers bear, the back plate with studs, all arbors, the front plate, dials."""
+    return [] if work.frame is None else list(_Steps(work, work.frame).all())
+
+
+class _Steps:
+    def __init__(self, work: SolidModel, frame: FramePlates) -> None:
+        self.work, self.frame, self.plan = work, frame, frame.plan
+        self.known = {part.name for part in work.parts}
+        self.low, self.high = (
+            next(side for side, faces in frame.sides.items() if faces == each)
+            for each in (self.plan.places.back, self.plan.places.front)
+        )
+
+    def all(self) -> Iterator[AssemblyStep]:
+        for column in self.plan.all_columns:
+            yield from self._column(column)
+        yield from self._pins()
+        for plate in self.plan.turning:
+            posts = [post.name for post in self.frame.posts if plate.disc.name in post.through]
+            tail = ", pins through the ring" if plate.ring else ""
+            yield self._step(
+                f"Fix '{plate.disc.name}' to '{plate.disc.link}'{tail}", [plate.disc.name, plate.ring, *posts]
+            )
+        yield from self._carried()
+        base = self.plan.stack.frame
+        pillars = [name for name in self.known if name.startswith("pillar ")]
+        posts = [post.name for post in self.frame.posts if post.link == base]
+        rings = [disc.name for disc in self.plan.discs if not disc.hub and disc.link == base]
+        yield self._step(
+            f"Press the pillars, and the posts of rings, into the {self.low} plate",
+            [f"{base} {self.low} plate", *sorted(pillars), *posts, *rings],
+        )
+        yield from self._studs(AxisBearing.BACK_STUD, self.low)
+        yield from self._through()
+        yield from self._studs(AxisBearing.FRONT_STUD, self.high)
+        yield self._step(
+            f"Lead all upper pivots into the {self.high} plate, press it on the pillars, and try the end shake of each "
+            "arbor",
+            [f"{base} {self.high} plate"],
+        )
+        if self.work.dials:
+            names = [dial.name for dial in self.work.dials]
+            yield self._step(f"Hold {', '.join(names)} on feet where there is room, and put hands on the arbors", names)
+        yield AssemblyStep("Turn it by the lead through a whole turn of the slowest wheel before it is oiled", ())
+
+    def _step(self, text: str, parts: Sequence[str]) -> AssemblyStep:
+        return AssemblyStep(text, tuple(name for name in parts if name in self.known))
+
+    def _column(self, column: AxisColumn) -> Iterator[AssemblyStep]:
+        """Which wheels go on which arbor or pipe, and which pipes over which."""
+        names = {member.link: self._rod(column, member.link) for member in column.members}
+        for member in column.members:
+            every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
+            wheels = [name for name in every if name not in self.plan.cut]
+            what = "pipe" if member.inner else "arbor"
+            if wheels:
+                order = ", from below in this order" if len(wheels) > 1 else ""
+                text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
+                yield self._step(text, [names[member.link], *every])
+        pipes = [member.link for member in column.members if member.inner]
+        if pipes and not column.is_stud:
+            text = f"On axis {column.axis} slide on the pipes, innermost first: {', '.join(pipes)}"
+            yield self._step(text, [names[link] for link in pipes])
+
+    def _rod(self, column: AxisColumn, link: str) -> str:
+        """The name of an arbor or a pipe."""
+        tried = (f"{link} pipe", f"{link} pipe on {column.axis}", f"{link} arbor")
+        return next((name for name in tried if name in self.known), "")
+
+    def _pins(self) -> Iterator[AssemblyStep]:
+        for name, cut in self.work.cut_couplings.items():
+            yield self._step(f"Press the pin of '{name}' into {cut.pin.id}", [f"{name} pin"])
+
+    def _carried(self) -> Iterator[AssemblyStep]:
+        """Studs of carriers with what turns on them, the nearest to the carrier first."""
+        for seat in self.plan.choice.seats:
+            own = {
+                label: column
+                for label, column in self.plan.carried.items()
+                if self.plan.stack.carried[label].carrier == seat.link and self.plan.seat_of(seat.link) == seat.seat
+            }
+            feet = [label for label, column in own.items() if column.is_stud and not column.on]
+            for label in feet:
+                steps = [other for other, column in own.items() if column.on == label]
+                both = " and ".join([label, *steps])
+                text = f"Press the stud of {both} into {seat.seat}, its pipes on it" + (
+                    f": first that of {label}, then that of {steps[0]}" if steps else ""
+                )
+                yield self._step(text, [f"{axis} stud" for axis in (label, *steps)])
+
+    def _studs(self, bearing: AxisBearing, side: str) -> Iterator[AssemblyStep]:
+        studs = [column.axis for column in self.plan.columns if column.bearing is bearing]
+        if studs:
+            text = f"Put the pipes on the studs of {', '.join(studs)} and press the studs into the {side} plate"
+            yield self._step(text, [f"{axis} stud" for axis in studs])
+
+    def _through(self) -> Iterator[AssemblyStep]:
+        through = sorted(
+            (column for column in self.plan.columns if not column.is_stud and column.members),
+            key=lambda column: min((disc.low for each in column.members for disc in each.discs), default=0.0),
+        )
+        if through:
+            names = ", ".join(f"{each.axis} (pivot {each.pivot:g})" for each in through)
+            links = [each.members[0].link for each in through]
+            collars = [name for link in links for name in (f"{link} back collar", f"{link} front collar")]
+            arbors = [f"{link} arbor" for link in links]
+            yield self._step(
+                f"Stand the arbors in the {self.low} plate, lowest wheels first: {names}", [*arbors, *collars]
+            )

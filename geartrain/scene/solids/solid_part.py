@@ -1,0 +1,81 @@
+"""One solid part of a train, and where it stands in the zero pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.scene.parts.turned_parts import TurnedPart
+from geartrain.scene.solids.triangle_solids import Solid
+from geartrain.teeth.outlines.contour import Contour
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.elements import SceneWheel
+
+
+@dataclass(frozen=True, slots=True)
+class SolidPart:
+    """One solid of a body: a point p of it stands at turn p + place.
+
+    Attributes
+    ----------
+    body : int
+        Index of its body in the scene.
+    name : str
+        Of the wheel, or what it belongs to.
+    kind : {"wheel", "arbor", "pipe", "stud", "collar", "pillar", "post", "pin", "plate"}
+        What it is.
+    solid : Solid
+        A closed surface of triangles about its own origin [mm].
+    turn, place : array of float, (3, 3) and (3,)
+        Rotation and shift [mm] that put it into the zero pose.
+    status : str
+        Of a wheel as declared: surviving, reconstructed, ...
+    contours : tuple of Contour
+        Its flat shape, from which the solid is made; empty where it has none.
+    height : float
+        Thickness over the flat shape [mm].
+    turned : TurnedPart or None
+        What it is turned to, about its own z, if it is a body of revolution.
+
+    See Also
+    --------
+    SolidModel : gives it, in `parts`.
+    """
+
+    body: int
+    name: str
+    kind: str
+    solid: Solid
+    turn: Floats
+    place: Floats
+    status: str = ""
+    contours: tuple[Contour, ...] = ()
+    height: float = 0.0
+    turned: TurnedPart | None = None
+
+    @property
+    def placed(self) -> Solid:
+        """The solid where it stands."""
+        return self.solid.moved(self.turn, self.place.tolist())
+
+
+def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
+    """Axes of a wheel's own coordinates as columns, x through its first tooth, and its middle (mm)."""
+    along, reference = np.array(wheel.direction), np.array(wheel.reference)
+    across = np.cross(along, reference)
+    x = cos(wheel.turn) * reference + sin(wheel.turn) * across
+    return np.column_stack([x, np.cross(along, x), along]), np.array(wheel.centre)
+
+
+def by_body(parts: Sequence[SolidPart]) -> Mapping[int, list[SolidPart]]:
+    """Parts in the order of their bodies."""
+    found: dict[int, list[SolidPart]] = {}
+    for part in parts:
+        found.setdefault(part.body, []).append(part)
+    return found

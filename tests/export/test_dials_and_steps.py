@@ -1,0 +1,120 @@
+"""Dial plates, read back mark by mark, and the steps by which a mechanism is put together."""
+
+from __future__ import annotations
+
+import io
+import re
+from itertools import pairwise
+from math import atan2, hypot, pi
+from xml.etree import ElementTree
+
+import ezdxf
+import pytest
+from shipped import train as load
+
+from geartrain.export import export_files
+from geartrain.export.assembly_steps import assembly_steps
+from geartrain.scene import ManufacturingSizes, SolidModel
+
+
+def model(name: str) -> SolidModel:
+    train = load(name)
+    return SolidModel(train, ManufacturingSizes(), train.states[0] if train.states else None)
+
+
+def engraved(work: SolidModel, file: str) -> list[list[tuple[float, float]]]:
+    """Lines of a written drawing, y upwards."""
+    (found,) = [each for each in export_files(work, ["svg"]) if each.path == f"plates/{file}.svg"]
+    text = found.make().decode()
+    (drawn,) = re.findall(r'<path fill="none" stroke="#c02020"[^>]* d="([^"]*)"', text)
+    return [
+        [(float(x), -float(y)) for x, y in re.findall(r"(-?[\d.]+) (-?[\d.]+)", line)]
+        for line in drawn.split("M ")
+        if line
+    ]
+
+
+def clockwise(point: tuple[float, float]) -> float:
+    """Turns from above."""
+    return (atan2(*point) / (2 * pi)) % 1
+
+
+def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours() -> None:
+    lines = engraved(model("longcase-clock-cycloidal"), "dial-minutes-and-hours")
+    marks = [line for line in lines if len(line) == 2]
+    outer, inner = (max(hypot(*line[0]) for line in lines if len(line) > 2), min(hypot(*mark[0]) for mark in marks))
+    minutes = [mark for mark in marks if hypot(*mark[0]) == pytest.approx(outer, abs=1e-3)]
+    hours = [mark for mark in marks if hypot(*mark[0]) == pytest.approx(inner, abs=1e-3)]
+    assert (len(minutes), len(hours), len(marks)) == (60, 12, 72)
+    assert [clockwise(mark[0]) for mark in minutes] == pytest.approx([k / 60 for k in range(60)], abs=1e-5)
+    assert [clockwise(mark[0]) for mark in hours] == pytest.approx([k / 12 for k in range(12)], abs=1e-5)
+
+
+def test_the_metonic_spiral_has_235_months_in_five_turns() -> None:
+    lines = engraved(model("freeth-2008"), "dial-metonic")
+    marks = [line[0] for line in lines if len(line) == 2]
+    assert len(marks) == 236, "the last cell has an end too"
+    assert [clockwise(mark) for mark in marks] == pytest.approx([5 * k / 235 % 1 for k in range(236)], abs=1e-4)
+    radii = [hypot(*mark) for mark in marks]
+    steps = [after - before for before, after in pairwise(radii)]
+    assert steps == pytest.approx([(radii[-1] - radii[0]) / 235] * 235, abs=2e-4)
+
+
+def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
+    for name in ("longcase-clock-cycloidal", "freeth-2008"):
+        work = model(name)
+        parts = {part.name: part for part in work.parts}
+        assert work.dials
+        for dial in work.dials:
+            plate = parts[dial.name].placed.vertices
+            low, high = plate[:, 2].min(), plate[:, 2].max()
+            middle = parts[dial.name].place[:2]
+            rods = [
+                part
+                for part in parts.values()
+                if part.kind in ("arbor", "pipe")
+                and hypot(*(part.place[:2] - middle)) < 1e-6
+                and part.placed.vertices[:, 2].min() < low
+                and part.placed.vertices[:, 2].max() > high
+            ]
+            assert rods, f"nothing reaches '{dial.name}'"
+            assert all(part.turned is not None and part.turned.diameter < dial.hole for part in rods)
+
+
+def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
+    work = model("longcase-clock-cycloidal")
+    (found,) = [each for each in export_files(work, ["dxf"]) if each.path.endswith("dial-seconds.dxf")]
+    space = ezdxf.read(io.StringIO(found.make().decode())).modelspace()
+    lines = [each for each in space.query("LWPOLYLINE") if each.dxf.layer == "ENGRAVE"]
+    assert len(lines) == 61
+    assert not any(line.closed for line in lines)
+
+
+# --------------------------------------------------------------------------------------------------------------- steps
+
+
+@pytest.mark.parametrize("name", ["longcase-clock-cycloidal", "freeth-2008", "wolfrom-175", "ravigneaux-set"])
+def test_every_part_comes_in_by_some_step(name: str) -> None:
+    work = model(name)
+    came = [part for step in assembly_steps(work) for part in step.parts]
+    assert work.frame is not None
+    across = set(work.layout.wheels) - {disc.name for disc in work.frame.plan.discs}
+    bearingless = {part.name for part in work.parts if part.turned is not None and part.kind == "arbor"} - set(came)
+    assert {part.name for part in work.parts} - set(came) == across | bearingless
+    assert bearingless <= {f"{work.layout.wheels[wheel].link} arbor" for wheel in across}
+
+
+def test_steps_have_pictures_that_name_what_comes_in() -> None:
+    work = model("planetary-24-18-60")
+    files = {each.path: each for each in export_files(work, ["svg"])}
+    steps = assembly_steps(work)
+    readme = files["README.md"].make().decode()
+    for number, step in enumerate(steps, 1):
+        path = f"assembly/{number:02d}.svg"
+        assert (path in files) == bool(step.parts)
+        assert f"{number}. {step.text}" in readme
+        if step.parts:
+            assert f"([picture]({path}))" in readme
+            root = ElementTree.fromstring(files[path].make())
+            told = [each.text for each in root.iter("{http://www.w3.org/2000/svg}text")]
+            assert set(step.parts) <= set(told)

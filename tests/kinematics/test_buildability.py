@@ -252,10 +252,16 @@ def test_a_ring_is_larger_than_its_planet(ring: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("planet", "ring", "passes"), [(51, 60, True), (53, 60, False), (20, 60, True), (92, 100, True)]
+    ("planet", "ring", "said"),
+    [
+        *((51, 60, "R3"), (53, 60, "R2"), (20, 60, ""), (92, 100, "R3")),
+        # put in across the axis: 17 teeth more, of rings of 80 and 100 teeth 16 more
+        *((43, 60, ""), (44, 60, "R3"), (64, 80, ""), (65, 80, "R3"), (84, 100, ""), (85, 100, "R3"), (33, 50, "")),
+        *((34, 50, "R3"), (17, 34, ""), (18, 34, "R3")),
+    ],
 )
-def test_standard_tips_pass_the_tips_of_the_ring(planet: int, ring: int, passes: bool) -> None:
-    assert found(RING.format(planet=planet, ring=ring, more="")) == ([] if passes else [("R2", "note")])
+def test_standard_tips_pass_the_tips_of_the_ring(planet: int, ring: int, said: str) -> None:
+    assert found(RING.format(planet=planet, ring=ring, more="")) == ([(said, "note")] if said else [])
 
 
 def test_declared_teeth_are_judged_by_their_own_outlines() -> None:

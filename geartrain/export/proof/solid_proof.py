@@ -103,6 +103,8 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
         why, fix = "two arbors are in one place", "make one of them a pipe about the other, or move an axis"
     elif "arbor" in kinds:
         why, fix = "an arbor goes through a part of another link", "end the arbor before it, or give the part more room"
+    elif kinds == {"plate", "wheel"}:
+        why, fix = "a plate is in the way of a wheel", "cut the plate away there, or move an axis"
     else:
         why, fix = "two parts of different links are in one place", "put them in different layers, or move an axis"
     return BuildFinding("S2", "error", Problem(what, why, fix))

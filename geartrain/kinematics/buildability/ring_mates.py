@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import count
-from math import acos, cos, inf, radians, tan
+from math import acos, asin, cos, inf, radians, sqrt, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
@@ -47,6 +47,21 @@ def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     return phi * z1 / z2 + _involute(pressure) - _involute(tip2) - theta2
 
 
+@lru_cache(maxsize=4096)
+def radial_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+    """Angle by which a planet's teeth clear the ring's when it is put in across its axis (rad, about the planet).
+
+    Arguments as of `tip_room`; negative where tips meet on the way (trimming interference, SDP/SI equations 5-9 to
+    5-11). At 20 degrees and full depth a ring wants 17 teeth more than the planet, one of 80 or 100 teeth 16.
+    """
+    tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
+    lean = cos(tip2) / cos(tip1)
+    outer = asin(sqrt(min(max((1 - lean**-2) / (1 - (z1 / z2) ** 2), 0.0), 1.0)))
+    inner = asin(sqrt(min(max((lean**2 - 1) / ((z2 / z1) ** 2 - 1), 0.0), 1.0)))
+    start = _involute(pressure)
+    return outer + _involute(tip1) - start - z2 / z1 * (inner + _involute(tip2) - start)
+
+
 def _involute(angle: float) -> float:
     return tan(angle) - angle
 
@@ -59,7 +74,7 @@ def least_ring(planet: int) -> int:
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Rules R1 and R2: a ring has more teeth than its mate, and standard ones enough more."""
+    """Rules R1 to R3: a ring has more teeth than its mate, and standard ones enough more."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
@@ -79,3 +94,13 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
                 f"declare a tooth form with shorter addenda or a larger angle, or write a ring of {least_ring(planet)}"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
+        elif pair.form is None and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
+            what = f"pair '{pair.name}': '{mate}' {planet} must be pushed into the ring '{name}' {ring} along its axis"
+            why = "across it tips of standard teeth run into each other (trimming interference)"
+            fix = f"leave a way in from the side, or write a ring of {_radial_ring(planet)}"
+            yield BuildFinding("R3", "note", Problem(what, why, fix, pair.place))
+
+
+def _radial_ring(planet: int) -> int:
+    """Teeth of the smallest ring that a planet with standard teeth is put into across its axis."""
+    return next(z for z in count(max(least_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)

@@ -175,6 +175,7 @@ class DeclaredGeometry:
     axis       of every wheel, those first that mesh
     wheels     link and declaration of every wheel
     thickness  of those that declare one (mm)
+    discs      of lanterns: how far (modules) their discs reach beyond the pitch circle
     front      the side of z from which the train is looked at: 1 or -1
     dial_ends  of links that run to a dial
     driven     the axis of the first input, which gets the origin where no position is declared
@@ -190,6 +191,7 @@ class DeclaredGeometry:
     front: int
     dial_ends: Mapping[str, DialEnds]
     driven: str | None
+    discs: Mapping[str, float]
 
     def link(self, wheel: str) -> str:
         """The link that carries a wheel."""
@@ -248,6 +250,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         front,
         _dial_ends(declared, front),
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
+        dict(_lantern_discs(declared)),
     )
 
 
@@ -282,15 +285,21 @@ def _given(declared: Train, axis: str) -> Vector | None:
     place = declared.axes[axis].position if axis in declared.axes else None
     if place is None:
         return None
-    x, y, z = (float(millimetres(part)) for part in place)
-    return x, y, z
+    return float(millimetres(place[0])), float(millimetres(place[1])), float(millimetres(place[2]))
 
 
 def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
     for name, (_, wheel) in declared.wheels.items():
-        found = wheel_thickness(declared, wheel)
-        if found is not None:
+        if (found := wheel_thickness(declared, wheel)) is not None:
             yield name, float(millimetres(found))
+
+
+def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
+    """A pin and half of one beyond the pitch circle: the rim of a lantern's discs is a pin wide."""
+    for gear in declared.gears:
+        form = declared.form_of(gear)
+        if form is not None and form.form == "lantern" and form.pin_diameter.unit is None:
+            yield gear.pair[form.pins - 1], 1.5 * float(form.pin_diameter.value)
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:

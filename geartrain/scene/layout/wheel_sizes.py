@@ -177,5 +177,5 @@ def _size(geometry: DeclaredGeometry, wheel: str, module: float, is_given: bool)
     if declared.internal:
         inner, outer = max(radius - _TIP * module, 0.0), radius + _RING * module
     else:
-        inner, outer = 0.0, radius + _TIP * module
+        inner, outer = 0.0, radius + max(_TIP, geometry.discs.get(wheel, 0.0)) * module
     return WheelSize(radius, across_axis, thickness, inner, outer, plain=thickness)

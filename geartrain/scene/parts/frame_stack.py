@@ -123,7 +123,7 @@ class FrameStack:
                 self.flat(place.centre),
                 height - place.thickness / 2,
                 height + place.thickness / 2,
-                rim(blank) if blank is not None and ring else max(outer, root),
+                rim(blank) if blank is not None and blank.kind != "external" else max(outer, root),
                 inner,
                 min(root, outer),
                 not ring,
@@ -188,7 +188,7 @@ class FrameStack:
 
 
 def rim(blank: Blank) -> float:
-    """Radius of a ring's outside (mm)."""
+    """Radius of the outside of a ring, or of a lantern's discs (mm)."""
     return float(abs(blank.contours[0].points).max())
 
 

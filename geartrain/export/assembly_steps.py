@@ -62,6 +62,7 @@ class _Steps:
             "arbor",
             [f"{base} {self.high} plate"],
         )
+        yield from self._bridge()
         if self.work.dials:
             names = [dial.name for dial in self.work.dials]
             yield self._step(f"Hold {', '.join(names)} on feet where there is room, and put hands on the arbors", names)
@@ -112,6 +113,18 @@ class _Steps:
                 )
                 yield self._step(text, [f"{axis} stud" for axis in (label, *steps)])
 
+    def _bridge(self) -> Iterator[AssemblyStep]:
+        bridged = [each for each in self.plan.columns if each.bearing is AxisBearing.BRIDGE and each.members]
+        if self.plan.bridge is None:
+            return
+        links, pillars = [each.members[0].link for each in bridged], len(self.frame.bridge_pillars)
+        rods = [name for link in links for name in (f"{link} arbor", f"{link} lower collar", f"{link} upper collar")]
+        text = (
+            f"Put the arbors of {', '.join(links)} into the bridge between their collars, and the bridge on its pillars"
+        )
+        names = [f"{self.plan.stack.frame} bridge", *(f"bridge pillar {k}" for k in range(1, pillars + 1)), *rods]
+        yield self._step(text, names)
+
     def _studs(self, bearing: AxisBearing, side: str) -> Iterator[AssemblyStep]:
         studs = [column.axis for column in self.plan.columns if column.bearing is bearing]
         if studs:
@@ -120,7 +133,7 @@ class _Steps:
 
     def _through(self) -> Iterator[AssemblyStep]:
         through = sorted(
-            (column for column in self.plan.columns if not column.is_stud and column.members),
+            (each for each in self.plan.columns if each.bearing is AxisBearing.THROUGH and each.members),
             key=lambda column: min((disc.low for each in column.members for disc in each.discs), default=0.0),
         )
         if through:

@@ -294,3 +294,31 @@ def test_the_carrier_of_a_wolfrom_set_stands_between_its_planets_and_the_disc_of
     assert discs[0] < min(heights["p28"], heights["p30"])
     assert max(heights["p28"], heights["p30"]) < discs[1]
     assert discs[0] < heights["arm carrier plate"] < discs[1]
+
+
+def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
+    """The way of 'o1' to the plates is through the rim of 'p1': its arbor runs in a bridge beyond all wheels."""
+    work = workpiece("freeth-2006")
+    parts = {part.name: part for part in work.parts}
+    arbor, bridge = parts["o arbor"], parts["frame bridge"]
+    heights = {
+        name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for name, part in parts.items()
+    }
+    assert heights["p1"][1] < heights["o arbor"][0], "it ends before the wheel that was in its way"
+    assert heights["o arbor"][0] < heights["frame bridge"][0] < heights["frame bridge"][1] < heights["o arbor"][1]
+    assert arbor.turned is not None
+    holes = {
+        (round(float(c.points[:, 0].mean()), 6), round(float(c.points[:, 1].mean()), 6)): c for c in bridge.contours[1:]
+    }
+    stack = work.frame.plan.stack if work.frame is not None else None
+    assert stack is not None
+    own = stack.flat(tuple(arbor.place)) - np.array(stack.flat(tuple(bridge.place)))
+    (hole,) = [each for at, each in holes.items() if hypot(*(own - np.array(at))) < 1e-5]
+    assert np.ptp(hole.points[:, 0]) - arbor.turned.bands[0].radius * 2 == pytest.approx(0.08, abs=1e-6)
+    collars = [parts[f"o {side} collar"] for side in ("lower", "upper")]
+    assert heights[collars[0].name][1] < heights["frame bridge"][0], "one below"
+    assert heights["frame bridge"][1] < heights[collars[1].name][0], "one above"
+    pillars = [part for name, part in parts.items() if name.startswith("bridge pillar")]
+    assert len(pillars) >= 3
+    assert all(heights[part.name][1] == pytest.approx(heights["frame bridge"][1]) for part in pillars)
+    assert "frame bridge" not in {part.name for part in workpiece("freeth-2008").parts}

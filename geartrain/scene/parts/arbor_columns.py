@@ -13,6 +13,7 @@ from geartrain.scene.parts.stack_discs import Point, StackDisc, by_link
 OVER = 0.2  # mm that a pipe is longer than what it carries, at either end
 SHAKE = 0.2  # mm along the axis
 HEAD = 0.6  # mm: thickness of a stud's head
+COLLAR = 1.0  # mm: length of a collar, and its wall
 HEAD_OVER = 1.0  # mm that a head is wider than its stud, all round
 APART = 0.2  # mm between a column and a wheel of another axis
 HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what turns before its head
@@ -30,6 +31,7 @@ class AxisBearing(StrEnum):
     THROUGH = "through"
     BACK_STUD = "stud in the back plate"
     FRONT_STUD = "stud in the front plate"
+    BRIDGE = "arbor in a bridge"
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +83,7 @@ class AxisColumn:
     @property
     def is_stud(self) -> bool:
         """True if the core stands still in one plate."""
-        return self.bearing is not AxisBearing.THROUGH
+        return self.bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD)
 
     def passes(self, plate: tuple[float, float]) -> bool:
         """True if something of it goes on beyond both faces of a plate."""
@@ -121,6 +123,10 @@ class ColumnProblem:
         """Ways to bear the axis, the better first; each says what is in its way."""
         return [self._thinned(bearing, places) for bearing in self._bearings(places)]
 
+    def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
+        """Borne in a bridge alone, between two collars."""
+        return self._thinned(AxisBearing.BRIDGE, FramePlaces(bridge, bridge))
+
     def _thinned(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
         """With the thickest usual core that passes all wheels, if no core is given; else with the first."""
         first = self._column(bearing, places)
@@ -158,7 +164,7 @@ class ColumnProblem:
     def _column(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
         links = list(self._links(places))
         order, tangled = nested(links) or tuple(links), clash(links)
-        stud = bearing is not AxisBearing.THROUGH or all(each.fixed for each in order)
+        stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
         core = self._core(order, stud)
         members = tuple(self._members(order, core, stud))
         low = min((each.low for each in members), default=places.back[1])
@@ -169,10 +175,12 @@ class ColumnProblem:
         elif bearing is AxisBearing.FRONT_STUD:
             low, high = (low - head, places.front[1]) if low < places.front[0] else (places.front[0], high + head)
         else:
-            low, high = min(low, places.back[0]), max(high, places.front[1])
-        if bearing is AxisBearing.THROUGH and members and not stud:
+            beyond = COLLAR + SHAKE if bearing is AxisBearing.BRIDGE else 0.0
+            low, high = min(low, places.back[0] - beyond), max(high, places.front[1] + beyond)
+        if members and not stud:
             members = (replace(members[0], low=low, high=high), *members[1:])
         pivot = round(_PIVOT * core, 2) if self.pivot is None else min(self.pivot, core)
+        pivot = core if bearing is AxisBearing.BRIDGE else pivot
         column = AxisColumn(self.axis, self.at, bearing, core, pivot, low, high, members, (), tangled)
         return with_hits(column, self.others)
 

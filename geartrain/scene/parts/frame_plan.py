@@ -21,7 +21,7 @@ from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.plate_places import PlateChoice, best_column, obstacles, plate_choices, with_discs
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
-from geartrain.scene.parts.stack_heights import StackHeights, stack_up
+from geartrain.scene.parts.stack_heights import BEHIND, StackHeights, stack_up
 
 if TYPE_CHECKING:
     from geartrain.scene.layout import Layout
@@ -157,9 +157,38 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """What stands on each axis of the frame."""
-        taken = slabs([*self.discs], [self.places.back, self.places.front])
-        return tuple(best_column(axis.columns(self.places)) for axis in self._axes(self.discs, taken))
+        """What stands on each axis of the frame; in a bridge what finds no other way."""
+        found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
+        if self.bridge is None:
+            return tuple(found)
+        bridged = (axis.bridged(self.bridge) for axis in self._built_axes(self.bridge))
+        return tuple(other if one.hit and not other.hit else one for one, other in zip(found, bridged, strict=True))
+
+    @cached_property
+    def bridge(self) -> tuple[float, float] | None:
+        """Faces of a plate beyond all wheels on one side, if it bears an axis that the plates of the frame cannot."""
+        blocked = [axis for axis in self._built_axes(None) if best_column(axis.columns(self.places)).hit]
+        low, high = (end(face for disc in self.discs for face in (disc.low, disc.high)) for end in (min, max))
+        above = high + BEHIND, high + BEHIND + self.thickness
+        below = low - BEHIND - self.thickness, low - BEHIND
+        for axis in blocked:
+            for faces, outside in (
+                (above, all(disc.low > self.places.front[1] for disc in axis.discs)),
+                (below, all(disc.high < self.places.back[0] for disc in axis.discs)),
+            ):
+                if outside and not axis.bridged(faces).hit:
+                    return faces
+        return None
+
+    @property
+    def bridged_plate(self) -> tuple[float, float]:
+        """Faces of the plate on which the bridge stands."""
+        above = self.bridge is not None and self.bridge > self.places.front
+        return self.places.front if above else self.places.back
+
+    def _built_axes(self, bridge: tuple[float, float] | None) -> list[ColumnProblem]:
+        plates = [self.places.back, self.places.front, *([] if bridge is None else [bridge])]
+        return list(self._axes(self.discs, slabs([*self.discs], plates)))
 
     @cached_property
     def carried(self) -> dict[str, AxisColumn]:

@@ -88,6 +88,18 @@ class FramePlates:
         """Middles of the pillars."""
         return pillar_places([column.at for column in self.plan.columns], self.circles, PILLAR)
 
+    @cached_property
+    def bridge_pillars(self) -> list[Point]:
+        """Middles of the pillars of a bridge: round all axes that go into it."""
+        bridge = self.plan.bridge
+        if bridge is None:
+            return []
+        low, high = min(bridge[0], self.plan.bridged_plate[1]), max(bridge[0], self.plan.bridged_plate[1])
+        circles = [_swept(disc) for disc in self.plan.discs if low < disc.middle < high]
+        circles += [(column.at, column.radius(low, high)) for column in self.plan.columns]
+        circles += [(at, PILLAR) for at in self.pillars]
+        return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, PILLAR)
+
     def plates(self) -> Iterator[FlatPlate]:
         """Both plates of the frame, then those that turn."""
         for side, faces in self.sides.items():
@@ -95,6 +107,10 @@ class FramePlates:
             points = [*self.pillars, *(hole.at for hole in holes)]
             edge = around(points, PILLAR + _LAND)
             yield FlatPlate(self.plan.stack.frame, f"{self.plan.stack.frame} {side} plate", edge, holes, *faces)
+        if self.plan.bridge is not None:
+            holes = tuple(self._frame_holes(self.plan.bridge))
+            edge = around([hole.at for hole in holes], PILLAR + _LAND)
+            yield FlatPlate(self.plan.stack.frame, f"{self.plan.stack.frame} bridge", edge, holes, *self.plan.bridge)
         for plate in self.plan.turning:
             low, high = self.plan.heights.plates[plate.disc.name]
             holes = (*self._hub(plate.disc.name), *self.seat_holes(plate.disc.name))
@@ -113,7 +129,10 @@ class FramePlates:
 
     def _frame_holes(self, faces: tuple[float, float]) -> Iterator[Hole]:
         press = self.plan.process.press
-        for at in self.pillars:
+        pillars = [] if faces == self.plan.bridge else self.pillars
+        if faces in (self.plan.bridge, self.plan.bridged_plate):
+            pillars = [*pillars, *self.bridge_pillars]
+        for at in pillars:
             yield Hole("pillar", at, 2 * _TENON * PILLAR + press)
         for post in self.posts:
             if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]:
@@ -131,6 +150,8 @@ class FramePlates:
         if column.bearing is AxisBearing.THROUGH:
             turns = bool(column.members) and not column.members[0].inner
             return Hole(column.axis, column.at, column.pivot + process.running) if turns else None
+        if column.bearing is AxisBearing.BRIDGE or faces == self.plan.bridge:
+            return None
         own = self.plan.places.back if column.bearing is AxisBearing.BACK_STUD else self.plan.places.front
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
@@ -167,18 +188,24 @@ class FramePlates:
         """What stands on every axis, pillars between the plates, and posts of rings."""
         plan = self.plan
         for column in plan.columns:
-            yield from column_parts(column, plan.places, plan.stack.frame, plan.process, plan.cut)
+            bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
+            places = FramePlaces(plan.bridge, plan.bridge) if bridged and plan.bridge else plan.places
+            yield from column_parts(column, places, plan.stack.frame, plan.process, plan.cut)
         for label, column in plan.carried.items():
             carrier = plan.stack.carried[label].carrier
             seat = next(disc for disc in plan.discs if disc.name == plan.seat_of(carrier))
             faces = FramePlaces((seat.low, seat.high), (seat.low, seat.high))
             yield from column_parts(column, faces, carrier, plan.process, plan.cut)
-        back, front = self.plan.places.back, self.plan.places.front
-        thin = _TENON * PILLAR
-        for number, at in enumerate(self.pillars, 1):
-            bands = Band(*back, thin), Band(back[1], front[0], PILLAR), Band(*front, thin)
-            joint = f"in both plates, {self.plan.process.joint}"
-            yield TurnedPart(self.plan.stack.frame, f"pillar {number}", "pillar", at, bands, joint)
+        pairs = [("pillar", self.pillars, plan.places.back, plan.places.front)]
+        if plan.bridge is not None:
+            below, above = sorted((plan.bridged_plate, plan.bridge))
+            pairs.append(("bridge pillar", self.bridge_pillars, below, above))
+        for name, spots, below, above in pairs:
+            for number, at in enumerate(spots, 1):
+                ends = Band(*below, _TENON * PILLAR), Band(*above, _TENON * PILLAR)
+                bands = ends[0], Band(below[1], above[0], PILLAR), ends[1]
+                joint = f"in both plates, {plan.process.joint}"
+                yield TurnedPart(plan.stack.frame, f"{name} {number}", "pillar", at, bands, joint)
         yield from self.posts
 
     @cached_property

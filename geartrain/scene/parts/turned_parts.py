@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.scene.parts.arbor_columns import (
+    COLLAR,
     HEAD,
     HEAD_OVER,
     SHAKE,
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.solids.triangulation import Integers
 
-_COLLAR = 1.0  # mm: length of a collar, and its wall
 _SAME = 1e-9
 
 
@@ -142,6 +142,9 @@ def column_parts(
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:
             yield _stud(column, places, frame, process)
+    elif column.bearing is AxisBearing.BRIDGE:
+        yield from _in_bridge(column, members[0], places, process, cut)
+        members = members[1:]
     else:
         yield from _core(column, members[0], places, process, cut)
         members = members[1:]
@@ -183,13 +186,27 @@ def _core(
         member.link, f"{member.link} arbor", "arbor", column.at, tuple(without(bands, member, cut)), _carries(member)
     )
     for passes, face, way in ((below, low, 1), (above, high, -1)):
-        ends = sorted((face, face + way * _COLLAR))
+        ends = sorted((face, face + way * COLLAR))
         free = all(each is member or each.high <= ends[0] or ends[1] <= each.low for each in column.members)
         if passes and free:
-            ring = Band(ends[0], ends[1], thick + _COLLAR, thick + process.press / 2)
+            ring = Band(ends[0], ends[1], thick + COLLAR, thick + process.press / 2)
             side = "back" if way > 0 else "front"
             joint = f"on the arbor, {process.joint}"
             yield TurnedPart(member.link, f"{member.link} {side} collar", "collar", column.at, (ring,), joint)
+
+
+def _in_bridge(
+    column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
+) -> Iterator[TurnedPart]:
+    """An arbor as thick as it is all along, with a collar to either side of the plate."""
+    radius = column.core / 2
+    bands = without([Band(column.low, column.high, radius)], member, cut)
+    yield TurnedPart(member.link, f"{member.link} arbor", "arbor", column.at, tuple(bands), _carries(member))
+    inner, outer = places.back[0] - SHAKE / 2, places.front[1] + SHAKE / 2
+    for side, ends in (("lower", (inner - COLLAR, inner)), ("upper", (outer, outer + COLLAR))):
+        ring = Band(*ends, radius + COLLAR, radius + process.press / 2)
+        name, joint = f"{member.link} {side} collar", f"on the arbor, {process.joint}"
+        yield TurnedPart(member.link, name, "collar", column.at, (ring,), joint)
 
 
 def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:

@@ -124,7 +124,8 @@ def _plate(
     column: AxisColumn, side: int, faces: Sequence[DialFace], frame: FramePlates, thickness: float
 ) -> DialPlate | None:
     plan = frame.plan
-    ends = [face for disc in plan.discs for face in (disc.low, disc.high)] + [*plan.places.back, *plan.places.front]
+    ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
+    ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     near = (max(ends) if side > 0 else min(ends)) + side * _AWAY
     low, high = sorted((near, near + side * thickness))
     through = column.radius(low, high)

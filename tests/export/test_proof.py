@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 from math import acos, cos, degrees, hypot, pi, sin, sqrt, tan
 from typing import Any
@@ -251,19 +252,23 @@ def test_wheels_of_other_sizes_on_one_axle_pair_do_not_hold_or_do_not_fit() -> N
 
 
 def test_solids_of_two_links_in_one_place_are_named_with_their_volume() -> None:
-    """In plane geometry: the stud of 'O' goes through the rim of 'p1', and has what it takes from that rim."""
-    model = work("freeth-2006")
-    parts = {part.name: part for part in model.parts}
-    (each,) = [each for each in prove_solids(model) if "'p1' and 'O stud'" in each.problem.what]
-    wheel, stud = parts["p1"], parts["O stud"]
-    assert stud.turned is not None
-    middle = wheel.turn.T @ (stud.place - wheel.place)
-    edge, *holes = (shapely.Polygon(contour.flattened(1e-3)) for contour in wheel.contours)
-    rod = shapely.Point(middle[:2]).buffer(stud.turned.bands[0].radius, quad_segs=64)
-    area = edge.difference(shapely.union_all(holes)).intersection(rod).area
-    volume = float(re.search(r"by (\S+) mm3", each.problem.what)[1])  # type: ignore[index]
-    assert volume == pytest.approx(area * wheel.height, rel=0.02)
-    assert volume > 1
+    """A back plate half a millimetre too far forward: shoulders stand in it by that less half the end shake."""
+    model = SolidModel(geartrain.load("longcase-clock-cycloidal"), ManufacturingSizes())
+    heights = {part.name: part.placed.vertices[:, 2].min() for part in model.parts}
+    way = 0.5 if heights["plates back plate"] < heights["plates front plate"] else -0.5
+    pushed = [
+        replace(part, place=part.place + np.array([0, 0, way])) if part.name == "plates back plate" else part
+        for part in model.parts
+    ]
+    model.__dict__["parts"] = tuple(pushed)
+    found = [each.problem.what for each in prove_solids(model)]
+    (told,) = [each for each in found if "'third arbor'" in each and "back plate" in each]
+    arbor = next(part for part in pushed if part.name == "third arbor")
+    assert arbor.turned is not None
+    radii = sorted({band.radius for band in arbor.turned.bands})
+    sides, hole = 96, radii[0] + 0.04  # the hole of what turns is 0.08 mm wider
+    ring = sides / 2 * sin(2 * pi / sides) * radii[-1] ** 2 - pi * hole**2
+    assert float(re.search(r"by (\S+) mm3", told)[1]) == pytest.approx(ring * 0.4, rel=0.02)  # type: ignore[index]
 
 
 # ------------------------------------------------------------------------------------------------------- what is told

@@ -59,7 +59,7 @@ class FramePlan:
     def choice(self) -> PlateChoice:
         """Places of plates with the fewest obstacles, then the fewest studs."""
         axes = list(self._axes(self.stack.discs, self._slabs))
-        asked = axes, self.stack.discs, list(self._seats()), self._gaps, self._blocked
+        asked = axes, self.stack.discs, list(self._seats()), self._gaps, self._blocked, self._cut
         best = min(plate_choices(*asked), key=lambda choice: choice.cost)
         if not best.cost[0]:
             return best
@@ -107,6 +107,16 @@ class FramePlan:
         for disc in self.stack.discs:
             if not disc.hub and disc.link != self.stack.frame and disc.carrier is None:
                 yield ring_seats(disc, disc.outer, self._gaps)
+
+    def _cut(self, height: float) -> int:
+        """Wheels across at some height that stand among the axes, where a plate would be."""
+        points = [self.stack.flat(axis.point) for axis in self.stack.axes.values()]
+        (left, low), (right, high) = ([end(each) for each in zip(*points, strict=True)] for end in (min, max))
+        return sum(
+            wheel.low < height < wheel.high
+            and any(left - r < x < right + r and low - r < y < high + r for (x, y), r in wheel.circles)
+            for wheel in self.stack.across
+        )
 
     def _blocked(self, seats: Sequence[CarrierSeat]) -> int:
         """Obstacles on all axes that carriers bear, all plates in their gaps."""

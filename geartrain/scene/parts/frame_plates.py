@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import cos, dist, pi, sin
 
@@ -83,10 +83,21 @@ class FramePlates:
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [_swept(disc) for disc in self.plan.discs if low < disc.middle < high]
 
+    def _across(self, low: float, high: float) -> list[tuple[Point, float]]:
+        """The same of wheels that do not stand upright."""
+        stack = replace(self.plan.stack, layout=self.plan.layout)
+        return [circle for wheel in stack.across if wheel.is_between(low, high) for circle in wheel.circles]
+
     @cached_property
     def pillars(self) -> list[Point]:
         """Middles of the pillars."""
-        return pillar_places([column.at for column in self.plan.columns], self.circles, PILLAR)
+        places = self.plan.places
+        across = self._across(places.back[0], places.front[1])
+        axes = [column.at for column in self.plan.columns]
+        found = pillar_places(axes, self.circles, PILLAR)
+        if all(clear_of(at, across) > PILLAR for at in found):  # plates are the smaller the nearer pillars are
+            return found
+        return pillar_places(axes, [*self.circles, *across], PILLAR)
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:
@@ -95,7 +106,7 @@ class FramePlates:
         if bridge is None:
             return []
         low, high = min(bridge[0], self.plan.bridged_plate[1]), max(bridge[0], self.plan.bridged_plate[1])
-        circles = [_swept(disc) for disc in self.plan.discs if low < disc.middle < high]
+        circles = [_swept(disc) for disc in self.plan.discs if low < disc.middle < high] + self._across(low, high)
         circles += [(column.at, column.radius(low, high)) for column in self.plan.columns]
         circles += [(at, PILLAR) for at in self.pillars]
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, PILLAR)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from math import ceil, dist, hypot, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,12 +23,26 @@ from geartrain.scene.solids.bearing_plates import basis
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene.layout import AxisPlace, Layout
+    from geartrain.scene.layout import AxisPlace, Layout, WheelPlace
     from geartrain.scene.solids.wheel_blanks import Blank
 
 _SAME = 1e-6  # mm
 _PARALLEL = 1e-9  # of a cosine
 _STANDARD = 1.25  # modules: depth of teeth that are not cut flat
+
+
+@dataclass(frozen=True, slots=True)
+class AcrossWheel:
+    """A wheel about an axis that does not stand upright: between which heights it reaches, and circles that hold it."""
+
+    name: str
+    low: float
+    high: float
+    circles: tuple[tuple[Point, float], ...]
+
+    def is_between(self, low: float, high: float) -> bool:
+        """True if some of it stands between two heights."""
+        return self.low < high and low < self.high
 
 
 @dataclass(frozen=True)
@@ -141,6 +156,29 @@ class FrameStack:
                     found = heights.setdefault(self.layout.wheels[other].axis, [])
                     found += [upright[one].low, upright[one].high]
         return {label: (min(each), max(each)) for label, each in heights.items()}
+
+    @cached_property
+    def across(self) -> tuple[AcrossWheel, ...]:
+        """Wheels that do not stand upright."""
+        upright = {disc.name for disc in self.discs}
+        return tuple(self._across(place) for name, place in self.layout.wheels.items() if name not in upright)
+
+    def _across(self, place: WheelPlace) -> AcrossWheel:
+        assert self.normal is not None
+        axis, outer = self.layout.axes[place.axis], place.radius + place.module
+        along, thick = dot(axis.direction, self.normal), place.thickness / 2 + place.module
+        flat, (u, v) = sqrt(max(1 - along**2, 0.0)), self.flat(axis.direction)
+        half, height = outer * flat + thick * abs(along), dot(place.centre, self.normal)
+        (x, y), low, high = self.flat(place.centre), height - half, height + half
+        about = None if axis.carrier == self.frame else self.train.tree.axis(axis.carrier)
+        if about is not None and about in self.layout.axes:
+            middle = self.flat(self.layout.axes[about].point)
+            return AcrossWheel(place.wheel, low, high, ((middle, dist(middle, (x, y)) + hypot(outer, thick)),))
+        if not flat:
+            return AcrossWheel(place.wheel, low, high, (((x, y), outer),))
+        count = max(1, ceil(outer / thick))
+        steps = [outer * k / count / flat for k in range(-count, count + 1)]
+        return AcrossWheel(place.wheel, low, high, tuple(((x - v * step, y + u * step), thick) for step in steps))
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
         """The layout with what stands at each height moved along the normal, wheels of axes across with their mates."""

@@ -23,7 +23,7 @@ class PlateChoice:
     """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis.
 
     outside   1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not
-    blocked   obstacles on axes that carriers bear
+    blocked   obstacles on axes that carriers bear, and wheels across that stand in a plate
     """
 
     places: FramePlaces
@@ -51,11 +51,13 @@ def plate_choices(
     seats: Sequence[Sequence[CarrierSeat]],
     slab_gaps: Sequence[float],
     blocked: Callable[[Sequence[CarrierSeat]], int],
+    cut: Callable[[float], int],
     inside: bool = False,
 ) -> Iterator[PlateChoice]:
     """Places of the plates with every way to seat carriers: one plate at an end of the stack, or both `inside` it.
 
     blocked   counts the obstacles on axes that carriers bear
+    cut       counts wheels across that a plate at some height would cut
     """
     count = len(slab_gaps)
     pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
@@ -69,7 +71,8 @@ def plate_choices(
             places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
             columns = tuple(best_column(problem.columns(places)) for problem in problems)
             outside = (high < count - 1) - (low > 0)
-            yield PlateChoice(places, chosen, columns, outside, bad)
+            crossed = cut(slab_gaps[low]) + cut(slab_gaps[high])
+            yield PlateChoice(places, chosen, columns, outside, bad + crossed)
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:

@@ -26,6 +26,21 @@ TRAINS = {
 ASSEMBLED = ("longcase-clock-cycloidal", "watch-going-train", "pennestri-2002", "freeth-2008", "wolfrom-175")
 SHOWN = 12  # obstacles of a train on the page
 
+SEEN = {
+    "lantern-mill": """
+Seen in the pictures of its steps: one spur wheel stands between two lanterns of 15 and 20 staves, and a tooth that is
+right for the one is not for the other. Millwrights gave both stones the same lantern.
+""",
+    "freeth-2021": """
+Seen in the pictures of its steps: on the central axis the fixed wheels 49, 51 and 56 of the frame stand between b0, b1
+and b2, so that neither the fixed arbor nor the tube of b goes through as a whole. The published design joins b0 to b1
+by a bar beside the axis, a part that a declaration has no word for. Slots of the followers are bars that turn through
+the room of other wheels, and arbors on b1 go through wheels of others where levels are found for all; what is drawn so
+cannot be put together.
+""",
+}
+"""What a person found in the pictures, by train."""
+
 HEAD = """# Ready to cut, or not
 
 Written by
@@ -143,6 +158,8 @@ def page(kept: Mapping[str, Any]) -> Iterator[str]:
     for each in trains:
         if each["obstacles"]:
             yield from ("", f"## In the way of {each['train']}", "")
+            if seen := SEEN.get(each["train"]):
+                yield paragraphs(seen)
             yield from (f"- {text}" for text in each["obstacles"][:SHOWN])
             if (more := len(each["obstacles"]) - SHOWN) > 0:
                 yield f"- and {more} more"

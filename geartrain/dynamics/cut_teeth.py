@@ -6,7 +6,8 @@ from collections import deque
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth, find_train_teeth
+from geartrain.dynamics.train_teeth import ToothedTrain, find_train_teeth
+from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import GearTrainError
 from geartrain.train import Train, Wheel
 

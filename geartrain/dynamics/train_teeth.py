@@ -8,23 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING, Protocol
 
 from geartrain.dynamics.gear_meshes import find_sizes
+from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import FrozenDict
 from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
+from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT, WORDS, escape_tooth
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
-from geartrain.teeth.outlines.wheel_outline import lantern
-from geartrain.teeth.outlines.wheel_requirement import LanternPins
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Answer
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.meshing_wheels import DeclaredPair
@@ -33,10 +31,7 @@ if TYPE_CHECKING:
     from geartrain.train import GearPair, Train, Wheel
 
 STANDARD = "standard"
-_CHORD = 1e-3  # modules: how far a chord may leave a flank or a round
-_RIM = 2.0  # modules round the roots of a ring
-_PIN = 48  # points round a pin
-_SAME = 1e-9  # modules, or rad
+_SAME = 1e-9  # modules
 
 
 class ToothedTrain(Protocol):
@@ -50,6 +45,12 @@ class ToothedTrain(Protocol):
     def meshes(self) -> tuple[GearMesh, ...]:
         """The gear pairs with real teeth."""
 
+    def state_or_first(self, state: str | None) -> str | None:
+        """The first state, where none is named."""
+
+    def solve(self, state: str | None = None) -> Answer:
+        """Speeds in one state."""
+
 
 class ToothingPlace(Protocol):
     """What matters here of where a wheel stands: its module (mm), and half the angle of its cone (rad)."""
@@ -61,50 +62,6 @@ class ToothingPlace(Protocol):
     @property
     def cone(self) -> float:
         """0 of a cylinder."""
-
-
-@dataclass(frozen=True, slots=True)
-class WheelTeeth:
-    """The teeth of one wheel, lengths in modules.
-
-    kind    external, ring or pins
-    form    name of the declared form, or `standard`; `words`, what a maker is told
-    tooth   the first of them, about the x axis, from root to root; empty for pins
-    tip, root   radii
-    """
-
-    wheel: str
-    z: int
-    kind: str
-    form: str
-    words: str
-    tip: float
-    root: float
-    tooth: tuple[Vertex, ...] = ()
-    pins: LanternPins | None = None
-
-    def contours(self, module: float) -> tuple[Contour, ...]:
-        """All of the wheel (mm), the outer contour first, then holes; the axle at (0, 0)."""
-        if self.pins is not None:
-            return tuple(lantern(self.pins, self.z, module))
-        teeth = Contour.of(repeated(self.tooth, self.z)).scaled(module)
-        return (teeth,) if self.kind == "external" else (Contour.circle((self.root + _RIM) * module), teeth)
-
-    def section(self) -> tuple[tuple[float, float], ...]:
-        """Radius (over the pitch radius) and angle of one tooth, from mid-space to mid-space, or round a pin.
-
-        Arcs are chords.
-        """
-        R = self.z / 2
-        if self.pins is not None:
-            turns = [2 * pi * at / _PIN for at in range(_PIN)]
-            round_ = [(self.pins.circle + self.pins.radius * cos(t), self.pins.radius * sin(t)) for t in turns]
-            return tuple((hypot(x, y) / R, atan2(y, x)) for x, y in round_)
-        points = Contour.of((*self.tooth[:-1], (*self.tooth[-1][:2], 0.0))).flattened(_CHORD).tolist()
-        half = pi / self.z
-        # without the points on the borders of the pitch, which stand at both ends below
-        inside = [(hypot(x, y) / R, atan2(y, x)) for x, y in points if abs(atan2(y, x)) < half - _SAME]
-        return ((self.root / R, -half), *inside, (self.root / R, half))
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +123,7 @@ class _Toothing:
     def __init__(
         self, train: ToothedTrain, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
     ) -> None:
-        self.declared, self.places, self.play, self.apart = train.declaration, places, play, apart
+        self.train, self.declared, self.places, self.play, self.apart = train, train.declaration, places, play, apart
         self.unbuilt: tuple[Problem, ...] = ()
         try:
             meshes = train.meshes
@@ -211,7 +168,7 @@ class _Toothing:
         for name_of_pair, mate, its in flat or [("", lone_mate(own), teeth)]:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
             pair = conjugate_pair_of(form, wheels)  # refuses wheels that no teeth fit, before sizes are asked
-            required = ToothRequirement(pair, at, _CHORD, max(form.bottom_clearance(wheels, at), 0.0))
+            required = ToothRequirement(pair, at, CHORD, max(form.bottom_clearance(wheels, at), 0.0))
             yield _Asked(name_of_pair, STANDARD, teeth.words, required)
 
     def _standard_pair(
@@ -233,7 +190,7 @@ class _Toothing:
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
         for mesh in flat or meshes:
             scale = self.sizes[mesh.name].scale if mesh.name in self.sizes else 1.0
-            yield _Asked(mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scale, _CHORD))
+            yield _Asked(mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scale, CHORD))
 
     @staticmethod
     def _mate(gear: DeclaredPair, name: str) -> str:
@@ -270,7 +227,20 @@ class _Toothing:
             check_size(self._wheel(each).count or 1)
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
+        if not self.pairs[name] and (turning := self._let_through(name)):
+            return [_Asked("", ESCAPEMENT, WORDS, escape_tooth(wheel.count or 1, turning))]
         return list(self._declared_asked(name) if name in self.shaped else self._standard_asked(name))
+
+    def _let_through(self, name: str) -> int:
+        """Which way an escapement lets a wheel turn, 1 where that is not known; 0 of other wheels."""
+        link, wheel = self.declared.wheels[name]
+        if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
+            return 0
+        try:
+            speed = self.train.solve(self.train.state_or_first(None)).speeds.get(link)
+        except GearTrainError:
+            speed = None
+        return -1 if speed is not None and speed < 0 else 1
 
     def _one(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
         for other in asked[1:]:

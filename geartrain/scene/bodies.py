@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from geartrain.dynamics.train_teeth import TrainTeeth, WheelTeeth, find_train_teeth
+from geartrain.dynamics.train_teeth import TrainTeeth, find_train_teeth
+from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.scene import nominal_teeth as likeness
 from geartrain.scene.context import SceneContext, exact, rounded

@@ -182,3 +182,15 @@ class Escapement(Declared):
     def speed(self) -> Fraction:
         """Mean speed of its link [turn/s]: half a tooth a beat."""
         return 1 / (2 * self.teeth * self.beat.base)
+
+    def has_wheel(self, link: str, count: int | None) -> bool:
+        """Whether a wheel of a link is the escape wheel, which meshes nothing.
+
+        Parameters
+        ----------
+        link : str
+            Its link.
+        count : int or None
+            Its teeth, where known.
+        """
+        return (link, count) == (self.link, self.teeth)

@@ -13,7 +13,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
-from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth
+from geartrain.dynamics.train_teeth import ToothedTrain
+from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.numerics.plain_data import Result
 
 if TYPE_CHECKING:

@@ -27,7 +27,7 @@ from geartrain.teeth.strength.iso_6336 import (
 from geartrain.teeth.strength.root_section import RootSection, ToothLoad, ToothSide
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.train_teeth import WheelTeeth
+    from geartrain.dynamics.wheel_teeth import WheelTeeth
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Material

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.torques.member_torques import PairTorque
     from geartrain.dynamics.torques.torque_results import Torques
-    from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth
+    from geartrain.dynamics.train_teeth import ToothedTrain
+    from geartrain.dynamics.wheel_teeth import WheelTeeth
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import GearPair, Wheel
 

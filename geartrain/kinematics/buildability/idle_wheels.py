@@ -20,7 +20,7 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
     for name, (link, wheel) in train.wheels.items():
         if name in meshing or link in coupled or wheel.note:
             continue
-        if escapement is not None and (escapement.link, escapement.teeth) == (link, wheel.count):
+        if escapement is not None and escapement.has_wheel(link, wheel.count):
             continue
         problem = Problem(
             f"wheel '{name}' {wheel.count or ''}".rstrip() + " meshes nothing",

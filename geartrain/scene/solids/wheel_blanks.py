@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 from math import degrees, tan
 from typing import TYPE_CHECKING
 
-from geartrain.dynamics.train_teeth import PairPlay, WheelTeeth, find_train_teeth
+from geartrain.dynamics.train_teeth import PairPlay, find_train_teeth
+from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.wheel_arms import arm_windows
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -78,8 +80,8 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
     for name, toothing in toothed.wheels.items():
         wheel, blank = train.declaration.wheels[name][1], _blank(toothing, layout.wheels[name])
         if name not in mated and blank.kind == "external":
-            blank = _disc(blank)
-            notices.append(_formless(blank))
+            blank, told = _unmated(toothing, blank)
+            notices.append(told)
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
         notices += _leaning(name, wheel)
     return Blanks(wheels, tuple(notices), toothed.plays, toothed.problems, toothed.flat)
@@ -103,16 +105,17 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
     )
 
 
-def _disc(blank: Blank) -> Blank:
-    """A wheel that meshes nothing, such as an escape wheel, as its pitch circle: nobody says what its teeth do."""
+def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
+    """A wheel that meshes nothing: an escape wheel as it is, any other as a disc of its pitch circle."""
+    if toothing.form == ESCAPEMENT:
+        what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
+        fix = "make the anchor to it, and recut its teeth for another escapement"
+        return blank, Problem(what, "no anchor is declared", fix)
     r = blank.pitch_radius
     form = "a disc of its pitch circle, its teeth are not known"
-    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r)
-
-
-def _formless(blank: Blank) -> Problem:
     what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
-    return Problem(what, "it meshes nothing, so no form of its teeth is known", "cut its teeth for what it works with")
+    told = Problem(what, "it meshes nothing, so no form of its teeth is known", "cut its teeth for what it works with")
+    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), told
 
 
 def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:

@@ -1,0 +1,81 @@
+"""The tooth of an escape wheel: points on a circle, faces that lean the way it turns, one shape drawn and cut."""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, hypot, sin
+
+import numpy as np
+import pytest
+import shapely
+from numpy.typing import NDArray
+from shapely.affinity import rotate
+from shipped import train as load
+
+from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
+from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.escape_tooth import escape_tooth
+from geartrain.teeth.outlines.tooth_outline import repeated
+
+Points = NDArray[np.float64]
+
+
+def lean(tooth: Points, tip: float, root: float, sense: int) -> float:
+    """Angle (deg) of the leading face of one tooth from the radius of its point, above 0 where the point is ahead."""
+    angles, radii = sense * np.arctan2(*tooth.T[::-1]), np.hypot(*tooth.T)
+    head = max(angle for angle, r in zip(angles, radii, strict=True) if abs(r - tip) < 1e-9)
+    foot = max(angle for angle, r in zip(angles, radii, strict=True) if abs(r - root) < 1e-9)
+    ahead = head - foot
+    return degrees(atan2(root * sin(ahead), tip - root * cos(ahead)))
+
+
+@pytest.mark.parametrize(("z", "sense"), [(30, 1), (30, -1), (15, 1), (12, -1), (5, 1), (3, -1)])
+def test_an_escape_wheel_has_its_teeth_evenly_and_its_tips_on_a_circle(z: int, sense: int) -> None:
+    cut = escape_tooth(z, sense).cut()
+    shape = shapely.Polygon(Contour.of(repeated(cut.tooth, z)).flattened(1e-4))
+    assert shape.is_valid
+    assert shape.exterior.is_ccw
+    assert cut.tip == z / 2
+    turned = rotate(shape, 360 / z, origin=(0, 0))
+    assert shape.symmetric_difference(turned).area < 1e-3
+    assert shape.hausdorff_distance(shapely.Point(0, 0)) == pytest.approx(cut.tip, abs=1e-6)
+    assert shapely.Point(0, 0).distance(shape.exterior) == pytest.approx(cut.root, abs=1e-3)
+    ring = shapely.Point(0, 0).buffer(0.9995 * cut.tip, quad_segs=720).exterior.intersection(shape)
+    assert len(ring.geoms) in (z, z + 1), "so many points, one of them perhaps cut where the ring begins"
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_its_leading_faces_are_undercut_by_six_degrees(sense: int) -> None:
+    cut = escape_tooth(30, sense).cut()
+    assert lean(np.array(cut.tooth)[:, :2], cut.tip, cut.root, sense) == pytest.approx(6.0, abs=1e-9)
+
+
+def test_the_middle_of_its_root_is_on_the_x_axis() -> None:
+    cut = escape_tooth(30, 1).cut()
+    feet = [at for at in cut.tooth if abs(hypot(*at[:2]) - cut.root) < 1e-9]
+    assert sum(atan2(y, x) for x, y, _ in feet) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["longcase-clock", "longcase-clock-cycloidal"])
+def test_the_escape_wheel_of_a_train_leans_the_way_it_turns(name: str) -> None:
+    train = load(name)
+    escapement = train.declaration.escapement
+    assert escapement is not None
+    work = SolidModel(train, ManufacturingSizes())
+    (blank,) = (each for each in work.blanks.wheels.values() if (each.link, each.teeth) == (escapement.link, 30))
+    sense = 1 if train.solve().speeds[escapement.link] > 0 else -1
+    leaning = lean(blank.contours[0].points[:4], blank.tip_radius, blank.root_radius, sense)
+    assert leaning == pytest.approx(6.0, abs=1e-9)
+    assert blank.tip_radius == pytest.approx(blank.pitch_radius)
+    assert len(blank.contours[0].points) == 4 * 30
+    assert any("no anchor is declared" in each.why for each in work.blanks.notices)
+    scene = make_scene(train)
+    (drawn,) = (wheel for wheel in scene.wheels if wheel.id == blank.wheel)
+    assert scene.profiles[drawn.profile].form == "escapement"
+
+
+def test_a_wheel_without_mate_is_a_disc_where_no_escapement_names_it() -> None:
+    train = load("price-1974")
+    work = SolidModel(train, ManufacturingSizes())
+    meshed = {name for gear in train.declaration.gears for name in gear.pair}
+    for name, blank in work.blanks.wheels.items():
+        assert blank.contours[0].is_circle == (name not in meshed)

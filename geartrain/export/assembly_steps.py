@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn
@@ -80,12 +81,20 @@ class _Steps:
             what = "pipe" if member.inner else "arbor"
             if wheels:
                 order = ", from below in this order" if len(wheels) > 1 else ""
+                spacers, collets = self._sleeves(every)
+                order += _with(wheels, spacers, collets)
                 text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
-                yield self._step(text, [names[member.link], *every])
+                yield self._step(text, [names[member.link], *every, *spacers, *collets])
         pipes = [member.link for member in column.members if member.inner]
         if pipes and not column.is_stud:
             text = f"On axis {column.axis} slide on the pipes, innermost first: {', '.join(pipes)}"
             yield self._step(text, [names[link] for link in pipes])
+
+    def _sleeves(self, names: Sequence[str]) -> tuple[list[str], list[str]]:
+        """Spacers between neighbours of some wheels, and their collets."""
+        spacers = (f"spacer {low} to {high}" for low, high in pairwise(names))
+        collets = (f"collet of {name}" for name in names)
+        return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
 
     def _rod(self, column: AxisColumn, link: str) -> str:
         """The name of an arbor or a pipe."""
@@ -144,3 +153,15 @@ class _Steps:
             yield self._step(
                 f"Stand the arbors in the {self.low} plate, lowest wheels first: {names}", [*arbors, *collars]
             )
+
+
+def _with(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str]) -> str:
+    """In words, what goes on with the wheels."""
+    words = "" if not spacers else ", with the spacer between them" if len(spacers) == 1 else ", with their spacers"
+    if collets:
+        alone = [name.removeprefix("collet of ") for name in collets]
+        words += (
+            f", {'' if alone == [*wheels] else ', '.join(alone) + ' '}against {'its' if len(alone) == 1 else 'their'}"
+        )
+        words += " collet" if len(alone) == 1 else " collets"
+    return words

@@ -30,7 +30,7 @@ class ListedPart:
     names : tuple of str
         Of all of them.
     kind : str
-        wheel, plate, arbor, pipe, stud, collar, pillar, post or pin.
+        wheel, plate, arbor, pipe, stud, collar, spacer, collet, pillar, post or pin.
     material : str
         What its mass is reckoned with.
     size : str

@@ -150,10 +150,10 @@ def _carried_column(
 
 
 def _others(axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc]) -> tuple[StackDisc, ...]:
-    return tuple(_seen_from(axis.carrier, seat.at, disc) for disc in discs if disc.name != seat.name)
+    return tuple(seen_from_carrier(axis.carrier, seat.at, disc) for disc in discs if disc.name != seat.name)
 
 
-def _seen_from(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
+def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
     """A disc as one who turns with a carrier sees it: what the carrier bears stands, all else goes round."""
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

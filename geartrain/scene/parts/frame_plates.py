@@ -13,6 +13,7 @@ from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
+from geartrain.scene.parts.sleeves import sleeves
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses
 from geartrain.scene.solids.bearing_plates import around
@@ -196,7 +197,7 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """What stands on every axis, pillars between the plates, and posts of rings."""
+        """What stands on every axis, spacers and collets, pillars between the plates, and posts of rings."""
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
@@ -207,6 +208,7 @@ class FramePlates:
             seat = next(disc for disc in plan.discs if disc.name == plan.seat_of(carrier))
             faces = FramePlaces((seat.low, seat.high), (seat.low, seat.high))
             yield from column_parts(column, faces, carrier, plan.process, plan.cut)
+        yield from sleeves(plan)
         pairs = [("pillar", self.pillars, plan.places.back, plan.places.front)]
         if plan.bridge is not None:
             below, above = sorted((plan.bridged_plate, plan.bridge))

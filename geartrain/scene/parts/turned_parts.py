@@ -48,7 +48,7 @@ class TurnedPart:
     Attributes
     ----------
     link, name, kind : str
-        The link it belongs to, its name, and arbor, pipe, stud, collar, pillar or post.
+        The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post.
     at : tuple of float
         Its axis across the stack [mm].
     bands : tuple of Band

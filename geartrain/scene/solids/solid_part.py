@@ -28,7 +28,7 @@ class SolidPart:
         Index of its body in the scene.
     name : str
         Of the wheel, or what it belongs to.
-    kind : {"wheel", "arbor", "pipe", "stud", "collar", "pillar", "post", "pin", "plate"}
+    kind : {"wheel", "arbor", "pipe", "stud", "collar", "spacer", "collet", "pillar", "post", "pin", "plate"}
         What it is.
     solid : Solid
         A closed surface of triangles about its own origin [mm].

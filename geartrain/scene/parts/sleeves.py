@@ -1,0 +1,126 @@
+"""Rings on arbors and pipes: spacers between two wheels, and collets against which wheels are fixed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from geartrain.scene.parts.arbor_columns import APART, COLLAR, SHAKE, AxisColumn, ColumnMember
+from geartrain.scene.parts.carried_axes import seen_from_carrier
+from geartrain.scene.parts.turned_parts import Band, TurnedPart, crosses
+
+if TYPE_CHECKING:
+    from geartrain.scene.parts.frame_plan import FramePlan
+    from geartrain.scene.parts.stack_discs import StackDisc
+
+_WALLS = (1.5, 1.0, 0.6)  # mm: the thickest for which there is room
+_SHORTEST = 0.5  # mm
+_LONGEST = 1.2  # diameters of its arbor, of a collet
+_SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
+_FREE = 0.3  # mm between a collet and what turns before it
+
+
+def sleeves(plan: FramePlan) -> Iterator[TurnedPart]:
+    """Of all arbors and pipes of a plan; none where pins and slots work beside the wheels, or there is no room."""
+    coupled = {link for each in plan.stack.train.declaration.couplings for link in (each.pin, each.slot)}
+    for column in plan.all_columns:
+        around = _Around(plan, column)
+        for member in column.members:
+            if member.link not in coupled:
+                yield from _OnMember(around, member).all()
+
+
+@dataclass(frozen=True)
+class _Around:
+    """What is in the way of rings on an axis."""
+
+    plan: FramePlan
+    column: AxisColumn
+
+    @cached_property
+    def discs(self) -> tuple[StackDisc, ...]:
+        """All of the train, as one sees them who moves with the axis."""
+        discs = self.plan.discs
+        if self.column.axis in self.plan.carried:
+            carrier = self.plan.stack.carried[self.column.axis].carrier
+            seat = next(disc for disc in discs if disc.name == self.plan.seat_of(carrier))
+            discs = tuple(seen_from_carrier(carrier, seat.at, disc) for disc in discs)
+        return discs
+
+    @cached_property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        """Heights that plates of the frame take, with room for shoulders and collars."""
+        places = [self.plan.places.back, self.plan.places.front, *([self.plan.bridge] if self.plan.bridge else [])]
+        goes_on = any(crosses(each, faces) for each in self.column.members for faces in places)
+        room = SHAKE + COLLAR if goes_on else SHAKE
+        return tuple((low - room, high + room) for low, high in places)
+
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """Beyond it are dials."""
+        faces = [face for disc in self.plan.discs for face in (disc.low, disc.high)]
+        return min(faces), max(faces)
+
+    def is_free(self, member: ColumnMember, low: float, high: float, radius: float) -> bool:
+        """True if nothing comes near to a ring on a member between two heights."""
+        if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
+            return False
+        inner = [each for each in self.column.members if each is not member and each.low < high and low < each.high]
+        if any(each.outer > member.outer for each in inner) or any(a < high and low < b for a, b in self.walls):
+            return False
+        near = (disc for disc in self.discs if disc.low < high - _SAME and low + _SAME < disc.high)
+        return all(disc.room_for(self.column.at, radius) >= APART for disc in near) and not any(
+            wheel.is_between(low, high) for wheel in self.plan.stack.across
+        )
+
+
+@dataclass(frozen=True)
+class _OnMember:
+    """An arbor or a pipe with its wheels."""
+
+    around: _Around
+    member: ColumnMember
+
+    @cached_property
+    def discs(self) -> Sequence[StackDisc]:
+        """From below."""
+        return sorted(self.member.discs, key=lambda disc: disc.low)
+
+    def all(self) -> Iterator[TurnedPart]:
+        """Spacers, then collets of wheels that touch none."""
+        held = set(self.around.plan.cut)
+        for below, above in pairwise(self.discs):
+            band = self._ring(below.high, above.low)
+            if above.low - below.high >= _SHORTEST and band is not None:
+                held |= {below.name, above.name}
+                name = f"spacer {below.name} to {above.name}"
+                yield self._part(name, "spacer", band, "slides on, between wheels")
+        joint = self.around.plan.process.joint
+        for disc in self.discs:
+            if disc.name not in held and (band := self._collet(disc)) is not None:
+                yield self._part(f"collet of {disc.name}", "collet", band, f"{joint}, its wheel against it")
+
+    def _ring(self, low: float, high: float) -> Band | None:
+        """The thickest for which there is room."""
+        bore = self.member.outer / 2
+        walls = (wall for wall in _WALLS if self.around.is_free(self.member, low, high, bore + wall))
+        wall = next(walls, None)
+        return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
+
+    def _collet(self, disc: StackDisc) -> Band | None:
+        """The longest for which there is room on either side of a wheel, with air before what turns next to it."""
+        longest = _LONGEST * self.member.outer
+        for part in (1.0, 0.75, 0.5, 0.25):
+            length = max(part * longest, _SHORTEST)
+            for low, high in ((disc.high, disc.high + length), (disc.low - length, disc.low)):
+                room = (low, high + _FREE) if low == disc.high else (low - _FREE, high)
+                band = self._ring(*room)
+                if band is not None:
+                    return Band(low, high, band.radius, band.bore)
+        return None
+
+    def _part(self, name: str, kind: str, band: Band, joint: str) -> TurnedPart:
+        return TurnedPart(self.member.link, name, kind, self.around.column.at, (band,), joint)

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 from geartrain.scene.parts.arbor_columns import APART, COLLAR, SHAKE, AxisColumn, ColumnMember
 from geartrain.scene.parts.carried_axes import seen_from_carrier
+from geartrain.scene.parts.stack_discs import StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart, crosses
 
 if TYPE_CHECKING:
     from geartrain.scene.parts.frame_plan import FramePlan
-    from geartrain.scene.parts.stack_discs import StackDisc
 
 _WALLS = (1.5, 1.0, 0.6)  # mm: the thickest for which there is room
 _SHORTEST = 0.5  # mm
@@ -42,13 +42,23 @@ class _Around:
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """All of the train, as one sees them who moves with the axis."""
-        discs = self.plan.discs
+        """All of the train, and arbors, as one sees them who moves with the axis."""
+        discs = *self.plan.discs, *self._rods()
         if self.column.axis in self.plan.carried:
             carrier = self.plan.stack.carried[self.column.axis].carrier
             seat = next(disc for disc in discs if disc.name == self.plan.seat_of(carrier))
             discs = tuple(seen_from_carrier(carrier, seat.at, disc) for disc in discs)
         return discs
+
+    def _rods(self) -> Iterator[StackDisc]:
+        """Arbors and pipes of other axes."""
+        for other in self.plan.all_columns:
+            if other is not self.column:
+                for each in other.members:
+                    about = next((disc.carrier for disc in each.discs), None)
+                    yield StackDisc(
+                        each.link, each.link, other.axis, other.at, each.low, each.high, each.outer / 2, carrier=about
+                    )
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.loader import load
-from geartrain.synthesis.formulas import with_counts
+from geartrain.kinematics.formulas import with_counts
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
 from geartrain.uncertainty.posterior.monomial_columns import MonomialColumns
 from geartrain.uncertainty.posterior.priors import find_priors

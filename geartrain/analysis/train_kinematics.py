@@ -18,6 +18,7 @@ from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability import BuildFinding
+    from geartrain.kinematics.formulas.speed_formulas import OutputFormula
     from geartrain.kinematics.gridlock import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds
 
@@ -161,6 +162,53 @@ class TrainKinematics:
             For a state, an output or a method that there is not.
         """
         return self._speeds.answer(self._case(state), output, method)
+
+    def formula(self, output: str, state: str | None = None) -> OutputFormula:
+        """What an output is, in the tooth counts of the wheels and the speeds of the inputs.
+
+        Parameters
+        ----------
+        output : str
+            One of the declared outputs.
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Returns
+        -------
+        OutputFormula
+            As text, LaTeX or an expression of sympy, in lowest terms; exact.
+
+        Raises
+        ------
+        QuestionError
+            For an output or a state that there is not, or where the inputs do not determine the output.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> train = geartrain.load("planetary-24-18-60")
+        >>> train.formula("carrier").text
+        'carrier = z_s/(z_ring + z_s) · sun'
+        """
+        found = tuple(self.formulas(state, (output,)))
+        if not found:
+            what, why = f"output '{output}' has no formula", "the inputs do not determine it"
+            raise QuestionError(Problem(what, why, "see `geartrain check` for what is missing"))
+        return found[0]
+
+    def formulas(self, state: str | None = None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
+        """The formulas of all outputs of a state that the inputs determine, or of some.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        outputs : sequence of str
+            Some of them; by default all.
+        """
+        from geartrain.kinematics.formulas.speed_formulas import speed_formulas
+
+        return speed_formulas(self.declaration, self.declaration.single_state(state), outputs)
 
     def answers(self) -> Iterator[Answer]:
         """The answer of every state, in the order declared."""

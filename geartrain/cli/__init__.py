@@ -30,6 +30,7 @@ class VerbGroup(EndingGroup, LazyGroup):
                 "check",
                 "solve",
                 "equations",
+                "formula",
                 "graph",
                 "torques",
                 "strength",

@@ -11,6 +11,7 @@ willis_equation, willis_system   the rows of the system, for all that solve it
 willis_matrix         the same rows as a sparse matrix
 components            ordinary trains of one carrier, and the reduced system between them
 speeds                propagation, exact elimination, floats
+formulas              outputs as rational functions of tooth counts, and as an engineer writes them
 relative_speeds       the speed of one link seen from another
 gridlock              locked subgraphs, and the fewest meshes to take out
 phasing               whether teeth meet when a train is put together

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from geartrain.report.document import Picture as Picture
     from geartrain.report.document import Section as Section
     from geartrain.report.document import Table as Table
+    from geartrain.report.formula_report import FormulaReport as FormulaReport
+    from geartrain.report.formula_report import collect_formulas as collect_formulas
+    from geartrain.report.formula_report import describe_formulas as describe_formulas
     from geartrain.report.html_page import to_html as to_html
     from geartrain.report.json_schema import answer_schema as answer_schema
     from geartrain.report.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
@@ -49,6 +52,7 @@ if TYPE_CHECKING:
 _PLACES = {
     **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
     **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
+    **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
     **dict.fromkeys(("StrengthReport", "collect_strength_report", "describe_strength"), "strength_report"),
     **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time_report"),
     **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
@@ -77,6 +81,7 @@ __all__ = [
     "TorqueReport",
     "TrainReport",
     "answer_schema",
+    "collect_formulas",
     "collect_motion",
     "collect_report",
     "collect_strength_report",
@@ -84,6 +89,7 @@ __all__ = [
     "collect_torque_report",
     "describe_budget",
     "describe_comparison",
+    "describe_formulas",
     "describe_monte_carlo",
     "describe_motion",
     "describe_posterior",

@@ -36,6 +36,7 @@ def answers() -> dict[str, Schema]:
 def _of_trains() -> dict[str, Schema]:
     from geartrain.numerics.labelled_array import LabelledArray
     from geartrain.report.accuracy_report import AccuracyReport
+    from geartrain.report.formula_report import FormulaReport
     from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.motion_figures import MotionFigures
     from geartrain.report.strength_report import StrengthReport
@@ -51,6 +52,7 @@ def _of_trains() -> dict[str, Schema]:
         "solve": shape_of(TrainAnswers),
         "report": _list(report),
         "compare": _list(report),
+        "formula": shape_of(FormulaReport),
         "torques": shape_of(TorqueReport),
         "strength": shape_of(StrengthReport),
         "motion": shape_of(MotionFigures),

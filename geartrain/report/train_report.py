@@ -14,6 +14,7 @@ from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
+from geartrain.report.formula_report import formula_section
 from geartrain.report.gear_pairs import teeth_sections
 from geartrain.report.graph_tables import adjacency_table
 from geartrain.report.motion_report import moving_sections
@@ -43,7 +44,7 @@ def describe_train(found: TrainReport) -> Document:
     >>> from geartrain.report import collect_report
     >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
     >>> [section.title for section in page.sections]
-    ['Structure', 'Adjacency matrix', 'Fundamental circuits', 'Mobility', 'Speeds', 'Outputs']
+    ['Structure', 'Adjacency matrix', 'Fundamental circuits', 'Mobility', 'Speeds', 'Outputs', 'Formulas']
     """
     train, answers = found.train, found.states
     declared = train.declaration
@@ -62,6 +63,7 @@ def describe_train(found: TrainReport) -> Document:
         sections.append(shift_table(train, answers))
     for answer in answers:
         sections += answer_sections(train, answer)
+        sections += formula_section(train, answer.state)
     sections += teeth_sections(train, found.teeth)
     sections += loaded_sections(found.torques)
     for strength in found.strength:

@@ -34,7 +34,7 @@ from studies.tooth_number_records import (
 from studies.tooth_number_study import tooth_numbers
 
 from geartrain.analysis import GearTrain
-from geartrain.synthesis.formulas.output_formulas import with_counts
+from geartrain.kinematics.formulas.output_formulas import with_counts
 
 
 @pytest.fixture(scope="module")

@@ -121,6 +121,7 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
         ("dynamics", "heavy.yaml", *IN_TIME, "--restitution", "0.3"),
         ("dynamics", "worm", *IN_TIME),
     ],
+    "formula": [("formula", "prius-power-split", "--sensitivities"), ("formula", "freeth-2008")],
     "strength": [
         ("strength", "longcase-clock-loaded"),
         ("strength", "longcase-clock-loaded", "--years", "10", "--wear", "1e-6", "1e-4"),

@@ -21,11 +21,11 @@ from strategies import Data, asked_trains, driven_trains, overdriven_trains
 
 from geartrain import GearTrain, load, shipped
 from geartrain.errors import QuestionError
-from geartrain.synthesis.formulas import laurent
-from geartrain.synthesis.formulas.laurent import Laurent, Term
-from geartrain.synthesis.formulas.monomial_groups import MonomialGroup
-from geartrain.synthesis.formulas.output_formulas import Formulas, find_formulas, with_counts
-from geartrain.synthesis.formulas.rational_functions import Formula, make_formula
+from geartrain.kinematics.formulas import laurent
+from geartrain.kinematics.formulas.laurent import Laurent, Term
+from geartrain.kinematics.formulas.monomial_groups import MonomialGroup
+from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas, with_counts
+from geartrain.kinematics.formulas.rational_functions import Formula, make_formula
 from geartrain.train import Train, declare
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
@@ -559,7 +559,7 @@ def test_formulas_need_no_array_library_until_columns_are_asked_for() -> None:
     import sys
 
     code = (
-        "import geartrain, sys; from geartrain.synthesis.formulas.output_formulas import find_formulas;"
+        "import geartrain, sys; from geartrain.kinematics.formulas.output_formulas import find_formulas;"
         "t = geartrain.load('wolfrom-175').declaration; f = find_formulas(t, None, {'s12': (12, 13)})['output'];"
         "assert f.value({'s12': 12}) == geartrain.load('wolfrom-175').solve()['output'];"
         "assert 'numpy' not in sys.modules"

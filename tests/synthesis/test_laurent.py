@@ -11,11 +11,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from geartrain.synthesis.formulas import laurent
-from geartrain.synthesis.formulas.laurent import Laurent, TooLongError, minors
-from geartrain.synthesis.formulas.monomial_groups import find_grouping
-from geartrain.synthesis.formulas.polynomial_gcd import common_divisor, divide
-from geartrain.synthesis.formulas.symbolic_elimination import GIVEN, solve_rows
+from geartrain.kinematics.formulas import laurent
+from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, minors
+from geartrain.kinematics.formulas.monomial_groups import find_grouping
+from geartrain.kinematics.formulas.polynomial_gcd import common_divisor, divide
+from geartrain.kinematics.formulas.symbolic_elimination import GIVEN, solve_rows
 
 WIDTH = 3
 

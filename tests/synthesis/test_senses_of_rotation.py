@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain import GearTrain
+from geartrain.kinematics.formulas import with_counts
 from geartrain.report import collect_report, describe_comparison, describe_train, to_markdown
 from geartrain.synthesis import search_train
-from geartrain.synthesis.formulas import with_counts
 from geartrain.uncertainty import infer_counts
 
 Counts = tuple[int, int]

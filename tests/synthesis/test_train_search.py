@@ -23,10 +23,10 @@ import geartrain.synthesis.train.pass_tasks as tasks
 import geartrain.synthesis.train.search_passes as passes
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import QuestionError
+from geartrain.kinematics.formulas.output_formulas import find_formulas, with_counts
 from geartrain.numerics import Journal, open_executor
 from geartrain.synthesis import ConstraintOptions, TrainFindings, search_train
 from geartrain.synthesis.constraints.count_conditions import Condition, CountEquation
-from geartrain.synthesis.formulas.output_formulas import find_formulas, with_counts
 from geartrain.synthesis.train.train_findings import By
 from geartrain.train import Train
 from geartrain.train.yaml_nodes import as_yaml

@@ -19,9 +19,9 @@ from hypothesis import strategies as st
 from geartrain import load
 from geartrain.analysis import GearTrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
+from geartrain.kinematics.formulas import with_counts
 from geartrain.numerics import Journal, open_executor
 from geartrain.report import describe_posterior
-from geartrain.synthesis.formulas import with_counts
 from geartrain.uncertainty import ToothCountPosterior, infer_counts
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
 from geartrain.uncertainty.posterior.observations import ObservedOutput

@@ -49,7 +49,7 @@ def find_constraints(train: Train, free: Mapping[str, Counts], asked: Constraint
     without a free wheel are left out, for the search cannot change what they say. `QuestionError` where one that is
     asked cannot be judged in this train, or no counts can meet it.
     """
-    from geartrain.synthesis.formulas.output_formulas import with_counts
+    from geartrain.kinematics.formulas.output_formulas import with_counts
 
     stand_in = with_counts(train, {wheel: counts[0] for wheel, counts in free.items()})
     return tuple(_Asking(train, TrainAssembly.of(stand_in, free), asked).rules()) if free else ()

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from geartrain.kinematics.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
-from geartrain.synthesis.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.join.partial_assignments import ItemMonomial
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
 from geartrain.synthesis.join.product_lists import Item

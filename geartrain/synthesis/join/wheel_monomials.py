@@ -10,8 +10,8 @@ from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
+from geartrain.kinematics.formulas.monomial_groups import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
-from geartrain.synthesis.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
 from geartrain.synthesis.join.polynomial_signs import SignPolynomial

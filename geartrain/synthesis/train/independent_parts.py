@@ -9,10 +9,10 @@ from itertools import chain
 from math import prod
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
+from geartrain.kinematics.formulas.output_formulas import find_formulas
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
-from geartrain.synthesis.formulas.output_formulas import find_formulas
 from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
 from geartrain.synthesis.train.output_requirements import (

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.formulas.output_formulas import Formulas
 from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.quantity import Figure
-from geartrain.synthesis.formulas.output_formulas import Formulas
 from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, is_within
 from geartrain.synthesis.train.train_findings import ReachedSpeed
 from geartrain.train import Output, Published, StateCase, Train

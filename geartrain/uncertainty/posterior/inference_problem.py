@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import prod
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.synthesis.formulas import Formula, find_formulas
+from geartrain.kinematics.formulas import Formula, find_formulas
 from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
 from geartrain.synthesis.train.output_requirements import find_output_requirements, find_turning_conditions

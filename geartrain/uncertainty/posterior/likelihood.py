@@ -9,12 +9,12 @@ from fractions import Fraction
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.kinematics.formulas import Formula
+from geartrain.kinematics.formulas.laurent import Term
 from geartrain.numerics.arrays import Bools, Floats
 from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, in_range
 from geartrain.numerics.exact import as_float, log10
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
-from geartrain.synthesis.formulas import Formula
-from geartrain.synthesis.formulas.laurent import Term
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
 from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint, find_polynomial_constraints

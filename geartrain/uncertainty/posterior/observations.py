@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal
 
-from geartrain.synthesis.formulas import Formula
+from geartrain.kinematics.formulas import Formula
 from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint, is_within
 from geartrain.synthesis.train.output_requirements import SpeedRequirement, meet, of_either_sense
 

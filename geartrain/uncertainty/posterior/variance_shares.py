@@ -15,9 +15,9 @@ from math import isqrt, prod, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.kinematics.formulas import Formula
 from geartrain.numerics.arrays import Floats
 from geartrain.numerics.long_float import Real, rounded
-from geartrain.synthesis.formulas import Formula
 from geartrain.uncertainty.posterior.posterior_result import VarianceShares
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 

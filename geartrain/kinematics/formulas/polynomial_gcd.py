@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
 
+from geartrain.kinematics.formulas import laurent
+from geartrain.kinematics.formulas.laurent import Exponents, Laurent, TooLongError
 from geartrain.numerics.elimination import PRIME
-from geartrain.synthesis.formulas import laurent
-from geartrain.synthesis.formulas.laurent import Exponents, Laurent, TooLongError
 
 
 def divide(p: Laurent, q: Laurent) -> Laurent | None:

@@ -12,9 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
+from geartrain.kinematics.formulas.laurent import Laurent, minors, product
 from geartrain.numerics.block_triangular import find_blocks
 from geartrain.numerics.elimination import PRIME, add_into
-from geartrain.synthesis.formulas.laurent import Laurent, minors, product
 
 Row = dict[int, Laurent]
 """A linear form: column -> coefficient. Columns >= 0 are unknowns; column -1 holds what is given."""

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from geartrain.kinematics.formulas.laurent import Laurent, Term
+from geartrain.kinematics.formulas.monomial_groups import MonomialGroup, MonomialGrouping, find_grouping
+from geartrain.kinematics.formulas.polynomial_gcd import common_divisor, divide
 from geartrain.numerics.decimal_text import fraction_text, is_short
 from geartrain.numerics.exact import log10
-from geartrain.synthesis.formulas.laurent import Laurent, Term
-from geartrain.synthesis.formulas.monomial_groups import MonomialGroup, MonomialGrouping, find_grouping
-from geartrain.synthesis.formulas.polynomial_gcd import common_divisor, divide
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints

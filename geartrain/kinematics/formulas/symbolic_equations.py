@@ -12,9 +12,9 @@ from fractions import Fraction
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, find_components, reduce_components
+from geartrain.kinematics.formulas.laurent import Laurent
+from geartrain.kinematics.formulas.symbolic_elimination import GIVEN, Row
 from geartrain.numerics.elimination import add_into
-from geartrain.synthesis.formulas.laurent import Laurent
-from geartrain.synthesis.formulas.symbolic_elimination import GIVEN, Row
 from geartrain.train import StateCase
 
 

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits import Axes, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import relevant_circuits
+from geartrain.kinematics.formulas.laurent import Laurent, TooLongError
+from geartrain.kinematics.formulas.laurent import Term as Term
+from geartrain.kinematics.formulas.monomial_groups import MonomialGroup as MonomialGroup
+from geartrain.kinematics.formulas.rational_functions import Formula as Formula
+from geartrain.kinematics.formulas.rational_functions import make_formula
+from geartrain.kinematics.formulas.symbolic_elimination import SymbolicSolution, solve_rows
+from geartrain.kinematics.formulas.symbolic_equations import SymbolicEquations
 from geartrain.numerics.plain_data import Result
-from geartrain.synthesis.formulas.laurent import Laurent, TooLongError
-from geartrain.synthesis.formulas.laurent import Term as Term
-from geartrain.synthesis.formulas.monomial_groups import MonomialGroup as MonomialGroup
-from geartrain.synthesis.formulas.rational_functions import Formula as Formula
-from geartrain.synthesis.formulas.rational_functions import make_formula
-from geartrain.synthesis.formulas.symbolic_elimination import SymbolicSolution, solve_rows
-from geartrain.synthesis.formulas.symbolic_equations import SymbolicEquations
 from geartrain.train import StateCase, Teeth, Train, Wheel
 from geartrain.train.fields import MOST_TEETH
 
@@ -59,11 +60,14 @@ class Formulas(Mapping[str, Formula], Result):
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
 
-def find_formulas(train: Train, state: str | None, free: Mapping[str, Counts]) -> Formulas:
+def find_formulas(
+    train: Train, state: str | None, free: Mapping[str, Counts], inputs: Mapping[str, int] | None = None
+) -> Formulas:
     """Every output of one state as a function of the counts of the free wheels.
 
-    state   a declared state, or None for what is declared outside of states
-    free    wheel id -> its allowed counts; all other wheels keep their declared count
+    state    a declared state, or None for what is declared outside of states
+    free     wheel id -> its allowed counts; all other wheels keep their declared count
+    inputs   speeds in place of the declared ones, of the same links
 
     Raises `QuestionError` for wheels or states the train does not have, and for trains whose coupled part is too
     large; `DeclarationError` where a wheel that is not free has no count.
@@ -71,6 +75,8 @@ def find_formulas(train: Train, state: str | None, free: Mapping[str, Counts]) -
     _check(train, state, free)
     tree = find_tree(train)
     (case,) = close_joints(train, tree, [train.case(state)])
+    if inputs is not None:
+        case = replace(case, inputs={link: Fraction(speed) for link, speed in inputs.items()})
     wheels = tuple(name for name in train.wheels if name in free)
     equations = _equations(train, tree, case, wheels, free)
     try:

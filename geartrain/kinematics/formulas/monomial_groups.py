@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from geartrain.kinematics.formulas.laurent import Exponents, Laurent
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.synthesis.formulas.laurent import Exponents, Laurent
 
 if TYPE_CHECKING:
     import numpy as np

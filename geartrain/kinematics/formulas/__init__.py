@@ -1,0 +1,6 @@
+"""Outputs as exact rational functions of the tooth counts that are free."""
+
+from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas, with_counts
+from geartrain.kinematics.formulas.rational_functions import Formula
+
+__all__ = ["Formula", "Formulas", "find_formulas", "with_counts"]

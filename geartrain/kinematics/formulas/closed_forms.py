@@ -1,0 +1,233 @@
+"""Rational functions of tooth counts as an engineer writes them: in factors, as text, LaTeX or an object of sympy."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import MissingExtraError
+from geartrain.kinematics.formulas.factors import FactoredPolynomial
+from geartrain.kinematics.formulas.laurent import Laurent, Term
+from geartrain.kinematics.formulas.rational_functions import Formula, make_formula
+from geartrain.numerics.plain_data import Key, Result
+
+if TYPE_CHECKING:
+    from sympy import Expr
+
+_PLAIN = re.compile(r"\w+")
+_MOST_SPLIT = 3
+"""Terms of a sum that is divided term by term."""
+
+
+@dataclass(frozen=True)
+class _Style:
+    """How parts are put together."""
+
+    symbol: Callable[[str], str]
+    power: Callable[[str, int], str]
+    over: Callable[[str, str], str]
+    bracketed: Callable[[str], str]
+
+
+_TEXT = _Style(
+    lambda wheel: f"z_{wheel}" if _PLAIN.fullmatch(wheel) else f"z[{wheel}]",
+    lambda base, power: f"{base}^{power}",
+    lambda top, bottom: f"{_in_brackets(top)}/{_in_brackets(bottom)}",
+    lambda text: f"({text})",
+)
+_LATEX = _Style(
+    lambda wheel: "z_{\\mathrm{" + wheel.replace("_", r"\_") + "}}",
+    lambda base, power: f"{base}^{{{power}}}",
+    lambda top, bottom: rf"\frac{{{top}}}{{{bottom}}}",
+    lambda text: rf"\left({text}\right)",
+)
+
+
+@dataclass(frozen=True)
+class ClosedForm(Result):
+    """A rational function of tooth counts in lowest terms, and its value at the declared ones.
+
+    Attributes
+    ----------
+    formula : Formula
+        Its numerator and denominator, exactly.
+    counts : mapping of str to int
+        Declared count by wheel, of all wheels in it at least.
+    known : tuple
+        Sums that may be factors of it: wheels, and terms with exponents parallel to them.
+
+    See Also
+    --------
+    OutputFormula : What an output is, made of these.
+    """
+
+    KEYS = ("text", "latex", "value", Key("wheels", "formula.wheels"))
+
+    formula: Formula
+    counts: Mapping[str, int] = field(repr=False)
+    known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
+
+    @property
+    def value(self) -> Fraction | None:
+        """At the declared counts; None where the denominator is 0 there."""
+        return self.formula.value(self.counts)
+
+    @cached_property
+    def text(self) -> str:
+        """Such as `z_s/(z_s + z_r)`, or `1 + z_r/z_s`."""
+        return self._written(_TEXT)
+
+    @cached_property
+    def latex(self) -> str:
+        """The same in LaTeX."""
+        return self._written(_LATEX)
+
+    def sympy(self) -> Expr:
+        """An expression of sympy, numerator over denominator in factors; symbols are called `z_` and the wheel.
+
+        Raises
+        ------
+        MissingExtraError
+            Without sympy, the extra `sympy`.
+        """
+        try:
+            import sympy
+        except ImportError:
+            raise MissingExtraError("sympy", "sympy", "an expression to reckon on with") from None
+        symbols = [sympy.Symbol(f"z_{wheel}", positive=True, integer=True) for wheel in self.formula.wheels]
+
+        def summed(terms: Iterable[Term]) -> Any:
+            return sympy.Add(
+                *(c * sympy.Mul(*(s**e for s, e in zip(symbols, powers, strict=True))) for c, powers in terms)
+            )
+
+        parts = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
+        top, bottom = (
+            each.content * summed([Term(1, each.powers)]) * sympy.Mul(*map(summed, each.sums)) for each in parts
+        )
+        return top / bottom
+
+    @property
+    def inverse(self) -> ClosedForm:
+        """One over it; the denominator is 0 where this is 0."""
+        width, wheels = len(self.formula.wheels), self.formula.wheels
+        top, bottom = (Laurent.of(terms, width) for terms in (self.formula.denominator, self.formula.numerator))
+        return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
+
+    def elasticity(self, wheel: str) -> ClosedForm:
+        """(z/f) df/dz of one wheel's count z: by how many per cent f grows where z grows by one.
+
+        Parameters
+        ----------
+        wheel : str
+            A wheel; one that is not in the formula gives 0.
+        """
+        width, wheels = len(self.formula.wheels), self.formula.wheels
+        top, bottom = (Laurent.of(terms, width) for terms in (self.formula.numerator, self.formula.denominator))
+        if wheel not in wheels:
+            top, bottom = Laurent.constant(0, width), Laurent.constant(1, width)
+        else:
+            steep, flat = (_times_derivative(each, wheels.index(wheel)) for each in (top, bottom))
+            top, bottom = steep * bottom - top * flat, top * bottom
+        found, _ = make_formula(f"elasticity of {self.formula.label} in {wheel}", wheels, top, bottom)
+        parts = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
+        return ClosedForm(found, self.counts, tuple((wheels, terms) for part in parts for terms in part.sums))
+
+    @property
+    def poles(self) -> tuple[str, ...]:
+        """Where the denominator is 0, as equations between products of counts; none where it cannot be."""
+        sums = self._factored(self.formula.denominator).sums
+        return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
+
+    @property
+    def zeros(self) -> tuple[str, ...]:
+        """The same of the numerator."""
+        sums = self._factored(self.formula.numerator).sums
+        return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
+
+    def _factored(self, terms: Sequence[Term]) -> FactoredPolynomial:
+        known = (self._own(*each) for each in self.known)
+        point = [self.counts[wheel] for wheel in self.formula.wheels]
+        return FactoredPolynomial.of(terms, point, [each for each in known if each is not None])
+
+    def _own(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
+        """A sum in the wheels of this formula; None where it has others too."""
+        own, used = self.formula.wheels, [at for at in range(len(wheels)) if any(each.exponents[at] for each in terms)]
+        if any(wheels[at] not in own for at in used):
+            return None
+        place = {wheel: at for at, wheel in enumerate(wheels)}
+        spread = (Term(c, tuple(powers[place[wheel]] if wheel in place else 0 for wheel in own)) for c, powers in terms)
+        return Laurent.of(spread, len(own))
+
+    def _written(self, style: _Style) -> str:
+        top, bottom = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
+        split = self._split(style, top, bottom)
+        if split:
+            return split
+        sign = "-" if top.content * bottom.content < 0 else ""
+        above, below = (_product(each, self.formula.wheels, style) for each in (top, bottom))
+        return sign + (above if below == "1" else style.over(above, below))
+
+    def _split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
+        """1 plus quotients, where a short sum stands above, of which one term is all that stands below."""
+        if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
+            return ""
+        one = next((term for term in top.sums[0] if term.exponents == bottom.powers), None)
+        if one is None or one.coefficient * top.content % bottom.content:
+            return ""
+        words: list[str] = []
+        for term in sorted(top.sums[0], key=lambda each: each is not one):
+            value = Fraction(term.coefficient * top.content, bottom.content)
+            powers = tuple(a - b for a, b in zip(term.exponents, bottom.powers, strict=True))
+            above, below = (
+                FactoredPolynomial(abs(part), tuple(max(sign * power, 0) for power in powers), ())
+                for part, sign in ((value.numerator, 1), (value.denominator, -1))
+            )
+            written = [_product(each, self.formula.wheels, style) for each in (above, below)]
+            text = written[0] if written[1] == "1" else style.over(*written)
+            words.append(f"{'-' if value < 0 else '+' if words else ''}{' ' if words else ''}{text}")
+        return " ".join(words)
+
+
+def _times_derivative(p: Laurent, at: int) -> Laurent:
+    """z dp/dz: every term times its power of z."""
+    return Laurent(p.width, {exponents: c * exponents[at] for exponents, c in p.terms.items() if exponents[at]})
+
+
+def _product(p: FactoredPolynomial, wheels: Sequence[str], style: _Style) -> str:
+    """Without its sign."""
+    parts = [] if abs(p.content) == 1 else [str(abs(p.content))]
+    for wheel, power in zip(wheels, p.powers, strict=True):
+        if power:
+            parts.append(style.symbol(wheel) if power == 1 else style.power(style.symbol(wheel), power))
+    sums = [_sum(terms, wheels, style) for terms in p.sums]
+    alone = len(sums) == 1 and not parts
+    parts += sums if alone else [style.bracketed(each) for each in sums]
+    return " ".join(parts) or "1"
+
+
+def _sum(terms: Sequence[Term], wheels: Sequence[str], style: _Style) -> str:
+    words: list[str] = []
+    for coefficient, exponents in terms:
+        text = _product(FactoredPolynomial(coefficient, exponents, ()), wheels, style)
+        words.append(("- " if words else "-") + text if coefficient < 0 else ("+ " if words else "") + text)
+    return " ".join(words)
+
+
+def _in_brackets(text: str) -> str:
+    return f"({text})" if " " in text else text
+
+
+def _has_both_signs(terms: Sequence[Term]) -> bool:
+    return len({term.coefficient > 0 for term in terms}) == 2
+
+
+def _equation(terms: Sequence[Term], wheels: Sequence[str]) -> str:
+    """What is added equals what is taken away."""
+    added = [term for term in terms if term.coefficient > 0]
+    taken = [Term(-term.coefficient, term.exponents) for term in terms if term.coefficient < 0]
+    return f"{_sum(added, wheels, _TEXT)} = {_sum(taken, wheels, _TEXT)}"

@@ -1,0 +1,174 @@
+"""What the speed of an output is, written in tooth counts and in the speeds of the inputs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from geartrain.errors import check_choice
+from geartrain.kinematics.formulas.closed_forms import ClosedForm
+from geartrain.kinematics.formulas.output_formulas import find_formulas
+from geartrain.numerics.plain_data import Result
+
+if TYPE_CHECKING:
+    from sympy import Expr
+
+    from geartrain.kinematics.formulas.rational_functions import Formula
+    from geartrain.train import Train
+
+
+@dataclass(frozen=True)
+class InputShare(Result):
+    """What one input adds to an output.
+
+    Attributes
+    ----------
+    input : str
+        Link that is driven.
+    speed : Fraction
+        Its declared speed [unit of the train].
+    ratio : ClosedForm
+        Output over input while all other inputs stand still.
+    """
+
+    KEYS = ("input", "speed", "ratio")
+
+    input: str
+    speed: Fraction
+    ratio: ClosedForm
+
+
+@dataclass(frozen=True)
+class OutputFormula(Result):
+    """The speed of an output: the sum over all inputs of a ratio times the input's speed.
+
+    Attributes
+    ----------
+    output : str
+        Name of the output.
+    state : str or None
+        The state.
+    shares : tuple of InputShare
+        By input; without those on which the output does not depend.
+    conditions : tuple of str
+        Equations between counts that must hold, for else the train does not turn: loops that close.
+    poles : tuple of str
+        Equations between counts at which the output is locked, or free.
+
+    See Also
+    --------
+    geartrain.GearTrain.formula : gives it.
+    """
+
+    KEYS = ("output", "state", "text", "latex", "value", "shares", "conditions", "poles")
+
+    output: str
+    state: str | None
+    shares: tuple[InputShare, ...]
+    conditions: tuple[str, ...] = ()
+    poles: tuple[str, ...] = ()
+
+    @property
+    def ratio(self) -> ClosedForm:
+        """Output over input, where there is one input.
+
+        Raises
+        ------
+        ValueError
+            Where there are several, or none.
+        """
+        (share,) = self.shares
+        return share.ratio
+
+    @property
+    def value(self) -> Fraction | None:
+        """The speed at the declared counts and inputs [unit of the train]; None where it is not determined there."""
+        values = [share.ratio.value for share in self.shares]
+        if any(value is None for value in values):
+            return None
+        return sum((share.speed * (share.ratio.value or 0) for share in self.shares), Fraction(0))
+
+    @property
+    def text(self) -> str:
+        """Such as `carrier = z_s/(z_s + z_r) · sun`; a link's name stands for its speed."""
+        return f"{self.output} = {self._sum('text', str)}"
+
+    @property
+    def latex(self) -> str:
+        """The same in LaTeX."""
+        return f"{_speed(self.output)} = {self._sum('latex', _speed)}"
+
+    def sympy(self) -> Expr:
+        """The speed as an expression of sympy: counts `z_...`, speeds of inputs `w_...`.
+
+        Raises
+        ------
+        MissingExtraError
+            Without sympy, the extra `sympy`.
+        """
+        parts = [share.ratio.sympy() for share in self.shares]
+        import sympy
+
+        return sympy.Add(
+            *(part * sympy.Symbol(f"w_{share.input}") for part, share in zip(parts, self.shares, strict=True))
+        )
+
+    def _sum(self, style: str, speed: Callable[[str], str]) -> str:
+        words = ""
+        for share in self.shares:
+            part = _times(getattr(share.ratio, style), speed(share.input), style)
+            words += part if not words else f" - {part[1:]}" if part.startswith("-") else f" + {part}"
+        return words or "0"
+
+
+def _times(ratio: str, speed: str, style: str) -> str:
+    """A ratio times a speed, in brackets where it is a sum."""
+    if ratio in ("1", "-1"):
+        return ratio[:-1] + speed
+    dot = " · " if style == "text" else r"\,"
+    outside = re.sub(r"\([^()]*\)|\{[^{}]*\}", "", re.sub(r"\([^()]*\)|\{[^{}]*\}", "", ratio))
+    if " + " not in outside and " - " not in outside:
+        return ratio + dot + speed
+    return (f"({ratio})" if style == "text" else rf"\left({ratio}\right)") + dot + speed
+
+
+def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
+    """Of all outputs of a state, or of some, in the order declared; without those that are not determined.
+
+    All wheels with a count are free; those without, and couplings, are as in `find_formulas`, whose errors these are.
+    """
+    case = train.case(state)
+    for name in outputs:
+        check_choice("output", name, case.outputs)
+    counts = {name: wheel.count for name, (_, wheel) in train.wheels.items() if wheel.count}
+    free = {name: (count,) for name, count in counts.items()}
+    units = {link: dict.fromkeys(case.inputs, 0) | {link: 1} for link in case.inputs}
+    found = {link: find_formulas(train, state, free, unit) for link, unit in units.items()}
+    for name in outputs or case.outputs:
+        if found and all(name in each for each in found.values()):
+            shares = tuple(
+                InputShare(link, case.inputs[link], ClosedForm(each[name], counts)) for link, each in found.items()
+            )
+            told = [each for formulas in found.values() for each in formulas.conditions]
+            excluded = [each for formulas in found.values() for each in formulas.exclusions]
+            poles = [text for share in shares for text in share.ratio.poles] + _zeros(excluded, counts)
+            yield OutputFormula(name, state, tuple(filter(_matters, shares)), _once(_zeros(told, counts)), _once(poles))
+
+
+def _matters(share: InputShare) -> bool:
+    return bool(share.ratio.formula.numerator)
+
+
+def _zeros(formulas: Sequence[Formula], counts: Mapping[str, int]) -> list[str]:
+    return [text for each in formulas for text in ClosedForm(each, counts).zeros]
+
+
+def _once(texts: Sequence[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(texts))
+
+
+def _speed(link: str) -> str:
+    return r"\omega_{\mathrm{" + link.replace("_", r"\_") + "}}"

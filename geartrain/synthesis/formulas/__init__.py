@@ -1,6 +1,0 @@
-"""Outputs as exact rational functions of the tooth counts that are free."""
-
-from geartrain.synthesis.formulas.output_formulas import Formulas, find_formulas, with_counts
-from geartrain.synthesis.formulas.rational_functions import Formula
-
-__all__ = ["Formula", "Formulas", "find_formulas", "with_counts"]

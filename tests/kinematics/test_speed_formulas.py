@@ -1,0 +1,194 @@
+"""Outputs as formulas: printed ones of textbooks, values against exact solving, text read back, laws of derivatives."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shipped import train as load
+from shipped import trains
+
+from geartrain import GearTrain
+from geartrain.errors import GearTrainError
+from geartrain.kinematics.formulas.factors import FactoredPolynomial
+from geartrain.kinematics.formulas.laurent import Laurent, product
+
+PLANETARY = """
+name: set
+frame: frame
+links:
+  frame: {}
+  sun: {wheels: {s: 24}}
+  planet: {wheels: {p: 18}}
+  ring: {wheels: {r: {teeth: 60, internal: true}}}
+  carrier: {}
+revolutes:
+  - {pair: [frame, sun], axis: main}
+  - {pair: [frame, ring], axis: main}
+  - {pair: [frame, carrier], axis: main}
+  - {pair: [carrier, planet], axis: P}
+gears:
+  - {pair: [s, p]}
+  - {pair: [p, r]}
+"""
+
+
+def declared(text: str) -> GearTrain:
+    import yaml
+
+    return GearTrain.declare(yaml.safe_load(text))
+
+
+def planetary(inputs: str, fixed: str, output: str) -> GearTrain:
+    return declared(f"{PLANETARY}inputs: {{{inputs}: 1}}\nfixed: [{fixed}]\noutputs: {{{output}: {{}}}}\n")
+
+
+@pytest.mark.parametrize(
+    ("driven", "held", "asked", "written"),
+    [
+        ("sun", "ring", "carrier", "z_s/(z_s + z_r)"),
+        ("carrier", "ring", "sun", "1 + z_r/z_s"),
+        ("ring", "sun", "carrier", "z_r/(z_s + z_r)"),
+        ("carrier", "sun", "ring", "1 + z_s/z_r"),
+        ("sun", "carrier", "ring", "-z_s/z_r"),
+        ("ring", "carrier", "sun", "-z_r/z_s"),
+    ],
+)
+def test_the_six_gears_of_a_planetary_set_are_those_of_textbooks(
+    driven: str, held: str, asked: str, written: str
+) -> None:
+    assert planetary(driven, held, asked).formula(asked).ratio.text == written
+
+
+def test_a_wolfrom_set_is_as_engineers_write_it() -> None:
+    """With sun s, ring r1, planets p1 and p2, ring r2."""
+    text = PLANETARY.replace("p: 18", "p1: 18, p2: 17").replace("r: {teeth", "r2: {teeth").replace("ring:", "out:")
+    text = text.replace("[p, r]", "[p2, r2]").replace("[s, p]", "[s, p1]").replace("frame, ring", "frame, out")
+    text = text.replace("frame: {}", "frame: {wheels: {r1: {teeth: 60, internal: true}}}")
+    train = declared(text + "  - {pair: [p1, r1]}\ninputs: {sun: 1}\noutputs: {out: {}}\n")
+    z_s, z_r1, z_p1, z_p2, z_r2 = sympy.symbols("z_s z_r1 z_p1 z_p2 z_r2", positive=True, integer=True)
+    ratio = (z_p1 * z_r2 * (z_s + z_r1)) / (z_s * (z_p1 * z_r2 - z_p2 * z_r1))
+    found = train.formula("out").ratio.inverse
+    assert sympy.simplify(found.sympy() - ratio) == 0
+    assert set(re.findall(r"\([^()]*\)", found.text)) == {"(z_r1 + z_s)", "(z_p1 z_r2 - z_r1 z_p2)"}, "in factors"
+    assert found.poles == ("z_p1 z_r2 = z_r1 z_p2",)
+
+
+def test_two_inputs_are_a_sum() -> None:
+    train = load("prius-power-split")
+    assert train.formula("MG2", "cruising").text == "MG2 = (1 + z_s30/z_r78) · engine - z_s30/z_r78 · MG1"
+
+
+@pytest.mark.parametrize("name", trains())
+def test_every_formula_of_every_train_gives_what_solving_gives(name: str) -> None:
+    train = load(name)
+    for state in train.states or (None,):
+        answer = train.solve(state)
+        if not answer.verdict:
+            continue
+        for formula in train.formulas(state):
+            assert formula.value == answer.outputs[formula.output].speed
+
+
+@pytest.mark.parametrize("name", trains())
+def test_every_text_read_as_arithmetic_gives_the_value(name: str) -> None:
+    """Text, LaTeX and sympy are three writings of one number."""
+    train = load(name)
+    state = train.state_or_first(None)
+    for formula in train.formulas(state):
+        for share in formula.shares:
+            wheels = {wheel: Fraction(share.ratio.counts[wheel]) for wheel in share.ratio.formula.wheels}
+            assert _read(share.ratio.text, wheels) == share.ratio.value
+            symbols = {f"z_{wheel}": int(count) for wheel, count in wheels.items()}
+            number = share.ratio.sympy().subs({s: symbols[s.name] for s in share.ratio.sympy().free_symbols})
+            assert Fraction(int(number.p), int(number.q)) == share.ratio.value
+            assert share.ratio.latex.count("{") == share.ratio.latex.count("}")
+
+
+def _read(text: str, wheels: dict[str, Fraction]) -> Fraction:
+    numbers = iter(range(len(wheels)))
+    values = {}
+    for wheel in sorted(wheels, key=len, reverse=True):
+        name = f"Z{next(numbers)}"
+        values[name] = wheels[wheel]
+        text = text.replace(f"z[{wheel}]", name)
+        text = re.sub(rf"z_{re.escape(wheel)}(?!\w)", name, text)
+    text = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text).replace("^", "**")
+    text = re.sub(r"(?<![\w*])(\d+)(?!\w)", r"F(\1)", text)
+    found = eval(text, {"F": Fraction, **values})  # written by the test itself, of names and signs
+    return Fraction(found)
+
+
+@pytest.mark.parametrize("name", ["wolfrom-175", "simpson-set", "zf-8hp70", "price-1974", "humpage", "freeth-2008"])
+def test_elasticities_are_the_derivatives_that_sympy_takes(name: str) -> None:
+    train = load(name)
+    for formula in train.formulas(train.state_or_first(None)):
+        for share in formula.shares:
+            expression = share.ratio.sympy()
+            for symbol in expression.free_symbols:
+                found = share.ratio.elasticity(symbol.name.removeprefix("z_"))
+                wanted = symbol / expression * sympy.diff(expression, symbol)
+                assert sympy.simplify(found.sympy() - wanted) == 0
+
+
+def test_elasticities_of_a_ratio_sum_to_nothing() -> None:
+    """Twice as many teeth everywhere change no ratio (Euler's theorem)."""
+    for name in ("wolfrom-175", "gm-4t60", "price-1974", "ravigneaux-set", "longcase-clock"):
+        train = load(name)
+        for formula in train.formulas(train.state_or_first(None)):
+            for share in formula.shares:
+                values = [share.ratio.elasticity(wheel).value for wheel in share.ratio.formula.wheels]
+                assert sum(value for value in values if value is not None) == 0
+
+
+def test_where_a_train_locks_is_said_in_counts() -> None:
+    """The 8HP in reverse: no ratio where z_r3 z_r4 = z_s3 z_s4, since then it has none."""
+    (formula,) = load("zf-8hp70").formulas("R")
+    assert formula.poles == ("z_r4 z_r3 = z_s3 z_s4",)
+
+
+def test_a_loop_says_what_it_needs() -> None:
+    """Three planets declared one by one need equal counts on both sides of each, which all have."""
+    formula = load("four-gear-loop").formula("c")
+    assert formula.ratio.text == "z_a20/z_c40"
+
+
+def test_an_output_that_is_not_there_or_not_determined_is_refused_in_words() -> None:
+    with pytest.raises(GearTrainError, match="no output 'carier'"):
+        load("planetary-24-18-60").formula("carier")
+    free = declared(PLANETARY + "inputs: {sun: 1}\noutputs: {carrier: {}}\n")
+    with pytest.raises(GearTrainError, match="inputs do not determine"):
+        free.formula("carrier")
+
+
+MONOMIALS = st.tuples(st.integers(0, 2), st.integers(0, 2))
+
+
+@st.composite
+def apart(draw: st.DrawFn) -> list[Laurent]:
+    """Polynomials of two variables each, none in common."""
+    found = []
+    for at in range(draw(st.integers(1, 3))):
+        terms = draw(st.dictionaries(MONOMIALS, st.integers(-4, 4).filter(bool), min_size=1, max_size=4))
+        spread = {(0,) * 2 * at + powers + (0,) * (4 - 2 * at): Fraction(value) for powers, value in terms.items()}
+        found.append(Laurent(6, spread))
+    return found
+
+
+@settings(deadline=None)
+@given(apart())
+def test_factors_without_a_variable_in_common_are_found(parts: list[Laurent]) -> None:
+    whole = product(parts, 6)
+    point = [7, 11, 13, 17, 19, 23]
+    found = FactoredPolynomial.of(whole.sorted_terms(), point)
+    sums = [Laurent.of(terms, 6) for terms in found.sums]
+    powers = Laurent(6, {found.powers: Fraction(found.content)})
+    assert product([powers, *sums], 6) == whole
+    used = [{at for powers in each.terms for at, power in enumerate(powers) if power} for each in sums]
+    assert sum(map(len, used)) == len(set().union(*used)), "no variable stands in two of them"
+    long = sum(len(part.primitive()) > 1 for part in parts)
+    assert len(sums) >= long, "none of those that were put in is left in another"

@@ -10,6 +10,8 @@ from geartrain.analysis.train_strength import TrainUnderLoad
 from geartrain.train import declare
 
 if TYPE_CHECKING:
+    from geartrain.analysis.gear_series import GearSearch
+    from geartrain.analysis.gearbox import Gearbox
     from geartrain.kinematics.graph import Graph
     from geartrain.kinematics.phasing import MeshPhasing
 
@@ -100,3 +102,69 @@ class GearTrain(TrainUnderLoad):
 
         plays = {mesh.name: mesh.play for mesh in self._teeth}
         return find_phasing(self.declaration, self.tree, self.circuits, plays)
+
+    def gearbox(self, output: str | None = None) -> Gearbox:
+        """All states of a train with clutches: ratios, steps, speeds, slip and torques of elements, circulating power.
+
+        Parameters
+        ----------
+        output : str, optional
+            One of the declared outputs, by default the first that is not the input.
+
+        Returns
+        -------
+        Gearbox
+            A state that is free or locked is one like others: neutral, and park.
+
+        Raises
+        ------
+        QuestionError
+            For a train that declares no clutches, no states, or no input that turns.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> box = geartrain.load("zf-8hp70").gearbox()
+        >>> round(float(box.spread), 3), box.states[0].engaged, [shift for shift in box.shifts if shift.is_double]
+        (7.043, ('A', 'B', 'C'), [])
+        """
+        from geartrain.analysis.gearbox import find_gearbox
+
+        return find_gearbox(self, output)
+
+    def gear_search(
+        self, output: str | None = None, gears: int = 0, steps: tuple[float, float] = (1.05, 2.0), single: bool = False
+    ) -> GearSearch:
+        """Every gear that closing elements gives, declared or not, and series of gears.
+
+        Parameters
+        ----------
+        output : str, optional
+            One of the declared outputs, by default the first that is not the input.
+        gears : int
+            Forward gears of a series; below 2 none is looked for.
+        steps : tuple of float
+            Least and greatest ratio of a gear over the next.
+        single : bool
+            Only shifts in which one element opens and one closes.
+
+        Returns
+        -------
+        GearSearch
+            Complete and exact: all ways to close as many elements as are needed, and no more.
+
+        Raises
+        ------
+        QuestionError
+            As of `gearbox`, and where there are too many ways.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> found = geartrain.load("simpson-set").gear_search(gears=3, steps=(1.4, 1.8))
+        >>> [round(float(ratio), 3) for ratio in found.evenest.ratios]
+        [2.455, 1.455, 1.0]
+        """
+        from geartrain.analysis.gear_series import find_gears
+
+        return find_gears(self, output, gears, steps, single)

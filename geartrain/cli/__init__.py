@@ -31,6 +31,7 @@ class VerbGroup(EndingGroup, LazyGroup):
                 "solve",
                 "equations",
                 "formula",
+                "gearbox",
                 "graph",
                 "torques",
                 "strength",

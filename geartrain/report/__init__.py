@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from geartrain.report.formula_report import FormulaReport as FormulaReport
     from geartrain.report.formula_report import collect_formulas as collect_formulas
     from geartrain.report.formula_report import describe_formulas as describe_formulas
+    from geartrain.report.gearbox_report import describe_gear_search as describe_gear_search
+    from geartrain.report.gearbox_report import describe_gearbox as describe_gearbox
     from geartrain.report.html_page import to_html as to_html
     from geartrain.report.json_schema import answer_schema as answer_schema
     from geartrain.report.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
@@ -53,6 +55,7 @@ _PLACES = {
     **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
     **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
     **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
+    **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
     **dict.fromkeys(("StrengthReport", "collect_strength_report", "describe_strength"), "strength_report"),
     **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time_report"),
     **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
@@ -90,6 +93,8 @@ __all__ = [
     "describe_budget",
     "describe_comparison",
     "describe_formulas",
+    "describe_gear_search",
+    "describe_gearbox",
     "describe_monte_carlo",
     "describe_motion",
     "describe_posterior",

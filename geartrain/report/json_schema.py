@@ -34,6 +34,8 @@ def answers() -> dict[str, Schema]:
 
 
 def _of_trains() -> dict[str, Schema]:
+    from geartrain.analysis.gear_series import GearSearch
+    from geartrain.analysis.gearbox import Gearbox
     from geartrain.numerics.labelled_array import LabelledArray
     from geartrain.report.accuracy_report import AccuracyReport
     from geartrain.report.formula_report import FormulaReport
@@ -53,6 +55,8 @@ def _of_trains() -> dict[str, Schema]:
         "report": _list(report),
         "compare": _list(report),
         "formula": shape_of(FormulaReport),
+        "gearbox": shape_of(Gearbox),
+        "gearbox --search": shape_of(GearSearch),
         "torques": shape_of(TorqueReport),
         "strength": shape_of(StrengthReport),
         "motion": shape_of(MotionFigures),

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 from math import degrees
 
 from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis.gearbox import Gearbox
+from geartrain.errors import GearTrainError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE
@@ -16,6 +19,7 @@ from geartrain.report.answers import answer_sections, doubtful_wheels, expectati
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
 from geartrain.report.formula_report import formula_section
 from geartrain.report.gear_pairs import teeth_sections
+from geartrain.report.gearbox_report import gearbox_sections
 from geartrain.report.graph_tables import adjacency_table
 from geartrain.report.motion_report import moving_sections
 from geartrain.report.torque_report import loaded_sections
@@ -59,10 +63,15 @@ def describe_train(found: TrainReport) -> Document:
     if train.remarks:
         notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
         sections.append(Section("Remarks", notes))
-    if train.states:
+    box = _gearbox(train)
+    if box is not None:
+        sections += gearbox_sections(box)
+    elif train.states:
         sections.append(shift_table(train, answers))
     for answer in answers:
-        sections += answer_sections(train, answer)
+        told = answer_sections(train, answer)
+        # a gearbox has all speeds in one table
+        sections += told if box is None or not answer.verdict else islice(told, 1, None)
         sections += formula_section(train, answer.state)
     sections += teeth_sections(train, found.teeth)
     sections += loaded_sections(found.torques)
@@ -76,6 +85,14 @@ def describe_train(found: TrainReport) -> Document:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         sections.append(Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),)))
     return Document(declared.title or declared.name, tuple(_lead(train, answers)), tuple(sections))
+
+
+def _gearbox(train: GearTrain) -> Gearbox | None:
+    """The train as a gearbox, where it is one."""
+    try:
+        return train.gearbox() if train.declaration.clutches and train.states else None
+    except GearTrainError:
+        return None
 
 
 def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:

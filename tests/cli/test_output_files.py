@@ -39,6 +39,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("solve", "-o"): (("solve", "worm"), (".txt", "")),
     ("equations", "-o"): (("equations", "worm"), (".txt",)),
     ("formula", "-o"): (("formula", "worm"), (".md", ".html", ".json")),
+    ("gearbox", "-o"): (("gearbox", "simpson-set"), (".md", ".html", ".json")),
     ("graph", "-o"): (("graph", "worm"), (".md", ".dot", ".graphml", ".json")),
     ("torques", "-o"): (("torques", "worm"), (".md", ".json")),
     ("strength", "-o"): (("strength", "worm"), (".md", ".json")),

@@ -121,6 +121,12 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
         ("dynamics", "heavy.yaml", *IN_TIME, "--restitution", "0.3"),
         ("dynamics", "worm", *IN_TIME),
     ],
+    "gearbox": [("gearbox", "zf-8hp70"), ("gearbox", "simpson-set")],
+    "gearbox --search": [
+        ("gearbox", "zf-8hp70", "--search"),
+        ("gearbox", "zf-8hp70", "--gears", "8"),
+        ("gearbox", "gm-4t60", "--gears", "9"),
+    ],
     "formula": [("formula", "prius-power-split", "--sensitivities"), ("formula", "freeth-2008")],
     "strength": [
         ("strength", "longcase-clock-loaded"),

@@ -1,0 +1,267 @@
+"""All gears that a gearbox has, whichever elements are closed, and series of them by their steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from math import comb, log, sqrt
+from typing import TYPE_CHECKING
+
+from geartrain.analysis.gearbox import gearbox_ends
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.train import State
+
+if TYPE_CHECKING:
+    from geartrain.analysis.train_strength import TrainUnderLoad
+
+MOST_COMBINATIONS = 20_000
+_JOINER = "+"
+_FIGURES = 12  # digits past the point to which sums of squares are compared
+
+
+@dataclass(frozen=True)
+class PossibleGear(Result):
+    """What closing some elements gives.
+
+    Attributes
+    ----------
+    engaged : tuple of str
+        Elements that are closed, in the order declared.
+    ratio : Fraction or None
+        Input over output; None where the output stands still.
+    states : tuple of str
+        Declared states in which just these are closed.
+    """
+
+    engaged: tuple[str, ...]
+    ratio: Fraction | None
+    states: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class GearSeries(Result):
+    """Forward gears, from the lowest.
+
+    Attributes
+    ----------
+    gears : tuple of PossibleGear
+        Ratios fall.
+    """
+
+    KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
+
+    gears: tuple[PossibleGear, ...]
+
+    @property
+    def ratios(self) -> tuple[Fraction, ...]:
+        """Input over output."""
+        return tuple(each.ratio for each in self.gears if each.ratio is not None)
+
+    @property
+    def steps(self) -> tuple[Fraction, ...]:
+        """Each ratio over the next."""
+        return tuple(a / b for a, b in zip(self.ratios, self.ratios[1:], strict=False))
+
+    @property
+    def spread(self) -> Fraction:
+        """The first ratio over the last."""
+        return self.ratios[0] / self.ratios[-1]
+
+    @property
+    def deviation(self) -> float:
+        """How uneven the steps are: standard deviation of their logarithms."""
+        logs = [log(step) for step in self.steps]
+        mean = sum(logs) / len(logs)
+        return sqrt(sum((each - mean) ** 2 for each in logs) / len(logs))
+
+    @property
+    def double_shifts(self) -> int:
+        """Shifts in which more than one element opens, or closes."""
+        return sum(not _is_single(a, b) for a, b in zip(self.gears, self.gears[1:], strict=False))
+
+
+@dataclass(frozen=True)
+class GearSearch(Result):
+    """All gears of a gearbox, and the series asked for.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the train.
+    input, output : str
+        The links between which ratios are.
+    closed : int
+        How many elements must be closed for the inputs to determine all speeds.
+    combinations : int
+        Ways to close so many.
+    gears : tuple of PossibleGear
+        Those that determine the output and let it turn, or hold it; forward from the lowest, backward, held.
+    asked : int
+        Gears of the series asked for; 0 where none was.
+    series : int
+        How many series there are with all steps inside the window, shifts as asked; 0 where none was asked for.
+    widest, evenest : GearSeries or None
+        Of these, one with the greatest spread, and one whose steps differ least.
+
+    See Also
+    --------
+    geartrain.GearTrain.gear_search : gives it.
+    """
+
+    KEYS = (
+        *("name", "title", "input", "output", "closed", "combinations"),
+        *("gears", "asked", "series", "widest", "evenest"),
+    )
+
+    name: str
+    title: str
+    input: str
+    output: str
+    closed: int
+    combinations: int
+    gears: tuple[PossibleGear, ...]
+    asked: int = 0
+    series: int = 0
+    widest: GearSeries | None = None
+    evenest: GearSeries | None = None
+
+
+def find_gears(
+    train: TrainUnderLoad, output: str | None, number: int, steps: tuple[float, float], single: bool
+) -> GearSearch:
+    """All gears and, for a number of gears above 1, series of them; see `GearTrain.gear_search`."""
+    source, link = gearbox_ends(train, output)
+    closed, every = _all_gears(train, source, link)
+    forward = sorted((each for each in every if each.ratio is not None and each.ratio > 0), key=_falling)
+    backward = sorted((each for each in every if each.ratio is not None and each.ratio < 0), key=_falling)
+    still = [each for each in every if each.ratio is None]
+    gears = (*forward, *backward, *still)
+    ways = comb(len(train.declaration.clutches), closed)
+    title = train.declaration.title
+    if number < 2:
+        return GearSearch(train.name, title, source, link, closed, ways, gears)
+    low, high = (Fraction(str(step)) for step in steps)
+    links = _links(forward, low, high, single)
+    widest, evenest = _widest(forward, links, number), _evenest(forward, links, number)
+    count = _count(forward, links, number)
+    return GearSearch(train.name, title, source, link, closed, ways, gears, number, count, widest, evenest)
+
+
+def _falling(gear: PossibleGear) -> Fraction:
+    assert gear.ratio is not None
+    return -abs(gear.ratio)
+
+
+def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
+    return len({*one.engaged} - {*other.engaged}) <= 1 and len({*other.engaged} - {*one.engaged}) <= 1
+
+
+def _all_gears(train: TrainUnderLoad, source: str, link: str) -> tuple[int, list[PossibleGear]]:
+    """How many elements are closed at once, and every gear with so many.
+
+    All sets of rows that just suffice have one size, for they are the bases of a matroid.
+    """
+    elements = tuple(train.declaration.clutches)
+    names: dict[frozenset[str], list[str]] = {}
+    for name, state in train.declaration.states.items():
+        names.setdefault(frozenset(state.engaged), []).append(name)
+    for size in range(len(elements) + 1):
+        if comb(len(elements), size) > MOST_COMBINATIONS:
+            what = f"{comb(len(elements), size):,} ways to close {size} of {len(elements)} elements"
+            why = f"more than {MOST_COMBINATIONS:,} are too many"
+            raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
+        found = list(_with_closed(train, list(combinations(elements, size)), source, link, names))
+        if found:
+            return size, found
+    return len(elements), []
+
+
+def _with_closed(
+    train: TrainUnderLoad,
+    choices: Sequence[tuple[str, ...]],
+    source: str,
+    link: str,
+    names: Mapping[frozenset[str], Sequence[str]],
+) -> Iterator[PossibleGear]:
+    first = next(iter(train.declaration.states.values()))
+    states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}
+    tried = type(train)(train.declaration.model_copy(update={"states": states}))
+    for choice, answer in zip(choices, tried.answers(), strict=True):
+        drive, out = answer.speeds.get(source), answer.speeds.get(link)
+        if answer.verdict and drive and out is not None:
+            ratio = Fraction(drive) / Fraction(out) if out else None
+            yield PossibleGear(choice, ratio, tuple(names.get(frozenset(choice), ())))
+
+
+# ------------------------------------------------------------------------------------------------- series, as paths
+
+Links = Mapping[int, Sequence[int]]
+"""By gear, those that may come next."""
+
+
+def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single: bool) -> Links:
+    ratios = [each.ratio or Fraction(0) for each in gears]
+    return {
+        at: [
+            to
+            for to in range(at + 1, len(gears))
+            if low <= ratios[at] / ratios[to] <= high and ratios[at] > ratios[to]
+            if not single or _is_single(gears[at], gears[to])
+        ]
+        for at in range(len(gears))
+    }
+
+
+def _count(gears: Sequence[PossibleGear], links: Links, number: int) -> int:
+    ways = [1] * len(gears)
+    for _ in range(number - 1):
+        ways = [sum(ways[to] for to in links[at]) for at in range(len(gears))]
+    return sum(ways)
+
+
+def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
+    """Backwards from the ends: by gear and length, the way on that ends with the least ratio."""
+    ratios = [each.ratio or Fraction(0) for each in gears]
+    best: list[tuple[Fraction, tuple[int, ...]] | None] = [(ratio, (at,)) for at, ratio in enumerate(ratios)]
+    for _ in range(number - 1):
+        best = [
+            min(((end, (at, *way)) for to in links[at] for end, way in filter(None, [best[to]])), default=None)
+            for at in range(len(gears))
+        ]
+    found = [(ratios[way[0]] / end, way) for end, way in filter(None, best)]
+    return None if not found else GearSeries(tuple(gears[at] for at in max(found, key=lambda each: each[0])[1]))
+
+
+def _evenest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
+    """By ends: between two of them the mean step is given, so that the least sum of squares of steps is most even."""
+    logs = [log(each.ratio or 1) for each in gears]
+    best: tuple[float, int, tuple[int, ...]] | None = None
+    for start in range(len(gears)):
+        for end, (sum_, double, way) in _evenest_from(start, gears, links, number, logs).items():
+            mean = (logs[start] - logs[end]) / (number - 1)
+            found = round(max(sum_ / (number - 1) - mean**2, 0.0), _FIGURES), double, way
+            best = found if best is None or found < best else best
+    return None if best is None else GearSeries(tuple(gears[at] for at in best[-1]))
+
+
+_Way = tuple[float, int, tuple[int, ...]]
+
+
+def _evenest_from(
+    start: int, gears: Sequence[PossibleGear], links: Links, number: int, logs: Sequence[float]
+) -> dict[int, _Way]:
+    """By end, the way with the least sum of squares; of equal ones that with the fewest double shifts."""
+    reach: dict[int, _Way] = {start: (0.0, 0, (start,))}
+    for _ in range(number - 1):
+        after: dict[int, _Way] = {}
+        for at, (sum_, double, way) in reach.items():
+            for to in links[at]:
+                more = not _is_single(gears[at], gears[to])
+                new = round(sum_ + (logs[at] - logs[to]) ** 2, _FIGURES), double + more, (*way, to)
+                after[to] = min(after.get(to, new), new)
+        reach = after
+    return reach

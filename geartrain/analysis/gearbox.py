@@ -1,0 +1,311 @@
+"""Gearboxes: all states of a train with clutches side by side, as an engineer lays them out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal
+
+from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, find_circulation
+from geartrain.errors import Problem, QuestionError, check_choice
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.graphs import joined_groups
+from geartrain.numerics.plain_data import Key, Result
+
+if TYPE_CHECKING:
+    from geartrain.analysis.train_strength import TrainUnderLoad
+    from geartrain.dynamics import Torques
+    from geartrain.dynamics.torques.power_flow import PowerFlow
+    from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.verdict import Verdict
+    from geartrain.train import Clutch
+
+ElementKind = Literal["brake", "clutch"]
+
+
+@dataclass(frozen=True)
+class GearState(Result):
+    """One state of a gearbox.
+
+    Attributes
+    ----------
+    state : str
+        Its name.
+    engaged : tuple of str
+        Elements that are closed.
+    verdict : Verdict
+        Neutral is free, park is locked.
+    ratio : Fraction or None
+        Input over output; None where the output stands still or is not determined.
+    step : Fraction or None
+        This ratio over that of the next state; None where one of them runs backwards.
+    speeds : mapping of str to Fraction
+        Of links, over the input's.
+    slips : mapping of str to Fraction
+        By open element, speed of the link it fixes, or of the first it locks seen from the second, over the input's.
+    torques : mapping of str to Fraction or None
+        By closed element, what it exerts on the link it fixes, or on the first it locks, over the input's torque; None
+        where statics leaves it open.
+    efficiency : Fraction or None
+        Power out over power in.
+    recirculating : Fraction or None
+        Power that runs round between gear sets, over power in.
+    inner : Fraction or None
+        The same inside gear sets, where a carrier runs free.
+    """
+
+    KEYS = (
+        "state",
+        "engaged",
+        "verdict",
+        "ratio",
+        Key("step", to=as_float),
+        "speeds",
+        "slips",
+        Key("torques", to=as_float),
+        Key("efficiency", to=as_float),
+        Key("recirculating", to=as_float),
+        Key("inner", to=as_float),
+    )
+
+    state: str
+    engaged: tuple[str, ...]
+    verdict: Verdict
+    ratio: Fraction | None
+    step: Fraction | None
+    speeds: Mapping[str, Fraction]
+    slips: Mapping[str, Fraction]
+    torques: Mapping[str, Fraction | None]
+    efficiency: Fraction | None
+    recirculating: Fraction | None
+    inner: Fraction | None
+
+
+@dataclass(frozen=True)
+class Shift(Result):
+    """From one state to the next.
+
+    Attributes
+    ----------
+    before, after : str
+        The states.
+    released, applied : tuple of str
+        Elements that open, and that close.
+    """
+
+    KEYS = ("before", "after", "released", "applied", "is_double")
+
+    before: str
+    after: str
+    released: tuple[str, ...]
+    applied: tuple[str, ...]
+
+    @property
+    def is_double(self) -> bool:
+        """Whether more than one element must open, or more than one close: a double-transition shift."""
+        return max(len(self.released), len(self.applied)) > 1
+
+
+@dataclass(frozen=True)
+class ShiftElement(Result):
+    """A clutch or a brake over all states.
+
+    Attributes
+    ----------
+    name, kind : str
+        Its name; brake or clutch.
+    states : tuple of str
+        In which it is closed.
+    torque, torque_state : Fraction or None, str
+        Greatest torque over that of the input, and where.
+    slip, slip_state : Fraction or None, str
+        Greatest speed over that of the input while it is open, and where.
+    """
+
+    KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
+
+    name: str
+    kind: ElementKind
+    states: tuple[str, ...]
+    torque: Fraction | None
+    torque_state: str
+    slip: Fraction | None
+    slip_state: str
+
+
+@dataclass(frozen=True)
+class Gearbox(Result):
+    """All states of a train with clutches.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the train.
+    input, output : str
+        The links between which it is a gearbox.
+    states : tuple of GearState
+        In the order declared.
+    elements : tuple of ShiftElement
+        In the order declared.
+    shifts : tuple of Shift
+        From each state to the next that runs the same way round.
+
+    See Also
+    --------
+    geartrain.GearTrain.gearbox : gives it.
+    """
+
+    KEYS = ("name", "title", "input", "output", Key("spread", to=as_float), "states", "elements", "shifts")
+
+    name: str
+    title: str
+    input: str
+    output: str
+    states: tuple[GearState, ...]
+    elements: tuple[ShiftElement, ...]
+    shifts: tuple[Shift, ...]
+
+    @property
+    def spread(self) -> Fraction | None:
+        """Greatest over least ratio of the forward states."""
+        ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
+        return max(ratios) / min(ratios) if ratios else None
+
+
+def find_gearbox(train: TrainUnderLoad, output: str | None = None) -> Gearbox:
+    """All states of a train with clutches; see `GearTrain.gearbox`."""
+    source, link = gearbox_ends(train, output)
+    answers = [train.solve(name) for name in train.states]
+    found = [_state(train, answer, source, link) for answer in answers]
+    states = (_with_step(one, other) for one, other in zip(found, [*found[1:], None], strict=True))
+    elements, shifts = tuple(_elements(train, found)), tuple(_shifts(found))
+    return Gearbox(train.name, train.declaration.title, source, link, tuple(states), elements, shifts)
+
+
+def gearbox_ends(train: TrainUnderLoad, output: str | None) -> tuple[str, str]:
+    """The links at which power enters and leaves. Raises `QuestionError` for a train that is no gearbox."""
+    if not train.declaration.clutches or not train.states:
+        what, why = f"'{train.name}' is no gearbox", "it declares no `clutches` with `states` that engage them"
+        raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with what is `engaged`"))
+    case = train.declaration.case(train.states[0])
+    source = next((link for link, speed in case.inputs.items() if speed), None)
+    if source is None:
+        raise QuestionError(
+            Problem(f"'{train.name}' has no input that turns", "ratios are over it", "declare `inputs`")
+        )
+    names = [name for name, each in case.outputs.items() if each.links(name, train.declaration.frame)[0] != source]
+    if output is None and not names:
+        raise QuestionError(Problem(f"'{train.name}' has no output", "ratios are those of one", "declare `outputs`"))
+    if output is not None:
+        check_choice("output", output, case.outputs)
+    name = output or names[0]
+    return source, case.outputs[name].links(name, train.declaration.frame)[0]
+
+
+def _state(train: TrainUnderLoad, answer: Answer, source: str, link: str) -> GearState:
+    declared, state = train.declaration, answer.state or ""
+    engaged, drive = declared.states[state].engaged, answer.speeds.get(source)
+    speeds = {name: Fraction(speed) / Fraction(drive) for name, speed in answer.speeds.items()} if drive else {}
+    slips = {
+        name: slip
+        for name, clutch in declared.clutches.items()
+        if name not in engaged and (slip := _slip(speeds, clutch)) is not None
+    }
+    out, load = speeds.get(link), _load(train, state, source, link) if answer.verdict else None
+    power = None if load is None else _circulation(train, load)
+    return GearState(
+        state,
+        engaged,
+        answer.verdict,
+        1 / out if out else None,
+        None,
+        speeds,
+        slips,
+        {} if load is None else _torques(load, source, engaged),
+        None if load is None else load.efficiency,
+        *(power or (None, None)),
+    )
+
+
+def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
+    """Of what an element would hold still: a link to the frame, or one of two coaxial links to the other."""
+    one, other = clutch.locks or (clutch.fixes or "", "")
+    if one not in speeds or (other and other not in speeds):
+        return None
+    return speeds[one] - (speeds[other] if other else 0)
+
+
+def _load(train: TrainUnderLoad, state: str, source: str, link: str) -> Torques | None:
+    """Torques while the train is driven from its input and a unit of power leaves at the output."""
+    found = train.driven(link, source, state)
+    return found if found.verdict and found.external.get(source) else None
+
+
+def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fraction | None]:
+    drive = load.external[source]
+    held = {each.clutch: each.torques for each in load.held if each.clutch is not None}
+    return {
+        name: None if (torques := held.get(name)) is None else torques[0] / drive for name in engaged if name in held
+    }
+
+
+def _circulation(train: TrainUnderLoad, load: Torques) -> tuple[Fraction, Fraction] | None:
+    """Power that runs round between gear sets, and inside them, over power in."""
+    flow = train.power_flow(load)
+    if not flow.power_in:
+        return None
+    whole = sum((loop.power for loop in flow.loops), Fraction(0))
+    _, loops = find_circulation(_between_sets(load, flow), flow.power_in)
+    between = sum((loop.power for loop in loops), Fraction(0))
+    return between / flow.power_in, max(whole - between, Fraction(0)) / flow.power_in
+
+
+def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
+    """Streams with all pairs of a gear set as one node: pairs with one carrier that share a link beside it."""
+    sets: dict[str, str] = {}
+    for carrier in dict.fromkeys(pair.links[2] for pair in load.pairs.values()):
+        own = {name: pair.links[:2] for name, pair in load.pairs.items() if pair.links[2] == carrier}
+        links = dict.fromkeys(link for ends in own.values() for link in ends)
+        for group in joined_groups(links, own.values()):
+            sets |= {name: f"{carrier}: {group[0]}" for name, ends in own.items() if ends[0] in group}
+
+    def node(end: PowerNode) -> PowerNode:
+        return end._replace(name=sets[end.name]) if end.kind == "pair" else end
+
+    net: dict[tuple[PowerNode, PowerNode], Fraction] = {}
+    for stream in flow.streams:
+        ends = node(stream.source), node(stream.target)
+        net[ends] = net.get(ends, Fraction(0)) + stream.power - net.pop(ends[::-1], Fraction(0))
+    directed = ((ends, power) if power > 0 else (ends[::-1], -power) for ends, power in net.items() if power)
+    return [PowerStream(source, target, power) for (source, target), power in directed]
+
+
+def _with_step(state: GearState, following: GearState | None) -> GearState:
+    if following is None or state.ratio is None or following.ratio is None or state.ratio * following.ratio < 0:
+        return state
+    return replace(state, step=state.ratio / following.ratio)
+
+
+def _shifts(states: Sequence[GearState]) -> Iterator[Shift]:
+    running = [each for each in states if each.ratio is not None]
+    for one, other in pairwise(running):
+        if one.ratio is not None and other.ratio is not None and one.ratio * other.ratio > 0:
+            released = tuple(name for name in one.engaged if name not in other.engaged)
+            applied = tuple(name for name in other.engaged if name not in one.engaged)
+            yield Shift(one.state, other.state, released, applied)
+
+
+def _elements(train: TrainUnderLoad, states: Sequence[GearState]) -> Iterator[ShiftElement]:
+    for name, clutch in train.declaration.clutches.items():
+        closed = tuple(each.state for each in states if name in each.engaged)
+        torque, at = _greatest((each.state, each.torques.get(name)) for each in states)
+        slip, where = _greatest((each.state, each.slips.get(name)) for each in states)
+        kind: ElementKind = "brake" if clutch.fixes is not None else "clutch"
+        yield ShiftElement(name, kind, closed, torque, at, slip, where)
+
+
+def _greatest(values: Iterable[tuple[str, Fraction | None]]) -> tuple[Fraction | None, str]:
+    known = [(value, state) for state, value in values if value is not None]
+    return max(known, key=lambda each: abs(each[0]), default=(None, ""))

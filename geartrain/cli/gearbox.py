@@ -1,0 +1,44 @@
+"""`geartrain gearbox`: all states of a train with clutches in one table, and all gears that there are."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, give, sink
+
+
+def run(
+    file: File,
+    output: Annotated[
+        str | None, typer.Option("--output", help="The output, by default the first that is not the input.")
+    ] = None,
+    search: Annotated[
+        bool, typer.Option("--search", help="Try every way to close as many elements as are needed.")
+    ] = False,
+    gears: Annotated[int, typer.Option("--gears", min=0, help="With --search: series of so many forward gears.")] = 0,
+    steps: Annotated[tuple[float, float], typer.Option("--steps", help="Least and greatest step of such a series.")] = (
+        1.05,
+        2.0,
+    ),
+    single: Annotated[
+        bool, typer.Option("--single", help="Only shifts in which one element opens and one closes.")
+    ] = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Ratios, steps, speeds, slip, torques of clutches and brakes, and circulating power, state by state."""
+    from geartrain.analysis.loader import load
+    from geartrain.report.gearbox_report import describe_gear_search, describe_gearbox
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    train = load(file)
+    if search or gears:
+        found = train.gear_search(output, gears, steps, single)
+        give(to, json, lambda: found, lambda: [describe_gear_search(found)])
+        raise typer.Exit(GOOD if found.gears and (gears < 2 or found.series) else VERDICT)
+    box = train.gearbox(output)
+    give(to, json, lambda: box, lambda: [describe_gearbox(box)])
+    raise typer.Exit(GOOD if all(train.solve(name) for name in train.states) else VERDICT)

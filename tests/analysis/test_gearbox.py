@@ -1,0 +1,131 @@
+"""Gearboxes: published ratios, balance of torques and powers, and every gear that closing elements gives."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import combinations, pairwise
+
+import pytest
+from shipped import train as load
+
+from geartrain import GearTrain
+from geartrain.errors import GearTrainError
+from geartrain.train import State
+
+PUBLISHED = {
+    "zf-8hp70": ([4.6957, 3.1304, 2.1039, 1.6667, 1.2845, 1.0, 0.8392, 0.6667], [-3.2968], 4),
+    "gm-4t60": ([2.921, 1.568, 1.0, 0.705], [-2.385], 3),
+    "simpson-set": ([2.45, 1.45, 1.0], [-2.2], 2),
+    "ravigneaux-set": ([2.4, 1.47, 1.0, 0.67], [-2.0], 2),
+}
+"""Forward and reverse ratios as printed, and the digits past the point."""
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_ratios_and_steps_are_the_published_ones(name: str) -> None:
+    forward, backward, digits = PUBLISHED[name]
+    box = load(name).gearbox()
+    found = [each.ratio for each in box.states if each.ratio is not None]
+    assert sorted(found, reverse=True) == pytest.approx([*forward, *backward], abs=0.6 * 10**-digits)
+    one_way = [each for each in box.states if each.ratio is not None and each.ratio > 0]
+    for one, other in pairwise(one_way):
+        assert one.ratio is not None
+        assert other.ratio is not None
+        assert one.step == one.ratio / other.ratio
+    assert box.spread == max(found) / min(each for each in found if each > 0)
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_torques_of_input_output_and_brakes_balance(name: str) -> None:
+    """The whole train stands still: what goes in, what comes out and what brakes hold add up to nothing."""
+    train = load(name)
+    box = train.gearbox()
+    brakes = {each.name for each in box.elements if each.kind == "brake"}
+    for state in box.states:
+        assert state.ratio is not None
+        held = [torque for element, torque in state.torques.items() if element in brakes]
+        assert all(torque is not None for torque in held)
+        assert 1 - state.ratio + sum(torque or 0 for torque in held) == 0, "no losses are declared"
+        assert state.efficiency == 1
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_the_power_of_clutches_balances_the_links_they_join(name: str) -> None:
+    """A closed element slips not, and an open one has a slip that is the difference of the links' speeds."""
+    train = load(name)
+    for state in train.gearbox().states:
+        for element, clutch in train.declaration.clutches.items():
+            one, other = clutch.locks or (clutch.fixes, None)
+            slip = state.speeds[one or ""] - (state.speeds[other] if other else 0)
+            assert (slip == 0) if element in state.engaged else (state.slips[element] == slip)
+
+
+def test_a_simpson_set_in_low_gear_bears_what_textbooks_say() -> None:
+    """11/27 in first: the low brake holds the ratio less one, the forward clutch all of the input's torque."""
+    box = load("simpson-set").gearbox()
+    assert box.states[0].torques == {"forward": Fraction(-1), "low": Fraction(27, 11) - 1}
+
+
+def test_a_positive_recirculation_is_between_sets_and_not_inside_them() -> None:
+    """In reverse the 8HP feeds half of the power back; a single planetary set has none to feed."""
+    states = {each.state: each for each in load("zf-8hp70").gearbox().states}
+    assert states["R"].recirculating is not None
+    assert states["R"].recirculating > Fraction(1, 2)
+    assert all(each.recirculating == 0 for name, each in states.items() if name != "R")
+    assert all(each.recirculating == 0 for each in load("ravigneaux-set").gearbox().states)
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_a_search_finds_what_solving_every_combination_finds(name: str) -> None:
+    """Held against states declared one by one, of every size: fewer leave it free, more hold it or say no more."""
+    train = load(name)
+    found = train.gear_search()
+    elements = list(train.declaration.clutches)
+    wanted = {}
+    for size in range(found.closed + 1):
+        for engaged in combinations(elements, size):
+            states = {"tried": State(engaged=engaged)}
+            answer = GearTrain(train.declaration.model_copy(update={"states": states})).solve()
+            if answer.verdict.kind == "determined":
+                assert size == found.closed
+                out = answer.speeds[found.output]
+                wanted[engaged] = 1 / Fraction(out) if out else None
+    assert {gear.engaged: gear.ratio for gear in found.gears} == wanted
+    declared = {name for gear in found.gears for name in gear.states}
+    assert declared == set(train.states), "the shift table is among them"
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+@pytest.mark.parametrize("single", [False, True])
+def test_series_are_counted_and_chosen_as_by_trying_all(name: str, single: bool) -> None:
+    number, window = len(PUBLISHED[name][0]), (Fraction("1.1"), Fraction("1.9"))
+    train = load(name)
+    found = train.gear_search(gears=number, steps=(1.1, 1.9), single=single)
+    forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
+    every = []
+    for chosen in combinations(forward, number):
+        ratios = [each.ratio or Fraction(0) for each in chosen]
+        steps = [a / b for a, b in pairwise(ratios)]
+        swaps = [len({*a.engaged} ^ {*b.engaged}) for a, b in pairwise(chosen)]
+        if all(window[0] <= step <= window[1] for step in steps) and (not single or max(swaps) <= 2):
+            every.append((ratios[0] / ratios[-1], chosen))
+    assert found.series == len(every) > 0
+    assert found.widest is not None
+    assert found.widest.spread == max(spread for spread, _ in every)
+    assert found.evenest is not None
+    assert found.evenest.deviation == pytest.approx(min(_deviation(each) for _, each in every), abs=1e-6)
+
+
+def _deviation(chosen: tuple[object, ...]) -> float:
+    from math import log
+    from statistics import pstdev
+
+    logs = [log(getattr(each, "ratio", 1)) for each in chosen]
+    return pstdev([a - b for a, b in pairwise(logs)])
+
+
+def test_a_train_without_clutches_is_no_gearbox() -> None:
+    with pytest.raises(GearTrainError, match="is no gearbox"):
+        load("planetary-24-18-60").gearbox()
+    with pytest.raises(GearTrainError, match="no output 'OTU'"):
+        load("zf-8hp70").gearbox("OTU")

@@ -38,7 +38,8 @@ class RowResiduals(TypedDict, total=False):
 class Answer(FrozenFields, Result):
     """What a train does in one state: the solution of its Willis system, equations (4) and (5) of docs/theory.md.
 
-    True if the verdict is `determined` and every expectation holds. `answer[name]` is the speed of an output or a link;
+    True if the verdict is as expected (`determined` unless the state's `expect` says otherwise), and so are all
+    outputs. `answer[name]` is the speed of an output or a link;
     `KeyError` where it is not determined.
 
     Attributes
@@ -67,6 +68,8 @@ class Answer(FrozenFields, Result):
         Circuits that were solved.
     residual : mapping of str to float
         By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; made when read, empty for speeds not found by it.
+    expected : {"determined", "free", "locked"}
+        The verdict that the state's `expect` names.
 
     Examples
     --------
@@ -94,6 +97,7 @@ class Answer(FrozenFields, Result):
     accuracy: Mapping[str, SpeedAccuracy]
     work: int
     residual: Mapping[str, float] = field(default_factory=dict)
+    expected: str = "determined"
 
     def __getitem__(self, name: str) -> SpeedValue:
         """The speed of an output, or of a link."""
@@ -106,11 +110,17 @@ class Answer(FrozenFields, Result):
     @property
     def failures(self) -> tuple[OutputResult, ...]:
         """Outputs whose `expect` or `published` figure does not hold."""
-        return tuple(result for result in self.outputs.values() if not result.holds)
+        results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
+        return tuple(result for result in results if not result.holds)
 
     def __bool__(self) -> bool:
-        """True if determined and every expectation holds."""
-        return bool(self.verdict) and not self.failures
+        """True if the verdict is as expected, and so are all outputs that are determined."""
+        return self.as_expected and not self.failures
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the verdict is the one that the state's `expect` names, by default `determined`."""
+        return self.verdict.kind == self.expected
 
     @property
     def speed_figures(self) -> Mapping[str, SpeedFigures]:

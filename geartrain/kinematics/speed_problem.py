@@ -228,6 +228,7 @@ class SpeedProblem:
             "floats" if ratios is None else "exact",
             {} if accuracy is None else accuracy,
             work,
+            expected=case.expect,
         )
 
     # -------------------------------------------------------------------------------------------- the verdict on a part

@@ -71,7 +71,7 @@ def describe_shared_page(
 def _badge(found: TrainReport) -> tuple[str, bool]:
     """The worst that is to be said of a train, in few words; and whether it is no complaint."""
     train, answers = found.train, found.states
-    wrong = [answer for answer in answers if not answer.verdict]
+    wrong = [answer for answer in answers if not answer.as_expected]
     if wrong:
         kind = wrong[0].verdict.kind
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
@@ -80,7 +80,8 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
     failed = sum(len(answer.failures) for answer in answers)
     if failed:
         return f"{failed} expectation{'' if failed == 1 else 's'} failed", False
-    return "determined", True
+    kinds = dict.fromkeys(answer.verdict.kind for answer in answers)
+    return " or ".join(kinds) + (" as expected" if [*kinds] != ["determined"] else ""), True
 
 
 def _wheels(declared: Train) -> Iterator[Section]:

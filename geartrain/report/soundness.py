@@ -72,8 +72,9 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
     """The verdict if it leaves speeds open, or each figure that does not hold, with its place."""
     state = f" state {answer.state}" if answer.state is not None else ""
-    if not answer.verdict:
-        yield f"{answer.place}:{state} {answer.verdict}"
+    if not answer.as_expected:
+        wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
+        yield f"{answer.place}:{state} {answer.verdict}{wanted}"
         return
     for result in answer.failures:
         own = answer.state is not None and result.name in train.declaration.states[answer.state].outputs

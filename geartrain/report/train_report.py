@@ -105,8 +105,9 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     for answer in answers:
         if not answer.verdict:
             state = f"State {answer.state}: " if answer.state is not None else ""
-            yield f"{state}Verdict: {answer.verdict} ({answer.place})."
-    if all(answer.verdict for answer in answers):
+            told = "as expected, " if answer.as_expected else ""
+            yield f"{state}Verdict: {told}{answer.verdict} ({answer.place})."
+    if all(answer.as_expected for answer in answers) and any(answer.verdict for answer in answers):
         held = expectations_met(answers)
         yield f"Verdict: determined; {held}." if held else "Verdict: determined."
     unit = declared.unit_name

@@ -16,7 +16,7 @@ from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.drives import Drive, Escapement
-from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, Id, Nothing
+from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, ExpectedVerdict, Id, Nothing
 from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import FaceWidth, Material
@@ -109,6 +109,7 @@ class Train(Declared):
     states: ByName[Annotated[State, Nothing]] = Field(
         {}, validate_default=True, description="Ways the train is run, each solved on its own"
     )
+    expect: ExpectedVerdict | None = Field(None, description="The verdict that holds and is no failure, of all states")
     dials: ByName[Annotated[Dial, Nothing]] = Field({}, validate_default=True, description="Dials by name")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="What the train is asked for, by name"
@@ -230,6 +231,7 @@ class Train(Declared):
             solve_for=self.solve_for if own.solve_for is None else own.solve_for,
             exact=all(self._is_exact(speed) for speed in inputs.values()),
             drive=drive,
+            expect=own.expect or self.expect or "determined",
             rate=self.rate if drive is None or drive.rate is None else drive.rate,
         )
 

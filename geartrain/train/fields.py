@@ -26,6 +26,9 @@ MOST_TEETH = 10**12
 Status = Literal["surviving", "reconstructed", "hypothetical"]
 
 
+ExpectedVerdict = Literal["determined", "free", "locked"]
+
+
 class Declared(BaseModel):
     """What all declared parts share: frozen, no unknown keys, numbers welcome as names."""
 

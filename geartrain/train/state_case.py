@@ -10,6 +10,7 @@ from geartrain.errors import Loc
 from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.drives import Drive
+from geartrain.train.fields import ExpectedVerdict
 from geartrain.train.outputs import Output
 
 
@@ -41,6 +42,8 @@ class StateCase:
         What drives the train in time: the state's, the train's, or its `rate`.
     rate : Quantity or None
         Speed of the input in real time, where `drive` or the train's `rate` says it.
+    expect : {"determined", "free", "locked"}
+        The verdict that is no failure.
     exact : bool
         False where radians had to be counted in turns, or turns in radians: to 50 digits then.
     causes : mapping of tuple of str to tuple of str
@@ -66,6 +69,7 @@ class StateCase:
     exact: bool = True
     drive: Drive | None = None
     rate: Quantity | None = None
+    expect: ExpectedVerdict = "determined"
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
 
     def given(self, link: str) -> str:

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Speed, Torque
 from geartrain.train.drives import Drive
-from geartrain.train.fields import ByName, Declared, Id, Nothing
+from geartrain.train.fields import ByName, Declared, ExpectedVerdict, Id, Nothing
 from geartrain.train.outputs import Output
 
 
@@ -52,6 +52,9 @@ class State(Declared):
     drive: Drive | None = Field(None, description="What drives the train in time")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
+    )
+    expect: ExpectedVerdict | None = Field(
+        None, description="The verdict that holds and is no failure: neutral is free"
     )
     note: str | None = Field(None, description="A remark for the reader")
 

@@ -20,7 +20,7 @@ from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredT
 from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import FaceWidth, Material
-from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolute, Source, Thickness, Wheel
+from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Source, Thickness, Wheel
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import period_table
 from geartrain.train.reconstruction import Reconstruction
@@ -59,7 +59,7 @@ class Train(Declared):
     axes: ByName[Axis] = Field(
         {}, validate_default=True, description="Directions and positions of axes; without them all axes are parallel"
     )
-    revolutes: tuple[Revolute, ...] = Field((), description="Turning pairs; together they form a tree")
+    revolutes: Revolutes = Field((), description="Turning pairs; together they form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
     tooth_form: DeclaredToothForm | None = Field(

@@ -12,6 +12,7 @@ from typing import Any
 from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.declaration import Train
 from geartrain.train.inheritance import merge_parent
+from geartrain.train.short_forms import written_out
 from geartrain.train.validation import declare
 from geartrain.train.yaml_nodes import YamlNode, as_yaml, node_from_data, parse_yaml
 
@@ -86,6 +87,26 @@ def write_declaration(train: Train) -> str:
     return as_yaml({"name": train.name, **data})
 
 
+def formatted(path: Path, long: bool = False) -> tuple[str, str]:
+    """The text of a file, and the same declaration with turning pairs and gear pairs in short forms, or in long ones.
+
+    Raises `DeclarationError` for a file that cannot be read, or whose new text would declare something else.
+    """
+    from geartrain.train.declaration_style import with_long_forms, with_short_forms
+
+    def declared(text: str) -> dict[str, Any]:
+        data = _build(parse_yaml(text, str(path)), path.parent, (path.resolve(),), path.stem).model_dump()
+        return data | {"revolutes": sorted(map(str, data["revolutes"]))}  # by axis, they stand in another order
+
+    text = _read(path)
+    before = declared(text)
+    new = with_long_forms(text) if long else with_short_forms(text)
+    if declared(new) != before:
+        why = "its new text would declare another train"
+        raise DeclarationError(Problem("the file is left as it is", why, "please report it", str(path)))
+    return text, new
+
+
 def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:
     node = _with_parents(root, folder, chain)
     data = node.plain()
@@ -95,7 +116,7 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
     """The child laid over its parent, which is laid over its own before."""
-    line, met = [child], dict.fromkeys(chain)
+    line, met = [written_out(child)], dict.fromkeys(chain)
     while "extends" in line[-1].mapping:
         place = line[-1].place_of(("extends",))
         path = _parent(line[-1].mapping["extends"].text, folder, place)
@@ -106,7 +127,7 @@ def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Yam
             )
         met[path.resolve()] = None
         folder = path.parent
-        line.append(parse_yaml(_read(path), str(path)))
+        line.append(written_out(parse_yaml(_read(path), str(path))))
         if len(line) > _MOST_PARENTS + 1:
             why = f"a train may change another one that changes another one, {_MOST_PARENTS} at most"
             raise DeclarationError(Problem("the chain of `extends` is too long", why, "write one of them out", place))

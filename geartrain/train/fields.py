@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
@@ -101,6 +102,17 @@ def _empty_for_nothing(raw: object) -> object:
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
     """A JSON schema that accepts a short form too."""
     return {"anyOf": [kind, schema]}
+
+
+@dataclass(frozen=True)
+class AlsoShort:
+    """A field whose short form is written out before it is read; for its JSON schema."""
+
+    schema: Mapping[str, Any]
+
+    def __get_pydantic_json_schema__(self, kind: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Either form."""
+        return also(handler(kind), dict(self.schema))
 
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]

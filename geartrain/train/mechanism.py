@@ -37,6 +37,7 @@ from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.bearing_friction import DeclaredBearing
 from geartrain.train.efficiencies import DeclaredEfficiency
 from geartrain.train.fields import (
+    AlsoShort,
     Boolean,
     ByName,
     Count,
@@ -51,6 +52,7 @@ from geartrain.train.fields import (
 )
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, FaceWidth
+from geartrain.train.short_forms import JOINT_SCHEMA
 from geartrain.train.tooth_counts import Teeth
 
 
@@ -242,6 +244,9 @@ class Revolute(Declared):
     note: str | None = Field(None, description="A remark for the reader")
 
 
+Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(JOINT_SCHEMA)]
+
+
 def _positive(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
@@ -294,6 +299,10 @@ class GearPair(Declared):
     fitting: PairMounting | None = Field(None, description="How far its axes are off; default the train's")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": "string"}, handler(schema))
 
     @property
     def name(self) -> str:

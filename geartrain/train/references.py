@@ -34,6 +34,19 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
     return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` names it", fix, train.place(*loc))
 
 
+def _no_wheel(train: Train, name: str, at: int) -> Problem:
+    """A pair names what is no wheel; perhaps a link, whose wheels are meant."""
+    unknown = _unknown(train, "wheel", name, train.wheels, "gears", at, "pair")
+    if name not in train.links:
+        return unknown
+    own = ", ".join(train.links[name].wheels)
+    if not own:
+        why, fix = f"'{name}' is a link, and has no wheels", f"declare its wheel: `{name}: {{wheels: {{w: 20}}}}`"
+    else:
+        why, fix = f"'{name}' is a link; its wheels are {own}", "name one of them"
+    return Problem(unknown.what, why, fix, unknown.place)
+
+
 def _links(train: Train) -> Iterator[Problem]:
     links: Collection[str] = train.links
     if train.reconstruct is not None:  # evidence need not say that there is a frame
@@ -121,7 +134,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
         if first not in wheels or second not in wheels:
             for wheel in gear.pair:
                 if wheel not in wheels:
-                    yield _unknown(train, "wheel", wheel, wheels, "gears", at, "pair")
+                    yield _no_wheel(train, wheel, at)
             continue
         (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
         if link_1 != link_2 and wheel_1.kind == wheel_2.kind == "spur" and not (wheel_1.internal and wheel_2.internal):

@@ -26,6 +26,8 @@ from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
+from geartrain.train.short_forms import has_short_forms, written_out
+from geartrain.train.yaml_nodes import node_from_data
 
 
 @collector_paused()
@@ -58,6 +60,9 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     >>> train.gears[0].name, train.wheels["w"][0], train.case(None).inputs
     ('p~w', 'b', {'a': Fraction(1, 1)})
     """
+    if has_short_forms(data):
+        node = written_out(node_from_data(data))
+        data, marks = node.plain(), marks or node.place_of
     place = marks or dotted
     head = _head(data)
     if head is not None:  # a large file may be wrong a million times: its beginning tells

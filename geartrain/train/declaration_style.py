@@ -1,0 +1,204 @@
+"""The text of a declaration with its turning pairs and gear pairs in short forms, or in long ones.
+
+Only the two sections are written anew, entry by entry; all other lines stay as they are, and comments stay with their
+entries. What has more to say than its short form can hold stays long.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+
+_WIDTH = 120
+_NAME = re.compile(r"[^\s~'\"\[\]{},:#&*!|>%@`][^\s~'\"\[\]{},:#]*")
+"""A name that needs no quotes, and none in a list."""
+_Loader: Any = yaml.SafeLoader
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """An entry of a section as it is written, with comments on lines before it and behind it."""
+
+    text: str
+    before: tuple[str, ...] = ()
+    behind: str = ""
+
+
+def with_short_forms(text: str) -> str:
+    """The text with turning pairs by axis and gear pairs as `a ~ b`, wherever they say no more than that."""
+    return _rewritten(text, {"revolutes": _short_joints, "gears": _short_pairs})
+
+
+def with_long_forms(text: str) -> str:
+    """The text with every turning pair and every gear pair as a mapping of its own."""
+    return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
+
+
+def _rewritten(text: str, writers: Mapping[str, Callable[[_Written], list[str] | None]]) -> str:
+    lines = text.splitlines()
+    root = yaml.compose(text, Loader=_Loader)
+    if not isinstance(root, yaml.MappingNode) or root.flow_style:
+        return text
+    parts = [(key, value) for key, value in root.value if key.value in writers]
+    for key, value in sorted(parts, key=lambda part: -part[0].start_mark.line):
+        written = _Written(text, key, value)
+        found = writers[key.value](written)
+        if found is not None:
+            lines[written.first : written.last + 1] = found
+    return "\n".join(lines) + ("\n" if text.endswith("\n") else "")
+
+
+def _last_line(node: yaml.Node) -> int:
+    """Of what is written, without blank lines and comments after it."""
+    if not isinstance(node, yaml.CollectionNode) or node.flow_style or not node.value:
+        return int(node.end_mark.line)
+    last = node.value[-1]
+    return _last_line(last[1] if isinstance(last, tuple) else last)
+
+
+class _Written:
+    """A section as it is written: its value, and comments behind what is written or on lines of their own."""
+
+    def __init__(self, text: str, key: yaml.Node, value: yaml.Node) -> None:
+        self.text, self.value = text, value
+        self.first, self.last = key.start_mark.line, _last_line(value)
+        self._after = self.first
+        ends: dict[int, int] = {}
+        for token in yaml.scan(text, Loader=_Loader):
+            if not isinstance(token, yaml.BlockEndToken | yaml.StreamEndToken):
+                ends[token.end_mark.line] = max(ends.get(token.end_mark.line, 0), token.end_mark.column)
+        self._behind: dict[int, str] = {}
+        self._alone: dict[int, str] = {}
+        for at, line in enumerate(text.splitlines()[: self.last + 1]):
+            rest = line[ends.get(at, 0) :].strip()
+            if at >= self.first and rest.startswith("#"):
+                (self._behind if line[: ends.get(at, 0)].strip() else self._alone)[at] = rest
+
+    @property
+    def head(self) -> str:
+        """The comment behind the section's key."""
+        return self._behind.get(self.first, "")
+
+    @property
+    def items(self) -> list[yaml.Node]:
+        """The entries of a list."""
+        return list(self.value.value) if isinstance(self.value, yaml.SequenceNode) else []
+
+    def source(self, node: yaml.Node) -> str:
+        """What is written there."""
+        return self.text[node.start_mark.index : node.end_mark.index].strip()
+
+    def entry(self, text: str, node: yaml.Node) -> _Entry:
+        """With the comments that stand before and behind a node, which are given out once."""
+        start, end = node.start_mark.line, _last_line(node)
+        before = tuple(each for at, each in self._alone.items() if self._after <= at < start)
+        behind = [self._behind.pop(at) for at in range(max(start, self.first + 1), end + 1) if at in self._behind]
+        self._after = end + 1
+        return _Entry(text, before, " ".join(behind))
+
+
+def _parts(node: yaml.Node) -> dict[str, yaml.Node]:
+    return {key.value: value for key, value in node.value} if isinstance(node, yaml.MappingNode) else {}
+
+
+def _pair_of(written: _Written, node: yaml.Node, keys: set[str]) -> list[str]:
+    """Both names of a pair as they are written, where it has just these keys."""
+    parts = _parts(node)
+    if set(parts) != keys or not isinstance(parts["pair"], yaml.SequenceNode) or len(parts["pair"].value) != 2:
+        return []
+    return [written.source(each) for each in parts["pair"].value]
+
+
+# ------------------------------------------------------------------------------------------------------------ to short
+
+
+def _short_joints(written: _Written) -> list[str] | None:
+    pairs = [_pair_of(written, node, {"pair", "axis"}) for node in written.items]
+    if not pairs or not all(pairs):
+        return None
+    axes: dict[str, tuple[list[str], list[_Entry]]] = {}
+    for node, (first, other) in zip(written.items, pairs, strict=True):
+        links, entries = axes.setdefault(written.source(_parts(node)["axis"]), ([first], []))
+        if links[0] != first:
+            return None  # a chain of joints: no link carries all others
+        links.append(other)
+        entries.append(written.entry("", node))
+    merged = [
+        _Entry(
+            f"{axis}: [{', '.join(links)}]",
+            tuple(text for each in entries for text in each.before),
+            " ".join(each.behind for each in entries if each.behind),
+        )
+        for axis, (links, entries) in axes.items()
+    ]
+    return list(_section("revolutes", merged, written.head, "{}", ""))
+
+
+def _short_pairs(written: _Written) -> list[str] | None:
+    entries = [written.entry(_short_pair(written, node), node) for node in written.items]
+    if not entries or any("\n" in each.text for each in entries):
+        return None
+    all_short = not any(each.text.startswith("{") for each in entries)
+    return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))
+
+
+def _short_pair(written: _Written, node: yaml.Node) -> str:
+    """A pair in short, where it says no more than its wheels; else as it is written."""
+    wheels = _pair_of(written, node, {"pair"})
+    if not all(_NAME.fullmatch(wheel) for wheel in wheels) or not wheels:
+        return written.source(node)
+    return " ~ ".join(wheels)
+
+
+# ------------------------------------------------------------------------------------------------------------- to long
+
+
+def _long_joints(written: _Written) -> list[str] | None:
+    if not isinstance(written.value, yaml.MappingNode):
+        return None
+    entries: list[_Entry] = []
+    for key, links in written.value.value:
+        names = [written.source(each) for each in links.value] if isinstance(links, yaml.SequenceNode) else []
+        if len(names) < 2:
+            return None
+        own = written.entry("", links)
+        for other in names[1:]:
+            text = f"{{pair: [{names[0]}, {other}], axis: {written.source(key)}}}"
+            entries.append(_Entry(text, own.before, own.behind))
+            own = _Entry("")
+    return list(_section("revolutes", entries, written.head, "", "- "))
+
+
+def _long_pairs(written: _Written) -> list[str] | None:
+    entries = [written.entry(_long_pair(written, node), node) for node in written.items]
+    if not entries or any("\n" in each.text for each in entries):
+        return None
+    return list(_section("gears", entries, written.head, "", "- "))
+
+
+def _long_pair(written: _Written, node: yaml.Node) -> str:
+    if isinstance(node, yaml.ScalarNode) and node.value.count("~") == 1:
+        first, second = (wheel.strip() for wheel in node.value.split("~"))
+        return f"{{pair: [{first}, {second}]}}"
+    return written.source(node)
+
+
+def _section(key: str, entries: Sequence[_Entry], head: str, brackets: str, bullet: str) -> Iterator[str]:
+    """On one line, where that is short and there are no comments; else one line an entry."""
+    if brackets and not head and not any(each.before or each.behind for each in entries):
+        line = f"{key}: {brackets[0]}{', '.join(each.text for each in entries)}{brackets[1]}"
+        if len(line) <= _WIDTH:
+            yield line
+            return
+    yield _with_comment(f"{key}:", head)
+    for each in entries:
+        yield from (f"  {text}" for text in each.before)
+        yield _with_comment(f"  {bullet}{each.text}", each.behind)
+
+
+def _with_comment(line: str, comment: str) -> str:
+    return f"{line}  {comment}" if comment else line

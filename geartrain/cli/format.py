@@ -7,17 +7,18 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Out, complain, emit, sink, tell
+from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Force, Out, Sink, complain, emit, sink, tell
 from geartrain.errors import GearTrainError
 
 
 def run(
-    files: Annotated[list[Path], typer.Argument(help="YAML declarations, which are rewritten.", metavar="FILE")],
+    files: Annotated[list[str], typer.Argument(help="YAML declarations, which are rewritten.", metavar="FILE")],
     long: Annotated[bool, typer.Option("--long", help="Write long forms.")] = False,
     check: Annotated[
         bool, typer.Option("--check", help="Write nothing; exit with 1 if something would change.")
     ] = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Write turning pairs by axis and gear pairs as `a ~ b`, or all of them long; comments stay with their entries.
 
@@ -25,20 +26,21 @@ def run(
     """
     if out is not None and (len(files) > 1 or check):
         raise typer.BadParameter("-o is for one file, which is then left as it is", param_hint="-o")
+    to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
-        worst = max(worst, _format(file, long, check, out))
+        worst = max(worst, _format(Path(file), long, check, to))
     raise typer.Exit(worst)
 
 
-def _format(file: Path, long: bool, check: bool, out: Path | None) -> int:
+def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
     from geartrain.numerics.files import write_text
     from geartrain.train.declaration_files import formatted
 
     try:
         text, new = formatted(file, long)
-        if out is not None:
-            emit(new.removesuffix("\n"), sink(out, True))
+        if to is not None:
+            emit(new.removesuffix("\n"), to)
             return GOOD
         if new == text:
             tell(f"{file}: nothing to change")

@@ -64,7 +64,9 @@ def test_a_text_is_rewritten_either_way_with_its_comments() -> None:
     assert with_short_forms(LONG) == SHORT
     assert with_short_forms(SHORT) == SHORT
     assert with_short_forms(with_long_forms(SHORT)) == SHORT
-    assert geartrain.load(with_long_forms(SHORT)).declaration.model_dump() == geartrain.load(LONG).declaration.model_dump()
+    assert (
+        geartrain.load(with_long_forms(SHORT)).declaration.model_dump() == geartrain.load(LONG).declaration.model_dump()
+    )
 
 
 def test_plain_data_may_be_short_too() -> None:

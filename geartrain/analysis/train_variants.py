@@ -1,0 +1,136 @@
+"""One train with many tooth counts: all outputs of all of them at once, by their exact formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from html import escape
+from itertools import islice
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import MissingExtraError, Problem, QuestionError, check_choice
+from geartrain.kinematics.formulas import Formulas, find_formulas
+from geartrain.numerics.plain_data import Result
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.train import Train
+
+MOST_VARIANTS = 100_000_000
+_SHOWN = 20
+
+
+@dataclass(frozen=True)
+class TrainVariants(Result):
+    """Speeds of outputs by assignment of tooth counts. `found["moon"]` is a column: of an output, or of counts.
+
+    Attributes
+    ----------
+    wheels, outputs : tuple of str
+        Columns of `counts`, and of `speeds` and `errors`.
+    counts : ndarray
+        A row an assignment, shape (n, wheels); the last wheel changes fastest.
+    speeds : ndarray
+        Shape (n, outputs) [unit of the train]; nan where a train is locked, free, or does not close a loop.
+    errors : ndarray
+        Bounds on the relative errors of the speeds, infinite where no digit is sure; shape (n, outputs).
+    formulas : Formulas
+        Where the speeds come from; `exact` asks them.
+
+    See Also
+    --------
+    geartrain.GearTrain.variants : gives it.
+    """
+
+    KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
+
+    wheels: tuple[str, ...]
+    outputs: tuple[str, ...]
+    counts: Ints
+    speeds: Floats
+    errors: Floats
+    formulas: Formulas
+
+    def __len__(self) -> int:
+        return len(self.counts)
+
+    def __getitem__(self, name: str) -> Any:
+        """A column; `KeyError` for one there is not."""
+        if name in self.outputs:
+            return self.speeds[:, self.outputs.index(name)]
+        if name in self.wheels:
+            return self.counts[:, self.wheels.index(name)]
+        raise KeyError(f"no column '{name}': there are {', '.join((*self.wheels, *self.outputs))}")
+
+    def exact(self, row: int, output: str) -> Fraction | None:
+        """The speed of one output in one row as a fraction; None where it has none.
+
+        Parameters
+        ----------
+        row : int
+            Of the table.
+        output : str
+            One of the outputs.
+        """
+        counts = dict(zip(self.wheels, self.counts[row].tolist(), strict=True))
+        return self.formulas[output].value(counts) if self.formulas.turns(counts) else None
+
+    def to_frame(self) -> Any:
+        """The counts and speeds as a pandas DataFrame.
+
+        Raises
+        ------
+        MissingExtraError
+            Without pandas, which the extra `errors` brings.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise MissingExtraError("pandas", "errors", "a table of its kind") from None
+        return pandas.DataFrame({name: self[name] for name in (*self.wheels, *self.outputs)})
+
+    def _repr_html_(self) -> str:
+        names = (*self.wheels, *self.outputs)
+        head = "".join(f"<th>{escape(name)}</th>" for name in names)
+        rows = (
+            "<tr>" + "".join(f"<td>{value:.10g}</td>" for value in (*counts, *speeds)) + "</tr>"
+            for counts, speeds in islice(zip(self.counts, self.speeds, strict=True), _SHOWN)
+        )
+        rest = f"<p>{len(self) - _SHOWN:,} more</p>" if len(self) > _SHOWN else ""
+        return f"<table><tr>{head}</tr>{''.join(rows)}</table>{rest}"
+
+
+def find_variants(
+    declared: Train, state: str | None, counts: Mapping[str, Iterable[int]], outputs: Sequence[str]
+) -> TrainVariants:
+    """All combinations of some counts; see `GearTrain.variants`."""
+    case = declared.case(state)
+    for name in outputs:
+        check_choice("output", name, case.outputs)
+    choices = {wheel: tuple(int(count) for count in given) for wheel, given in counts.items()}
+    number = prod(map(len, choices.values()))
+    if number > MOST_VARIANTS:
+        what = f"{number:,} assignments of counts are too many"
+        raise QuestionError(Problem(what, f"{MOST_VARIANTS:,} fit into memory", "ask for fewer counts at once"))
+    formulas = find_formulas(declared, state, choices)
+    names = tuple(name for name in (outputs or case.outputs) if name in formulas)
+    grid = np.meshgrid(*(np.array(each, dtype=np.int64) for each in choices.values()), indexing="ij")
+    columns = {wheel: axis.ravel() for wheel, axis in zip(choices, grid, strict=True)}
+    speeds, errors = (np.empty((number, len(names))) for _ in range(2))
+    turns = np.ones(number, dtype=bool)
+    for condition in formulas.conditions:
+        turns &= condition.values(columns) == 0
+    for exclusion in formulas.exclusions:
+        turns &= exclusion.values(columns) != 0
+    for at, name in enumerate(names):
+        found = formulas[name]
+        speeds[:, at] = np.where(turns, found.values(columns), np.nan)
+        errors[:, at] = found.accuracy(columns)
+    table = np.stack([columns[wheel] for wheel in choices], axis=1) if choices else np.zeros((1, 0), dtype=np.int64)
+    for array in (table, speeds, errors):
+        array.flags.writeable = False
+    return TrainVariants(tuple(choices), names, table, speeds, errors, formulas)

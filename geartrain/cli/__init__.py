@@ -30,6 +30,7 @@ class VerbGroup(EndingGroup, LazyGroup):
                 "check",
                 "solve",
                 "equations",
+                "init",
                 "format",
                 "formula",
                 "gearbox",

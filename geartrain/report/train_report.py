@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 from math import degrees
+from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.analysis.gearbox import Gearbox
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
@@ -25,6 +25,9 @@ from geartrain.report.motion_report import moving_sections
 from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Source, Train, Wheel
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gearbox import Gearbox
 
 _CIRCUITS_ABREAST = 6
 

@@ -92,6 +92,10 @@ class _Written:
         """What is written there."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
+    def says(self, entries: Sequence[_Entry]) -> bool:
+        """Whether all entries of a list are written so already."""
+        return [each.text for each in entries] == [self.source(node) for node in self.items]
+
     def entry(self, text: str, node: yaml.Node) -> _Entry:
         """With the comments that stand before and behind a node, which are given out once."""
         start, end = node.start_mark.line, _last_line(node)
@@ -140,7 +144,7 @@ def _short_joints(written: _Written) -> list[str] | None:
 
 def _short_pairs(written: _Written) -> list[str] | None:
     entries = [written.entry(_short_pair(written, node), node) for node in written.items]
-    if not entries or any("\n" in each.text for each in entries):
+    if written.says(entries) or any("\n" in each.text for each in entries):
         return None
     all_short = not any(each.text.startswith("{") for each in entries)
     return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))
@@ -175,7 +179,7 @@ def _long_joints(written: _Written) -> list[str] | None:
 
 def _long_pairs(written: _Written) -> list[str] | None:
     entries = [written.entry(_long_pair(written, node), node) for node in written.items]
-    if not entries or any("\n" in each.text for each in entries):
+    if written.says(entries) or any("\n" in each.text for each in entries):
         return None
     return list(_section("gears", entries, written.head, "", "- "))
 

@@ -38,6 +38,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("compare", "-o"): (("compare", "worm"), (".md", ".html", ".json")),
     ("solve", "-o"): (("solve", "worm"), (".txt", "")),
     ("equations", "-o"): (("equations", "worm"), (".txt",)),
+    ("init", "-o"): (("init", "clock"), (".yaml",)),
     ("format", "-o"): (("format", "{loaded}"), (".yaml",)),
     ("formula", "-o"): (("formula", "worm"), (".md", ".html", ".json")),
     ("gearbox", "-o"): (("gearbox", "simpson-set"), (".md", ".html", ".json")),

@@ -260,10 +260,11 @@ def judge_outputs(
     is_rotation   of two links, whether the axes between them are all parallel
     """
     moving = [speed for speed in case.inputs.values() if speed]
+    drive = moving[0] if len(moving) == 1 else None
     for name, output in case.outputs.items():
         of, base = output.links(name, train.frame)
         speed = relative(of, base)
-        ratio = speed / moving[0] if speed is not None and len(moving) == 1 else None
+        ratio = None if speed is None or drive is None else speed if drive == 1 else speed / drive
         yield OutputResult(
             name,
             output,

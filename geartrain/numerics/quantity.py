@@ -63,7 +63,7 @@ class Figure:
             Greatest difference that still agrees, 0 or more; default half a unit of the last decimal written.
         """
         bound = tolerance if tolerance is not None else self.half or Fraction(0)
-        return abs(value - self.value) <= bound
+        return abs(value - self.value) <= bound if bound else bool(value == self.value)
 
     @classmethod
     def parse(cls, raw: object) -> Figure:

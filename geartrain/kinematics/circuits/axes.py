@@ -29,9 +29,15 @@ class Axes:
         self.positions = {label: axis.position for label, axis in train.axes.items() if axis.position}
         self.directions = {label: _vector(axis.direction) for label, axis in train.axes.items()}
         self.plain = all(direction == _Z for direction in self.directions.values())
-        self._first: dict[ExactVector, ExactVector] = {}
-        for direction in (_Z, *self.directions.values()):
-            self._first.setdefault(_line(direction), direction)
+        first: dict[ExactVector, tuple[int, ExactVector]] = {}
+        lines = {label: _line(direction) for label, direction in {"": _Z, **self.directions}.items()}
+        for label, line in lines.items():
+            first.setdefault(line, (len(first), self.direction(label)))
+        # of each axis, the number of its line, and whether it points as the first declared one along it
+        self._lines = {label: first[line][0] for label, line in lines.items()}
+        self._senses = {
+            label: 1 if dot(first[line][1], self.direction(label)) > 0 else -1 for label, line in lines.items()
+        }
 
     def direction(self, label: str | None) -> ExactVector:
         """Direction of an axis; z where none is declared."""
@@ -39,8 +45,7 @@ class Axes:
 
     def sign(self, label: str | None) -> int:
         """-1 if the axis points against the first declared direction parallel to it."""
-        own = self.direction(label)
-        return 1 if dot(self._first[_line(own)], own) > 0 else -1
+        return self._senses.get(label or "", 1)
 
     @property
     def link_signs(self) -> Mapping[str, int]:
@@ -67,8 +72,7 @@ class Axes:
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
         """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
-        directions = [self.direction(label) for label in labels]
-        return self.plain or all(parallel(directions[0], other) for other in directions[1:])
+        return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
         """True if both axes have positions, and lie on one line; else two labels are two lines."""

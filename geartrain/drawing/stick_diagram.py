@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Rectangle
+from geartrain.drawing.stick_elements import draw_elements, width_of
 from geartrain.drawing.stick_grid import StickCrank, StickShaft
 from geartrain.drawing.stick_skeleton import StickMesh, StickSkeleton, find_skeleton
 from geartrain.drawing.style import (
@@ -32,16 +33,19 @@ _FINE, _NAME = 6.8, 8.0  # points
 _HEAD, _FOOT = 0.7, 0.5
 
 
-def stick_figure(train: GearTrain, labels: bool = True) -> Figure:
-    """Axes, shafts, wheels with their counts, cranks of carriers, the frame hatched.
+def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
+    """Axes, shafts, wheels with their counts, cranks of carriers, the frame hatched; brakes and clutches beside them.
 
+    state   whose brakes and clutches are drawn closed, by default the first
     Raises `QuestionError` for more pairs than a page holds.
     """
     too_many(train, len(train.circuits), _MOST, "pairs")
     declared = train.declaration
     skeleton = find_skeleton(train)
     margin = 0.5 + max((len(link) for link in declared.links), default=1) * 8 * LETTER
-    width = max(skeleton.width + margin + 0.6, 5.5)
+    declared.check_state(state)
+    elements = width_of(train)
+    width = max(skeleton.width + margin + 0.6 + elements, 5.5)
     figure, axes = sheet(width, skeleton.height + _HEAD + _FOOT, title_of(declared.name, declared.title))
     axes.set_xlim(-margin, width - margin)
     axes.set_ylim(-_FOOT, skeleton.height + _HEAD)
@@ -57,7 +61,12 @@ def stick_figure(train: GearTrain, labels: bool = True) -> Figure:
         drawing.draw_lone(wheel, x)
     for shaft in skeleton.shafts.values():
         drawing.draw_shaft(shaft)
-    figure.legend(handles=list(_legend(train)), loc="lower center", ncols=5, fontsize=SMALL - 1.5, frameon=False)
+    if elements:
+        right = max(max(shaft.xs) for shaft in skeleton.shafts.values()) + 0.9
+        draw_elements(axes, train, train.state_or_first(state), right, skeleton.height / 2)
+    entries = list(_legend(train))
+    columns = 5 if len(entries) < 6 else 3
+    figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
     return figure
 
 
@@ -214,3 +223,6 @@ def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
         yield Line2D([], [], color=ORANGE, linewidth=3.2, label="carriers")
     if train.declaration.couplings:
         yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="o", label="pins in slots")
+    if train.declaration.clutches:
+        yield Line2D([], [], color=PURPLE, linewidth=2.6, label="closed brakes and clutches")
+        yield Line2D([], [], color=GREY, linewidth=2.6, label="open ones")

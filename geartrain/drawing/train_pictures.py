@@ -69,7 +69,7 @@ def picture(
     if kind == "stick":
         from geartrain.drawing.stick_diagram import stick_figure
 
-        return stick_figure(train, labels)
+        return stick_figure(train, labels, state)
     if kind not in KINDS:
         raise QuestionError(Problem(f"no kind of picture '{kind}'", "it is not known", f"use {', '.join(KINDS)}"))
     from geartrain.scene import make_scene

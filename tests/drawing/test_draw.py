@@ -280,6 +280,29 @@ def test_the_two_wheels_of_every_pair_end_at_each_other(name: str) -> None:
         assert min(gaps) == pytest.approx(hypot(0.3, 0.044) if ring else 0.044, abs=1e-6), gear.name
 
 
+@pytest.mark.parametrize("state", ["1", "6", "R"])
+def test_a_stick_diagram_shows_which_brakes_and_clutches_are_closed(state: str) -> None:
+    """Two plates each, near to each other where they are closed, with the links they hold or join by name."""
+    train = load("zf-8hp70")
+    figure = picture(train, "stick", state)
+    plates: dict[str, list[float]] = {}
+    for line in figure.axes[0].lines:
+        if str(line.get_gid()).startswith("element "):
+            plates.setdefault(str(line.get_gid())[8:], []).append(float(np.asarray(line.get_ydata())[0]))
+    assert set(plates) == set(train.declaration.clutches)
+    gaps = {name: abs(ends[0] - ends[1]) for name, ends in plates.items()}
+    closed = train.declaration.states[state].engaged
+    assert max(gaps[name] for name in closed) < min(gap for name, gap in gaps.items() if name not in closed)
+    words = [text.get_text() for text in figure.axes[0].texts]
+    for clutch in train.declaration.clutches.values():
+        for link in clutch.locks or (clutch.fixes,):
+            assert words.count(link) >= 2, "on its shaft, and at its brake or clutch"
+
+
+def test_a_stick_diagram_without_clutches_is_as_it_was() -> None:
+    assert not [gid for gid in gids(drawn("planetary-24-18-60", "stick")) if gid.startswith("element")]
+
+
 # --------------------------------------------------------------------------------------------------------------- graph
 
 

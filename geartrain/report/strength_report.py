@@ -214,18 +214,17 @@ def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
     for pair in covered:
         own = pair.iso
         assert own is not None
-        figures = (own.ZH, own.ZE, own.Zeps, own.M1, own.M2, own.nominal, *own.stress)
+        figures = (own.ZH, own.ZE, own.Zeps, own.Zbeta, own.M1, own.M2, own.nominal, *own.stress)
         rows.append((pair.pair, *(figure(each, 5) for each in figures)))
-    yield Table(("pair", "ZH", "ZE", "Zeps", "M1", "M2", "sH0", "sH first", "sH second"), rows)
+    yield Table(("pair", "ZH", "ZE", "Zeps", "Zbeta", "M1", "M2", "sH0", "sH first", "sH second"), rows)
+    names = ("chord", "radius", "lever", "YF", "YS", "Ybeta", "stress")
     roots = [
-        (
-            wheel.wheel,
-            *(figure(getattr(wheel.iso, name), 5) for name in ("chord", "radius", "lever", "YF", "YS", "stress")),
-        )
+        (wheel.wheel, *(figure(getattr(wheel.iso, name), 5) for name in names))
         for pair in covered
         for wheel in pair.wheels
+        if wheel.iso is not None
     ]
-    yield Table(("wheel", "s/m", "rF/m", "h/m", "YF", "YS", "sF0"), roots)
+    yield Table(("wheel", "s/m", "rF/m", "h/m", "YF", "YS", "Ybeta", "sF0"), roots)
 
 
 def _wear_words(found: TrainStrength) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, pi
+from math import atan, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,10 +20,13 @@ from geartrain.teeth.strength.iso_6336 import (
     IsoRoot,
     RackPair,
     RackWheel,
+    ToothLean,
     contact_stress,
+    helical_root_stress,
     outer_single_contact,
     root_stress,
 )
+from geartrain.teeth.strength.leaning_contact import LeaningLoad, base_helix_angle
 from geartrain.teeth.strength.root_section import RootSection, ToothLoad, ToothSide
 
 if TYPE_CHECKING:
@@ -133,7 +136,19 @@ class PairUnderLoad:
         if path is None:
             return None
         torque = self.tangential * path.pitch.R1 * self.module
+        if self.lean.helix:
+            lean = self.lean.base, self.lean.overlap
+            return LeaningLoad(path, self.module, self.width, torque, self.factor, *lean)
         return ContactLoad(path, self.module, self.width, torque, self.factor)
+
+    @cached_property
+    def lean(self) -> ToothLean:
+        """How helical teeth lie; of involutes on parallel axes."""
+        helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
+        if not helix or not isinstance(form, Involute):
+            return ToothLean()
+        normal = self.module * cos(helix)
+        return ToothLean(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
 
     def _places(self) -> tuple[ContactPlace, ...]:
         return () if self.load is None else self.load.places()
@@ -144,11 +159,16 @@ class PairUnderLoad:
         elif self.load.has_cusp:
             yield "flanks have no radius at the pitch point: Hertz's pressure has no bound there until they wear"
         if self.mesh.form == "involute" and self._rack_pair() is None:
-            yield "ISO 6336 is worked out for external spur involutes with a contact ratio from 1 to 2"
+            yield "ISO 6336 is worked out for external involutes with a contact ratio from 1 to 2"
+        if self.lean.helix:
+            yield (
+                "its teeth lean: the load lies evenly along the lines of contact where they are shortest, and bending "
+                "at the tip is that of the part of a tooth on which one line lies"
+            )
 
     # ------------------------------------------------------------------------------------------------------- roots
 
-    def _wheel(self, at: int, roots: tuple[IsoRoot, IsoRoot] | None) -> WheelStrength:
+    def _wheel(self, at: int, roots: tuple[IsoRoot | None, IsoRoot | None] | None) -> WheelStrength:
         own = self.wheels[at]
         torque = self.tangential * self._radius(at)
         bounded = self.load is not None and not self.load.has_cusp
@@ -162,15 +182,28 @@ class PairUnderLoad:
             section=0.0 if tip is None else tip.x * self.module,
             thickness=0.0 if tip is None else tip.thickness * self.module,
             lewis=0.0 if tip is None else tip.lewis_factor(self._radius(at) / self.module),
-            tip_stress=self._pin_stress(own) if tip is None else tip.stress(torque, self.width, self.module),
+            tip_stress=self._pin_stress(own)
+            if tip is None
+            else tip.stress(torque, self.width, self.module) * self._leaning_part,
             shared_stress=shared,
             pressure=pressure,
             strength=None if strength is None else strength.si / _MPA,
             spread=None if strength is None else float(own.material.spread.value),
             iso=None if roots is None else roots[at],
-            elements=self._by_elements(own, torque) if self.elements and tip is not None else None,
+            elements=self._by_elements(own, torque)
+            if self.elements and tip is not None and not self.lean.helix
+            else None,
             wear=self._wear(at),
         )
+
+    @property
+    def _leaning_part(self) -> float:
+        """Bending of a helical tooth over that of a straight one with its transverse section, all load at one tip.
+
+        Each width bears its part of the lines of contact; across itself the tooth is thinner and its load the greater.
+        """
+        load = self.load
+        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, LeaningLoad) else 1.0
 
     def _pin_stress(self, own: WheelUnderLoad) -> float:
         from geartrain.teeth.strength.root_section import pin_stress
@@ -193,7 +226,7 @@ class PairUnderLoad:
         if own.teeth.pins is not None:
             return None, None
         tip = own.side.weakest_section(self._tip_load(own))
-        if load is None:
+        if load is None or isinstance(load, LeaningLoad):
             return tip, None
         path = load.path
         low, high = load.single()
@@ -223,44 +256,46 @@ class PairUnderLoad:
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
+        """Both wheels in the transverse section."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0:
             return None
-        path = load.path
+        path, flat = load.path, cos(self.lean.helix)
         # as the pair names them; gears 1 and 2 of an external pair are in that order
         wheels = [
             RackWheel(
                 each.teeth.z,
-                float(form.shift[at].value),
-                each.teeth.z / 2 + float(form.shift[at].value) + float(form.addendum[at].value),
-                float(form.dedendum[at].value),
+                float(form.shift[at].value) * flat,
+                each.teeth.z / 2 + (float(form.shift[at].value) + float(form.addendum[at].value)) * flat,
+                float(form.dedendum[at].value) * flat,
             )
             for at, each in enumerate(self.wheels)
         ]
         working = float(path.at(np.zeros(1)).psi[0])
+        angle = atan(tan(form.rack_angle) / flat)
         try:
-            return RackPair(wheels[0], wheels[1], form.rack_angle, working, path.contact_ratio)
+            return RackPair(wheels[0], wheels[1], angle, working, path.contact_ratio, self.lean)
         except RangeError:
             return None
 
-    def _iso(self) -> tuple[IsoContact | None, tuple[IsoRoot, IsoRoot] | None]:
+    def _iso(self) -> tuple[IsoContact | None, tuple[IsoRoot | None, IsoRoot | None] | None]:
         pair = self._rack_pair()
         if pair is None:
             return None, None
         # the force of the standard is that at the reference circle
         force = self.tangential * cos(pair.angle) / cos(pair.working)
-        roots = [
-            root_stress(
-                each,
-                pair.angle,
-                force,
-                self.width,
-                self.module,
-                outer_single_contact(each, pair.angle, pair.contact_ratio),
-            )
-            for each in (pair.first, pair.second)
-        ]
+        roots = [self._iso_root(pair, at, force) for at in (0, 1)]
         return contact_stress(pair, self.factor, force, self.width, self.module), (roots[0], roots[1])
+
+    def _iso_root(self, pair: RackPair, at: int, force: float) -> IsoRoot | None:
+        wheel, form = pair.wheel(at), self.mesh.tooth_form
+        if not self.lean.helix or not isinstance(form, Involute):
+            radius = outer_single_contact(wheel, pair.angle, pair.contact_ratio)
+            return root_stress(wheel, pair.angle, force, self.width, self.module, radius)
+        shift, addendum = float(form.shift[at].value), float(form.addendum[at].value)
+        across = RackWheel(wheel.z, shift, shift + addendum, float(form.dedendum[at].value))
+        normal = self.module * cos(self.lean.helix)
+        return helical_root_stress(across, form.rack_angle, pair, force, self.width, normal)
 
     def _wear(self, at: int) -> FlankWear | None:
         own = self.wheels[at]
@@ -274,7 +309,7 @@ class PairUnderLoad:
         per = slid / (hardness / _MPA)  # mm3 for K = 1
         flank = own.teeth.z * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
         deep = None
-        if self.load is not None:
+        if self.load is not None and not self.lean.helix:
             deep = deepest_passage(self.load, own.gear) * own.turns / (hardness / _MPA)
         return FlankWear(
             own.turns, self._range(per), self._range(per / flank), None if deep is None else self._range(deep)

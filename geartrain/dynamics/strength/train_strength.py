@@ -117,8 +117,8 @@ class StrengthQuestion:
             yield "its axes meet, and only teeth of parallel axes are worked out"
         elif mesh.path is None and mesh.size({}) is None:
             yield "its axes are not parallel"
-        elif any(wheel.is_helical for wheel in wheels):
-            yield "its teeth lean, and only straight ones are worked out"
+        elif any(wheel.is_helical for wheel in wheels) and mesh.form != "involute":
+            yield "its teeth lean, and of such only involutes are worked out"
         elif faults := mesh.faults:
             yield f"its teeth do not turn: {faults[0].what}"
         if not torque.multiplier and not torque.loose:

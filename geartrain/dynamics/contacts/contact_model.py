@@ -316,7 +316,10 @@ class ContactModel:
             row[each] = value
         heavy = float(self.typical @ self.mass @ self.typical)
         speed = float(row @ self.typical)
-        own = float(1 / (row**2 @ (1 / np.diag(self.mass))))
+        # a prescribed coordinate gives way to nothing, as if it were heavy without bound
+        free = [at for at, value in form.items() if value and at not in self.given]
+        with np.errstate(divide="ignore"):
+            own = float(1 / np.sum(row[free] ** 2 / np.diag(self.mass)[free])) if free else heavy
         return min(_STIFF * max(own, heavy / speed**2 if speed else 0.0), _STIFFEST * own)
 
 

@@ -260,14 +260,14 @@ class TrainModel:
         way = self.problem.way
         forward = way * (source.forward if source else 1)
         sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
-        path = self.motion.spread.joints[self.motion.spread.pairs.index(circuit.id)]
+        path = self.motion.path(circuit.id)
         signs, names = self.problem.signs, self.problem.system.links
         own, mate, base = (signs.get(names[at], 1) * self.speeds[at] for at in path[:3])
         return _sparse(forward * (own - base)), _sparse(sense * (mate - base))
 
     def _even(self, circuit: Circuit) -> ExactRatio:
         """The law of a pair that keeps its ratio."""
-        path = self.motion.spread.joints[self.motion.spread.pairs.index(circuit.id)]
+        path = self.motion.path(circuit.id)
         own = circuit.b if path.coefficient == circuit.a else circuit.a
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 

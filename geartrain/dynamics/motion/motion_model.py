@@ -25,7 +25,7 @@ from geartrain.kinematics.relative_speeds import axis_sense
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-    from geartrain.dynamics.motion.error_propagation import ErrorPropagation
+    from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
 
@@ -92,6 +92,20 @@ class Motion:
     def spread(self) -> ErrorPropagation:
         """The solved order of the train, over all pairs."""
         return self._errors.spread
+
+    def path(self, pair: str) -> ErrorPath:
+        """Where the sides of a pair or coupling stand, which says how its errors spread.
+
+        Parameters
+        ----------
+        pair : str
+            Its name; one that closes a loop which others close has none: `QuestionError`.
+        """
+        if pair in self.spread.pairs:
+            return self.spread.joints[self.spread.pairs.index(pair)]
+        why = "other pairs say already how its wheels turn; which of them bears how much is a matter of play and errors"
+        fix = f"leave it out: --without {pair}; or declare one of equal planets, with `copies: 3`"
+        raise QuestionError(Problem(f"the motion in time of '{pair}' is not worked out", why, fix))
 
     @cached_property
     def ahead(self) -> ErrorComposition:

@@ -118,6 +118,9 @@ class ToothSide:
         x, y = self._sections()
         lever = (load.apex - x) * self.outward
         below = (lever > 0) & ((x - (self.tip + self.root) / 2) * self.outward <= 0)
+        if not below.any():  # the force passes beneath the root, as it may in a ring, and bends nothing
+            deepest = int(np.argmin(x * self.outward))
+            return RootSection(float(x[deepest]), float(2 * y[deepest]), 0.0)
         x, y, lever = x[below], y[below], lever[below]
         factors = 6 * lever / (load.apex * (2 * y) ** 2)
         at = int(np.argmax(factors))

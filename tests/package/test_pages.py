@@ -61,7 +61,7 @@ def test_the_two_commands_of_the_readme_use_extras_and_files_that_exist() -> Non
     assert all("pip install" in block for block in blocks)
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = {extra for block in blocks for extra in re.findall(r"\.\[(\w+)\]", block)}
-    assert extras == {"all", "dev"} <= set(project["optional-dependencies"])
+    assert extras == {"dev"} <= set(project["optional-dependencies"])
     files = [word for block in blocks for word in block.split() if word.endswith(".yaml")]
     assert files
     assert all((ROOT / file).is_file() for file in files)

@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, overload
 
+from geartrain.analysis.train_kinematics import of_all_planets, of_planets_as_one
 from geartrain.analysis.train_motion import TrainMotion
 from geartrain.errors import check_choice, check_numbers, check_whole_numbers
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from geartrain.dynamics import DrivenWay, LinkInertia, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
+    from geartrain.dynamics import DrivenWay, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.turn.friction_study import FrictionStudy
 
@@ -35,6 +36,7 @@ class TrainDynamics(TrainMotion):
         fast: bool | None = None,
     ) -> TorqueCycle: ...
 
+    @of_all_planets
     def torques(
         self,
         state: str | None = None,
@@ -103,6 +105,7 @@ class TrainDynamics(TrainMotion):
             return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
         return find_torque_cycle(setting, self._moving(self._case(state), ()), turns, samples, of, on_done, fast)
 
+    @of_all_planets
     def friction_study(
         self, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
     ) -> FrictionStudy | None:
@@ -125,6 +128,7 @@ class TrainDynamics(TrainMotion):
             return None
         return find_friction_study(setting, self._moving(self._case(state), ()), turns, samples, of)
 
+    @of_all_planets
     def torque_period(self, state: str | None = None, of: str | None = None) -> Fraction | None:
         """Turns of the input after which the torque over a turn repeats, exactly.
 
@@ -162,6 +166,7 @@ class TrainDynamics(TrainMotion):
         found = find_turn_balance(setting, self._moving(self._case(state), ()), of)
         return None if isinstance(found, TorqueVerdict) else found.motion.period
 
+    @of_all_planets
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
         """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.
 
@@ -179,6 +184,7 @@ class TrainDynamics(TrainMotion):
         setting = self._setting(state)
         return torques_unknown(state) if setting is None else drive(setting, load, source)
 
+    @of_all_planets
     def drive_both_ways(self, state: str | None = None) -> list[DrivenWay]:
         """The train driven from its input, and from its output, a unit of power leaving at the other.
 
@@ -200,6 +206,7 @@ class TrainDynamics(TrainMotion):
         ways = [] if found is None else [found, found[::-1]]
         return [DrivenWay(self.driven(load, source, state), source, load) for source, load in ways]
 
+    @of_all_planets
     def power_flow(self, found: Torques) -> PowerFlow:
         """The streams of power under some torques of this train.
 
@@ -212,6 +219,7 @@ class TrainDynamics(TrainMotion):
 
         return find_power_flow(found)
 
+    @of_planets_as_one
     def impacts(self, state: str | None = None) -> Mapping[str, ToothImpact]:
         """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared.
 
@@ -235,6 +243,7 @@ class TrainDynamics(TrainMotion):
         moving = self._moving(case, ())
         return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, case.rate.si)
 
+    @of_planets_as_one
     def separation_rates(
         self, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
     ) -> SeparationRates:
@@ -292,6 +301,7 @@ class TrainDynamics(TrainMotion):
         contacts = InertialContacts(moving, acting, rubbing=rubbing)
         return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=uncounted)
 
+    @of_planets_as_one
     def tells_separation(self, state: str | None = None) -> bool:
         """True if `separation_rates` has an answer: a link behind the input has an inertia, and torques have units.
 
@@ -305,43 +315,3 @@ class TrainDynamics(TrainMotion):
         if not self.is_heavy or not torques_have_units(self.declaration, self._case(state)):
             return False
         return any(each.value for each in self.inertias(state))
-
-    @property
-    def is_heavy(self) -> bool:
-        """True if some link has a moment of inertia, declared or from the density of its wheels."""
-        declared = self.declaration
-        wheels = (wheel.density is not None for _, wheel in declared.wheels.values())
-        return declared.density is not None or any(link.inertia for link in declared.links.values()) or any(wheels)
-
-    def inertias(self, state: str | None = None) -> tuple[LinkInertia, ...]:
-        """The moment of inertia of every link whose motion is not prescribed, and where each is from.
-
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only of a train that has none.
-
-        Returns
-        -------
-        tuple of LinkInertia
-            In the order of the declaration (docs/dynamics.md, section 1).
-
-        Examples
-        --------
-        Two wheels of bronze, 2 mm thick, from the outlines of their teeth:
-
-        >>> import geartrain
-        >>> train = geartrain.load('''
-        ... links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: {teeth: 60, module: 1 mm}}}}
-        ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-        ... gears: [{pair: [p, w]}]
-        ... density: 8.7 g/cm3
-        ... thickness: 2 mm
-        ... inputs: {a: 1}
-        ... ''')
-        >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in train.inertias()]
-        [('b', 'outlines', 2.2e-05)]
-        """
-        from geartrain.dynamics.inertia.link_inertia import find_link_inertias
-
-        return find_link_inertias(self, self._case(state))

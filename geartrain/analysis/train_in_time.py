@@ -8,6 +8,7 @@ from math import inf, tau
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.analysis.train_dynamics import TrainDynamics
+from geartrain.analysis.train_kinematics import of_planets_as_one
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ def _radians_a_second(rate: str | float | None) -> float | None:
 class TrainInTime(TrainDynamics):
     """What `GearTrain` knows of motion in time."""
 
+    @of_planets_as_one
     def dynamics(
         self,
         rate: str | float | None = None,
@@ -121,6 +123,7 @@ class TrainInTime(TrainDynamics):
         found = self._in_time(case, without, speed, restitution, model == "compliant")
         return TimeStudy(found, seen, turns, skip, steps, samples, apart, fast).run(on_done)
 
+    @of_planets_as_one
     def simulation(
         self,
         rate: str | float | None = None,
@@ -173,6 +176,7 @@ class TrainInTime(TrainDynamics):
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         return [(name, *self._speeds.single_output(case, name)[1]) for name in names]
 
+    @of_planets_as_one
     def stepped_separation(
         self,
         state: str | None = None,
@@ -228,6 +232,7 @@ class TrainInTime(TrainDynamics):
         found = replace(found, case=replace(own, load=load, drive=drive), tolerance=FINE_TABLES)
         return find_stepped_separation(TimeStudy(found, (), turns, 0.0, steps, fast=fast), predicted, on_done)
 
+    @of_planets_as_one
     def vibration_modes(self, state: str | None = None, *, without: Sequence[str] = ()) -> VibrationModes:
         """Eigenfrequencies and modes of the train about contact, teeth yielding by their stiffness (docs/dynamics.md).
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property, wraps
+from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.planet_copies import as_one, check_copies, has_copies, with_copies
 from geartrain.kinematics.speed_problem import Method, SpeedProblem
 from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.kinematics.tooth_sensitivity import Sensitivity
@@ -21,6 +22,28 @@ if TYPE_CHECKING:
     from geartrain.kinematics.formulas.speed_formulas import OutputFormula
     from geartrain.kinematics.gridlock import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds
+
+_Question = TypeVar("_Question", bound=Callable[..., Any])
+
+
+def of_planets_as_one(question: _Question) -> _Question:
+    """A question that is asked of the train with one planet as heavy and stiff as all that are equal."""
+
+    @wraps(question)
+    def asked(train: TrainKinematics, *args: Any, **given: Any) -> Any:
+        return question(train.planets_as_one, *args, **given)
+
+    return cast("_Question", asked)
+
+
+def of_all_planets(question: _Question) -> _Question:
+    """A question that is asked of the train with each of its equal planets: loads are shared among them."""
+
+    @wraps(question)
+    def asked(train: TrainKinematics, *args: Any, **given: Any) -> Any:
+        return question(train.unfolded, *args, **given)
+
+    return cast("_Question", asked)
 
 
 class TrainKinematics:
@@ -52,7 +75,28 @@ class TrainKinematics:
     @cached_property
     def tree(self) -> Tree:
         """The turning pairs as a spanning tree rooted at the frame."""
-        return find_tree(self.declaration)
+        tree = find_tree(self.declaration)
+        check_copies(self.declaration, tree)
+        return tree
+
+    @property
+    def unfolded(self) -> Self:
+        """The train with each of its equal planets declared; itself where no link stands for several (`copies`)."""
+        # not kept where it is the train itself: that would hold itself
+        return self._with_copies if has_copies(self.declaration) else self
+
+    @cached_property
+    def _with_copies(self) -> Self:
+        return type(self)(with_copies(self.declaration, self.tree))
+
+    @property
+    def planets_as_one(self) -> Self:
+        """The train in which one planet is as heavy and as stiff as all its copies; itself where there are none."""
+        return self._as_one if has_copies(self.declaration) else self
+
+    @cached_property
+    def _as_one(self) -> Self:
+        return type(self)(as_one(self.declaration))
 
     @cached_property
     def circuits(self) -> tuple[Circuit, ...]:

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from geartrain.analysis.train_kinematics import TrainKinematics
+from geartrain.analysis.train_kinematics import TrainKinematics, of_planets_as_one
 from geartrain.errors import Problem, QuestionError
 from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import Motion
+    from geartrain.dynamics import LinkInertia, Motion
     from geartrain.dynamics.driven_meshes import DrivenWays
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.motion.motion_problem import MotionProblem
@@ -145,6 +145,47 @@ class TrainMotion(TrainKinematics):
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         wanted = {name: self._speeds.single_output(case, name)[1] for name in names}
         return Motion(self._moving(case, without), wanted, tolerance, fast)
+
+    @property
+    def is_heavy(self) -> bool:
+        """True if some link has a moment of inertia, declared or from the density of its wheels."""
+        declared = self.declaration
+        wheels = (wheel.density is not None for _, wheel in declared.wheels.values())
+        return declared.density is not None or any(link.inertia for link in declared.links.values()) or any(wheels)
+
+    @of_planets_as_one
+    def inertias(self, state: str | None = None) -> tuple[LinkInertia, ...]:
+        """The moment of inertia of every link whose motion is not prescribed, and where each is from.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Returns
+        -------
+        tuple of LinkInertia
+            In the order of the declaration (docs/dynamics.md, section 1).
+
+        Examples
+        --------
+        Two wheels of bronze, 2 mm thick, from the outlines of their teeth:
+
+        >>> import geartrain
+        >>> train = geartrain.load('''
+        ... links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: {teeth: 60, module: 1 mm}}}}
+        ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+        ... gears: [{pair: [p, w]}]
+        ... density: 8.7 g/cm3
+        ... thickness: 2 mm
+        ... inputs: {a: 1}
+        ... ''')
+        >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in train.inertias()]
+        [('b', 'outlines', 2.2e-05)]
+        """
+        from geartrain.dynamics.inertia.link_inertia import find_link_inertias
+
+        return find_link_inertias(self, self._case(state))
 
     def _moving(self, case: StateCase, without: Sequence[str]) -> MotionProblem:
         from geartrain.dynamics.motion.motion_problem import build_motion_problem

@@ -6,6 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.train_in_time import TrainInTime
+from geartrain.analysis.train_kinematics import of_all_planets
 from geartrain.errors import Problem, QuestionError, check_numbers
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ _YEAR = 365.25 * 86400  # s
 class TrainUnderLoad(TrainInTime):
     """What `GearTrain` knows of strength."""
 
+    @of_all_planets
     def strength(
         self,
         state: str | None = None,

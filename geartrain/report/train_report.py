@@ -24,7 +24,7 @@ from geartrain.report.graph_tables import adjacency_table
 from geartrain.report.motion_report import moving_sections
 from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
-from geartrain.train import Source, Train, Wheel
+from geartrain.train import Link, Source, Train, Wheel
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
@@ -134,12 +134,18 @@ def _structure(train: GearTrain) -> Iterator[Section]:
         f"{len(declared.gears)} gear pairs, {couplings}, "
         f"{wheels} wheels."
     )
-    rows = [(name, _wheels(link.wheels), _joint(train, name), link.note or "") for name, link in declared.links.items()]
+    rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
     yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
     if len(declared.links) <= MOST_SQUARE:
         text = "R(axis) is a turning pair, the others are gear pairs and couplings by id."
         yield Section("Adjacency matrix", (text,), (adjacency_table(train),))
+
+
+def _note(link: Link) -> str:
+    """What is declared, after how many there are."""
+    number = f"{link.copies} of them, equal" if link.copies > 1 else ""
+    return "; ".join(filter(None, (number, link.note or "")))
 
 
 def _wheels(wheels: dict[str, Wheel]) -> str:

@@ -61,6 +61,8 @@ def make_scene(
     >>> scene.movement.kind
     'exact'
     """
+    if run is None:  # what was simulated moves equal planets as one
+        train = train.unfolded
     declared = train.declaration
     state = train.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))

@@ -55,6 +55,9 @@ from geartrain.train.materials import ArborSizes, FaceWidth
 from geartrain.train.short_forms import JOINT_SCHEMA
 from geartrain.train.tooth_counts import Teeth
 
+MOST_COPIES = 360
+"""More planets have room on no carrier."""
+
 
 class Source(Declared):
     """Where facts come from.
@@ -183,6 +186,9 @@ class Link(Declared):
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
         {}, validate_default=True, description="The wheels fixed on this link, by id"
+    )
+    copies: Annotated[Count, Field(le=MOST_COPIES)] = Field(
+        1, description="So many equal links, evenly spaced about the axis of the carrier that bears this one"
     )
     inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
         None, description="Moment of inertia about its axis; default from its wheels, where their `density` is given"

@@ -23,7 +23,7 @@ Z = np.array([0.0, 0.0, 1.0])
 
 
 def load(name: str) -> tuple[geartrain.GearTrain, Layout]:
-    return shipped.train(name), shipped.layout(name)
+    return shipped.train(name).unfolded, shipped.layout(name)
 
 
 def named(layout: Layout, *names: str) -> bool:

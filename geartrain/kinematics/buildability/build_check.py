@@ -12,9 +12,11 @@ from geartrain.kinematics.buildability.clutch_axes import check_clutches
 from geartrain.kinematics.buildability.equal_planets import check_planets
 from geartrain.kinematics.buildability.idle_wheels import check_mates
 from geartrain.kinematics.buildability.pitch_distances import PitchDistances
-from geartrain.kinematics.buildability.pitch_pairs import pitch_pairs
+from geartrain.kinematics.buildability.pitch_pairs import PitchPair, pitch_pairs
 from geartrain.kinematics.buildability.ring_mates import check_rings
 from geartrain.kinematics.buildability.skew_distances import check_skew
+from geartrain.kinematics.circuits import find_circuits, find_tree
+from geartrain.kinematics.planet_copies import has_copies, with_copies
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
@@ -30,6 +32,19 @@ def check_build(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterat
     yield from sizes.findings
     yield from check_skew(train, tree, pairs, sizes)
     yield from check_triangles(sizes)
-    yield from check_planets(train, tree, circuits, pairs, sizes)
+    yield from _planets(train, tree, circuits, pairs, sizes)
     yield from check_clutches(train, tree)
     yield from check_mates(train)
+
+
+def _planets(
+    train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair], sizes: PitchDistances
+) -> Iterator[BuildFinding]:
+    """Of all planets, also where one is declared for several."""
+    if has_copies(train):
+        train = with_copies(train, tree)
+        tree = find_tree(train)
+        circuits = find_circuits(train, tree)
+        pairs = pitch_pairs(train, tree, circuits)
+        sizes = PitchDistances(train, tree, circuits, pairs)
+    yield from check_planets(train, tree, circuits, pairs, sizes)

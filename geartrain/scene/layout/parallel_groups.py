@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -53,6 +54,7 @@ def arrange(geometry: SizedGeometry) -> Arrangement:
 def _order(geometry: SizedGeometry) -> list[int]:
     lines, axis = geometry.declared.lines, geometry.declared.axis
     count = dict.fromkeys((line.group for line in lines.values()), 0)
+    axes = Counter(line.group for line in lines.values())
     for label in axis.values():
         if label in lines:
             count[lines[label].group] += 1
@@ -61,7 +63,7 @@ def _order(geometry: SizedGeometry) -> list[int]:
     while len(order) < len(count):
         rest = [group for group in count if group not in order]
         near = [group for group in rest if any((group, other) in joined for other in order)]
-        order.append(max(near or rest, key=lambda group: (count[group], -group)))
+        order.append(max(near or rest, key=lambda group: (count[group], -axes[group], -group)))
     return order
 
 
@@ -127,11 +129,19 @@ class _Placing:
         return dict.fromkeys(self._in_line(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _in_line(self, parallels: Parallels) -> list[str]:
-        """Parallels that are one line, for two axes across, not parallel to each other, meet each of them."""
+        """Parallels that are one line: two axes across, not parallel to each other, meet each of them.
+
+        Or one wheel across does, for the cones of all its mates have one apex.
+        """
         met: dict[str, set[int]] = {label: set() for label in parallels.index}
+        mates: dict[str, list[str]] = {}
         for each in self.geometry.crossing:
             if each.side.axis in met and each.contact.kind != "screw":
                 met[each.side.axis].add(self.geometry.declared.lines[each.side.mate_axis].group)
+                mates.setdefault(each.side.mate, []).append(each.side.axis)
+        for axes in mates.values():
+            if len(set(axes)) > 1:
+                return list(dict.fromkeys(axes))
         some = [label for label in met if len(met[label]) > 1]
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 

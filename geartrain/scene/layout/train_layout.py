@@ -179,6 +179,7 @@ def lay_out(train: GearTrain) -> Layout:
     >>> {name: wheel.radius for name, wheel in layout.wheels.items()}
     {'ring': 30.0, 's': 12.0, 'p': 9.0}
     """
+    train = train.unfolded
     geometry = size_geometry(read_geometry(train))
     declared = geometry.declared
     found = arrange(geometry)

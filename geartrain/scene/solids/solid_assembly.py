@@ -68,6 +68,10 @@ class SolidModel:
     making: ManufacturingSizes
     state: str | None = None
 
+    def __post_init__(self) -> None:
+        """Every one of equal planets is made."""
+        object.__setattr__(self, "train", self.train.unfolded)
+
     @cached_property
     def sized(self) -> GearTrain:
         """The train with the modules and the play asked for."""

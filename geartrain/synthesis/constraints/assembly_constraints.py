@@ -211,9 +211,13 @@ class _Asking:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _numbered(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Sets of planets and how many there are of each."""
+        """Sets of planets and how many there are of each: as asked, else by `copies`."""
         asked = self.asked.planets
         if asked is None:
+            for one in self.fitting.sets:
+                copies = max(self.declared.links[link].copies for link in one.links)
+                if copies > 1 and one.planets is not None:
+                    yield one, copies
             return
         known = dict.fromkeys(one.carrier for one in self.fitting.sets)
         unknown = [carrier for carrier in asked if carrier not in known] if isinstance(asked, Mapping) else []
@@ -223,9 +227,13 @@ class _Asking:
             number = asked.get(one.carrier) if isinstance(asked, Mapping) else asked
             if number is None:
                 continue
-            if number < 1 or len(one.copies) + 1 not in (1, number) or one.planets is None:
-                raise QuestionError(_not_so_many(one, number))
+            if number < 1 or self._declared(one) not in (1, number) or one.planets is None:
+                raise QuestionError(_not_so_many(one, number, self._declared(one)))
             yield one, number
+
+    def _declared(self, one: PlanetSet) -> int:
+        """Equal sets that are declared, by `copies` or one by one."""
+        return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
         """Planets declared one by one have the same counts."""
@@ -273,13 +281,13 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     )
 
 
-def _not_so_many(one: PlanetSet, number: int) -> Problem:
+def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
     if one.planets is None:
         why = "they mesh with each other in a loop, which is not judged"
     elif number < 1:
         why = "a carrier has one planet or more"
     else:
-        why = f"{len(one.copies) + 1} sets are declared, alike"
+        why = f"{declared} sets are declared, alike"
     return Problem(
         f"{number} equal planets {one.title} on '{one.carrier}' cannot be asked for",
         why,

@@ -1,0 +1,300 @@
+"""Equal planets: one declared link that stands for several, and the train in which each of them is declared.
+
+Speeds need one of them, for all turn alike. Assembly, loads, pictures and parts need all: docs/theory.md, 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import cos, sin, tau
+
+from geartrain.errors import DeclarationError, Loc, Problem
+from geartrain.kinematics.circuits import Tree
+from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.quantity import Figure, Quantity, millimetres
+from geartrain.numerics.vectors import Vector, cross, dot, minus, plus, scaled, unit
+from geartrain.train import GearPair, Link, Train
+from geartrain.train.mechanism import Axis, Revolute
+
+
+def has_copies(train: Train) -> bool:
+    """True where a link stands for several."""
+    return any(part.copies > 1 for part in train.links.values())
+
+
+def check_copies(train: Train, tree: Tree) -> None:
+    """Raise `DeclarationError` where links that stand for several have no places to stand."""
+    if problems := tuple(_problems(train, tree)):
+        raise DeclarationError(problems)
+
+
+def with_copies(train: Train, tree: Tree) -> Train:
+    """The train in which every equal planet is declared: `p`, `p.2`, `p.3`, with pairs and axes of their own.
+
+    Loads and bearings are those of each. Positions are turned about the carrier's axis; where none are declared they
+    follow from the layout. What is prescribed of a planet stays with the first.
+    """
+    return _Unfolding(train, tree).train() if has_copies(train) else train
+
+
+def as_one(train: Train) -> Train:
+    """The train in which equal planets are one that is as heavy and as stiff as all, for they move alike."""
+    if not has_copies(train):
+        return train
+    links = {name: _heavier(train, part) for name, part in train.links.items()}
+    gears = tuple(_stiffer(train, gear) for gear in train.gears)
+    states = train.states.items()
+    return train.changed(
+        links=FrozenDict(links),
+        gears=gears,
+        loads=_summed(train, train.loads),
+        states=FrozenDict({name: state.changed(loads=_summed(train, state.loads)) for name, state in states}),
+    )
+
+
+def _heavier(train: Train, part: Link) -> Link:
+    number = part.copies
+    if number == 1:
+        return part
+    wheels = {}
+    for name, wheel in part.wheels.items():
+        density = wheel.density or train.density
+        wheels[name] = wheel if density is None else wheel.changed(density=_times(density, number))
+    bearing = part.bearing
+    if bearing is not None:
+        static = None if bearing.static is None else _times(bearing.static, number)
+        bearing = bearing.changed(sliding=_times(bearing.sliding, number), static=static)
+    return part.changed(
+        copies=1,
+        wheels=FrozenDict(wheels),
+        inertia=None if part.inertia is None else _times(part.inertia, number),
+        mass=None if part.mass is None else _times(part.mass, number),
+        drag=None if part.drag is None else _times(part.drag, number),
+        bearing=bearing,
+    )
+
+
+def _stiffer(train: Train, gear: GearPair) -> GearPair:
+    number = max(train.links[train.wheels[wheel][0]].copies for wheel in gear.pair)
+    if number == 1:
+        return gear
+    stiffness, damping = train.stiffness_of(gear), train.damping_of(gear)
+    return gear.changed(
+        stiffness=None if stiffness is None else _times(stiffness, number),
+        damping=None if damping is None else _times(damping, number),
+    )
+
+
+def _summed(train: Train, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
+    if not loads:
+        return loads
+    return FrozenDict({link: _times(torque, train.links[link].copies) for link, torque in loads.items()})
+
+
+def _times(quantity: Quantity, number: int) -> Quantity:
+    return (
+        replace(quantity, value=quantity.value * number, text=f"{number} x {quantity.text}") if number > 1 else quantity
+    )
+
+
+def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
+    for link, part in train.links.items():
+        bearer = tree.top.get(link)
+        if part.copies == 1:
+            if bearer in train.links and train.links[bearer].copies > 1:
+                what = f"'{link}' turns on '{bearer}', of which there are {train.links[bearer].copies}"
+                fix = f"write `copies: {train.links[bearer].copies}` for it too"
+                yield Problem(what, "each of those would bear one", fix, train.place("links", link))
+            continue
+        if bearer is None or bearer == train.frame:
+            what = f"{part.copies} links '{link}' have no carrier to stand about"
+            why = "equal planets are spaced about the axis of the link that bears them, and the frame has no one axis"
+            fix = "let them turn on a carrier; where that stands still hold it: `fixed: [carrier]`"
+            yield Problem(what, why, fix, train.place("links", link))
+        elif train.links[bearer].copies not in (1, part.copies):
+            yield _unequal(train, link, bearer, "links", link)
+    yield from _unequal_mates(train)
+
+
+def _unequal_mates(train: Train) -> Iterator[Problem]:
+    for at, gear in enumerate(train.gears):
+        first, second = (train.wheels[wheel][0] for wheel in gear.pair)
+        counts = {train.links[link].copies for link in (first, second)}
+        if len(counts) > 1 and 1 not in counts:
+            yield _unequal(train, first, second, "gears", at)
+    for at, coupling in enumerate(train.couplings):
+        for link in (coupling.pin, coupling.slot):
+            if train.links[link].copies > 1:
+                what = f"a pin in a slot joins one of {train.links[link].copies} links '{link}'"
+                fix = "declare these links one by one, and the coupling of each"
+                yield Problem(what, "`copies` are equal in all that they meet", fix, train.place("couplings", at))
+
+
+def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
+    counts = [train.links[link].copies for link in (first, second)]
+    what = f"{counts[0]} links '{first}' cannot be joined to {counts[1]} links '{second}'"
+    return Problem(
+        what, "each of the first would need one of the second", "give both the same `copies`", train.place(*loc)
+    )
+
+
+@dataclass(frozen=True)
+class _Unfolding:
+    """A train and its turning pairs; copies are numbered from 1, the declared one."""
+
+    declared: Train
+    tree: Tree
+
+    def train(self) -> Train:
+        links: dict[str, Link] = {}
+        for name, part in self.declared.links.items():
+            links[name] = part.changed(copies=1)
+            for at in self._others(name):
+                links[_named(name, at)] = self._link(part, at)
+        axes = dict(self.declared.axes)
+        joints: list[tuple[int, Revolute]] = []
+        for index, joint in enumerate(self.declared.revolutes):
+            joints.append((index, joint))
+            joints += [(index, self._joint(joint, at)) for at in self._others(*joint.pair)]
+            for at in self._others(*joint.pair):
+                if joint.axis in self.declared.axes:
+                    axes[_named(joint.axis, at)] = self._axis(joint.axis, at)
+        gears: list[tuple[int, GearPair]] = []
+        for index, gear in enumerate(self.declared.gears):
+            others = self._others(*(self.declared.wheels[wheel][0] for wheel in gear.pair))
+            gears.append((index, _shared(gear, len(others) + 1)))
+            gears += [(index, self._gear(gear, at, len(others) + 1)) for at in others]
+        states = self.declared.states
+        made = self.declared.changed(
+            links=FrozenDict(links),
+            axes=FrozenDict(axes),
+            revolutes=tuple(joint for _, joint in joints),
+            gears=tuple(gear for _, gear in gears),
+            loads=self._loads(self.declared.loads),
+            states=FrozenDict({name: state.changed(loads=self._loads(state.loads)) for name, state in states.items()}),
+        )
+        indices = {"revolutes": [index for index, _ in joints], "gears": [index for index, _ in gears]}
+        made._marks = _Places(self.declared, indices)
+        return made
+
+    # ------------------------------------------------------------------------------------------------------- one part
+
+    def _others(self, *links: str) -> range:
+        """Numbers of the further copies of what joins some links."""
+        return range(2, 1 + max(self.declared.links[link].copies for link in links))
+
+    def _own(self, link: str, at: int) -> str:
+        """A link as its copy meets it: those that are one stay the same."""
+        return _named(link, at) if self.declared.links[link].copies > 1 else link
+
+    def _link(self, part: Link, at: int) -> Link:
+        wheels = {_named(name, at): wheel for name, wheel in part.wheels.items()}
+        # at what angle the teeth of others stand follows from where they stand
+        return part.changed(copies=1, wheels=FrozenDict(wheels), angle=None)
+
+    def _joint(self, joint: Revolute, at: int) -> Revolute:
+        first, second = joint.pair
+        return joint.changed(pair=(self._own(first, at), self._own(second, at)), axis=_named(joint.axis, at))
+
+    def _gear(self, gear: GearPair, at: int, number: int) -> GearPair:
+        own = {wheel: self._wheel(wheel, at) for wheel in gear.pair}
+        driver = None if gear.driver is None else own[gear.driver]
+        changed = gear.changed(pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _named(gear.id, at))
+        return _shared(changed, number)
+
+    def _wheel(self, wheel: str, at: int) -> str:
+        return _named(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
+
+    def _loads(self, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
+        """A torque that acts on a planet acts on each."""
+        if not loads:
+            return loads
+        found = dict(loads)
+        for link, torque in loads.items():
+            found.update((_named(link, at), torque) for at in self._others(link))
+        return FrozenDict(found)
+
+    # ---------------------------------------------------------------------------------------------------------- places
+
+    def _axis(self, label: str, at: int) -> Axis:
+        """An axis turned about that of the carrier."""
+        carrier, number = self._carriers[label]
+        about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
+        axis, angle = self.declared.axes[label], tau * (at - 1) / number
+        way = unit(_figures(about.direction))
+        direction = _turned(_figures(axis.direction), way, angle)
+        told: dict[str, object] = {"direction": tuple(Figure.parse(_decimal(part)) for part in direction)}
+        if axis.position is not None:
+            if about.position is None:
+                what = f"it is not known where copies of axis '{label}' stand"
+                fix = f"give axis '{self.tree.axis(carrier)}' a position, or take that of '{label}' away"
+                why = "they stand about the axis of their carrier, which has no position"
+                raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
+            centre = _lengths(about.position)
+            place = plus(centre, _turned(minus(_lengths(axis.position), centre), way, angle))
+            told["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)
+        return axis.changed(**told)
+
+    @cached_property
+    def _carriers(self) -> Mapping[str, tuple[str, int]]:
+        """Axis of copied links -> the one link about whose axis they stand, and how many there are."""
+        found = {}
+        for link, (_, axis) in self.tree.parent.items():
+            number, carrier = self.declared.links[link].copies, self.tree.top[link]
+            while self.declared.links[carrier].copies > 1:
+                carrier = self.tree.top[carrier]
+            if number > 1:
+                found[axis] = carrier, number
+        return found
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Where the parts of an unfolded train were written."""
+
+    declared: Train
+    indices: Mapping[str, list[int]]
+
+    def __call__(self, loc: Loc) -> str:
+        first, *rest = loc
+        if first in self.indices and rest and isinstance(rest[0], int):
+            rest[0] = self.indices[str(first)][rest[0]]
+        elif first in ("links", "axes"):
+            rest = [part if not isinstance(part, str) else self._declared(part) for part in rest]
+        return self.declared.place(first, *rest)
+
+    def _declared(self, name: str) -> str:
+        known = name in self.declared.links or name in self.declared.axes or name in self.declared.wheels
+        return name if known else name.rpartition(".")[0] or name
+
+
+def _named(name: str, at: int) -> str:
+    return f"{name}.{at}"
+
+
+def _shared(gear: GearPair, number: int) -> GearPair:
+    """A declared share is that of all copies together."""
+    if gear.share is None or number == 1:
+        return gear
+    return gear.changed(share=Figure.parse(str(gear.share.value / number)))
+
+
+def _figures(direction: tuple[Figure, Figure, Figure]) -> Vector:
+    return float(direction[0].value), float(direction[1].value), float(direction[2].value)
+
+
+def _lengths(position: tuple[Quantity, Quantity, Quantity]) -> Vector:
+    return float(millimetres(position[0])), float(millimetres(position[1])), float(millimetres(position[2]))
+
+
+def _decimal(part: float) -> str:
+    """To 15 digits; what is left of cosines of right angles is 0."""
+    return f"{round(part, 13):.15g}"
+
+
+def _turned(vector: Vector, way: Vector, angle: float) -> Vector:
+    """About a unit vector, by Rodrigues' formula."""
+    along = scaled(way, dot(way, vector) * (1 - cos(angle)))
+    return plus(plus(scaled(vector, cos(angle)), scaled(cross(way, vector), sin(angle))), along)

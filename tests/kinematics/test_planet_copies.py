@@ -1,0 +1,207 @@
+"""Equal planets declared by `copies`: held against the same trains with every planet declared, and closed forms."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import cos, isclose, sin, tau
+
+import pytest
+import yaml
+from fitters import passed, rules_of
+
+import geartrain
+from geartrain.errors import DeclarationError, QuestionError
+from geartrain.kinematics.relative_speeds import relative_speed
+from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
+
+SET = """
+name: planetary set
+links:
+  frame: {{}}
+  sun: {{wheels: {{s: {{teeth: {s}, module: 1 mm}}}}}}
+  planet: {{wheels: {{p: {p}}}, copies: {n}{more}}}
+  ring: {{wheels: {{r: {{teeth: {r}, internal: true}}}}}}
+  carrier: {{inertia: 100 g mm2}}
+revolutes: {{main: [frame, sun, ring, carrier], P: [carrier, planet]}}
+gears: [s ~ p, {{pair: [p, r], tooth_form: {{form: involute, addendum: [1, 0.9], backlash: 0.05}}}}]
+inputs: {{sun: 60 rpm}}
+fixed: [ring]
+loads: {{carrier: -0.3 N m}}
+outputs: {{carrier: {{}}}}
+"""
+
+
+def read(text: str) -> geartrain.GearTrain:
+    return geartrain.GearTrain.declare(yaml.safe_load(text))
+
+
+def planetary(s: int = 24, p: int = 18, n: int = 3, more: str = "", rest: str = "") -> geartrain.GearTrain:
+    return read(SET.format(s=s, p=p, r=s + 2 * p, n=n, more=more) + rest)
+
+
+@pytest.mark.parametrize("name", ["nrel-grc-750", "bevel-differential", "bevel-differential-involute"])
+def test_speeds_are_those_of_all_planets_declared(name: str) -> None:
+    train = geartrain.load(name)
+    every = train.unfolded
+    assert len(every.declaration.links) > len(train.declaration.links)
+    assert every.mobility.by_rank == train.mobility.by_rank
+    for state in train.states or (None,):
+        one, all_ = train.solve(state), every.solve(state)
+        assert all_.verdict.kind == one.verdict.kind == "determined"
+        for link in train.declaration.links:
+            assert one[link] == all_[link]
+        for link in every.declaration.links:
+            first = link.partition(".")[0]
+            if link != first:  # about its own axis, as its carrier sees it
+                carrier = every.tree.top[link]
+                seen = [relative_speed(each, carrier, all_.speeds.get, every.signs) for each in (first, link)]
+                assert seen[0] == seen[1], (state, link)
+
+
+def test_a_train_without_copies_is_its_own() -> None:
+    train = geartrain.load("planetary-24-18-60")
+    assert train.unfolded is train
+    assert train.planets_as_one is train
+
+
+@pytest.mark.parametrize(("s", "p"), [(24, 18), (20, 15), (30, 24), (21, 39), (17, 19)])
+def test_planets_can_stand_evenly_where_sun_and_ring_have_a_multiple_of_their_number(s: int, p: int) -> None:
+    for n in range(2, 6):
+        if (s + p) * sin(tau / 2 / n) < p + 2.5:  # no room
+            continue
+        rules = {each.rule for each in planetary(s, p, n).build_findings}
+        assert ("A1" in rules) == ((2 * s + 2 * p) % n != 0), (s, p, n)
+
+
+def test_planets_without_room_are_an_error() -> None:
+    (found,) = [each for each in planetary(24, 18, 7).build_findings if each.rule == "A3"]
+    assert found.level == "error"
+    assert "7 planets 'p' overlap" in found.problem.what
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_each_planet_bears_its_part_of_the_load(n: int) -> None:
+    found = planetary(n=n).torques()
+    # sun and ring against a carrier of 0.3: 24 and 60 parts of 84
+    assert found.external["sun"] == Fraction(3, 10) * Fraction(24, 84)
+    assert len(found.pairs) == 2 * n
+    for name, pair in found.pairs.items():
+        whole = Fraction(24, 84) if name.startswith("s") else Fraction(60, 84)
+        assert abs(pair.torques[0 if name.startswith("s") else 1]) == Fraction(3, 10) * whole / n
+
+
+def test_strength_is_that_of_one_of_them() -> None:
+    rest = "tooth_form: {form: involute, backlash: 0.05}\nmaterial: steel\n"
+    wide = ", face_width: 10 mm"
+    text = SET.format(s="24" + wide, p="{teeth: 18" + wide + "}", r="60" + wide, n=3, more="") + rest
+
+    one, three = (read(text.replace("copies: 3", f"copies: {n}")).strength() for n in (1, 3))
+    assert set(three.pairs) == {"s~p", "p~r", "s~p.2", "p.2~r", "s~p.3", "p.3~r"}
+    for name in ("s~p", "p~r"):
+        assert isclose(3 * three.pairs[name].tangential, one.pairs[name].tangential, rel_tol=1e-12)
+
+
+def test_loads_on_a_planet_act_on_each() -> None:
+    text = SET.format(s=24, p=18, r=60, n=3, more="").replace(
+        "carrier: -0.3 N m}", "carrier: -0.3 N m, planet: 0.01 N m}"
+    )
+    train = read(text)
+    every, lumped = train.torques(), train.planets_as_one.torques()
+    assert every.external["sun"] == lumped.external["sun"]
+    assert every.external["sun"] != planetary().torques().external["sun"]
+
+
+def test_equal_planets_in_time_are_one_as_heavy_as_all() -> None:
+    train = planetary(
+        more=", inertia: 20 g mm2, mass: 10 g",
+        rest="tooth_form: {form: involute, backlash: 0.05}\n",
+    )
+    planet, carrier = (next(each for each in train.inertias() if each.link == link) for link in ("planet", "carrier"))
+    assert isclose(planet.value, 3 * 20e-9)
+    assert isclose(carrier.value, 100e-9 + 3 * 10e-3 * 21e-3**2)
+
+
+def test_a_set_driven_at_a_rate_in_time_bears_what_statics_say() -> None:
+    """An input without inertia once let the mesh with the ring go."""
+    train = planetary(
+        more=", inertia: 20 g mm2, mass: 10 g",
+        rest="tooth_form: {form: involute, backlash: 0.05}\n",
+    )
+    run = train.dynamics(turns=0.1)
+    torques = {each.name: each.torque for each in run.contacts}
+    assert isclose(run.torque, 0.3 * 24 / 84, rel_tol=1e-3)
+    assert isclose(torques["p~r"], 0.3 * 60 / 84, rel_tol=1e-3)
+    assert run.leads[0].behind < 1e-6
+
+
+def test_planets_declared_one_by_one_in_time_are_told_what_to_do() -> None:
+    train = planetary(
+        more=", inertia: 20 g mm2, mass: 10 g",
+        rest="tooth_form: {form: involute, backlash: 0.05}\n",
+    )
+    with pytest.raises(QuestionError, match="copies: 3"):
+        geartrain.GearTrain(train.unfolded.declaration).dynamics(turns=0.1)
+
+
+def test_positions_and_directions_are_turned_about_the_axis_of_the_carrier() -> None:
+    placed = SET.replace(
+        "revolutes", "axes: {{main: {{position: [5 mm, 0 mm, 0 mm]}}, P: {{position: [26 mm, 0 mm, 0 mm]}}}}\nrevolutes"
+    )
+    found = read(placed.format(s=24, p=18, r=60, n=3, more="")).unfolded.declaration.axes
+    for at, label in enumerate(("P", "P.2", "P.3")):
+        x, y, z = (1e3 * part.si for part in found[label].position)
+        assert isclose(x, 5 + 21 * cos(at * tau / 3), abs_tol=1e-12)
+        assert isclose(y, 21 * sin(at * tau / 3), abs_tol=1e-12)
+        assert z == 0
+    spider = geartrain.load("bevel-differential").unfolded.declaration.axes["spider.2"].direction
+    assert [figure.value for figure in spider] == [0, -1, 0]
+
+
+def test_unfolded_parts_were_written_where_the_first_was() -> None:
+    every = planetary().unfolded.declaration
+    assert every.place("links", "planet.3") == every.place("links", "planet")
+    assert every.place("gears", 2) == every.place("gears", 0)
+    assert every.place("gears", 5) == planetary().declaration.place("gears", 1)
+
+
+def test_pictures_and_parts_hold_all_of_them() -> None:
+    train = planetary()
+    assert [wheel.id for wheel in make_scene(train).wheels] == ["s", "p", "p.2", "p.3", "r"]
+    model = SolidModel(train, ManufacturingSizes())
+    assert {"p", "p.2", "p.3"} <= {part.name for part in model.parts}
+
+
+def test_tooth_counts_that_are_searched_can_be_put_together() -> None:
+    text = SET.format(s=24, p=18, r=60, n=4, more="")
+    train = read(text)
+    rules = rules_of(train.declaration, ["p", "r"])
+    found = [(p, 24 + 2 * p) for p in range(10, 40) if passed(rules, p=p, r=24 + 2 * p)]
+    assert found == [(p, r) for p in range(10, 40) if (24 + (r := 24 + 2 * p)) % 4 == 0]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("P: [carrier, planet]", "P: [frame, planet]"), "have no carrier to stand about"),
+        (("copies: 3", "copies: 0"), "copies"),
+        (("P: [carrier, planet]}", "P: [carrier, planet], Q: [planet, rider]}\n  "), "turns on 'planet'"),
+    ],
+)
+def test_copies_that_have_no_place_are_refused(change: tuple[str, str], words: str) -> None:
+    text = SET.format(s=24, p=18, r=60, n=3, more="").replace(*change)
+    if "rider" in text:
+        text = text.replace("  carrier:", "  rider: {}\n  carrier:")
+    with pytest.raises(DeclarationError, match=words):
+        read(text).solve()
+
+
+def test_unequal_copies_cannot_mesh() -> None:
+    text = SET.format(s=24, p=18, r=96, n=3, more="").replace(
+        "  ring:", "  outer: {wheels: {o: 18}, copies: 2}\n  ring:"
+    )
+    text = text.replace("P: [carrier, planet]", "P: [carrier, planet], Q: [carrier, outer]").replace(
+        "pair: [p, r]", "pair: [p, o]}, {pair: [o, r]"
+    )
+    with pytest.raises(DeclarationError, match="cannot be joined"):
+        read(text).solve()
+    assert read(text.replace("copies: 2", "copies: 3")).unfolded.mobility.by_rank == 2

@@ -338,7 +338,7 @@ def test_tables_hold_exact_values_and_the_same_in_decimal() -> None:
 
 @pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "bevel-differential", "zf-8hp70"])
 def test_every_row_of_a_declaration_is_in_its_tables(name: str) -> None:
-    train = load(name)
+    train = load(name).unfolded
     found = tables(SolidModel(train, ManufacturingSizes()))
     assert {row["wheel"] for row in found["wheels"]} == set(train.declaration.wheels)
     assert [row["pair"] for row in found["pairs"]] == [gear.name for gear in train.declaration.gears]

@@ -5,6 +5,7 @@ The abscissae are those of `geartrain.kinematics.levers`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import groupby
@@ -13,14 +14,14 @@ from typing import Any
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import spread
 from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, sheet, title_of, too_many
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, PURPLE, RED, SMALL, sheet, title_of, too_many
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers
 from geartrain.numerics.decimal_text import decimal, fraction_text, is_short
 
 Point = tuple[Fraction, list[str], Fraction | None]
-"""Abscissa, the members there, their speed; None where undetermined."""
+"""Abscissa, the members there with what is closed at them, their speed; None where undetermined."""
 
 _MOST = 120  # panels
 _LEAST, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
@@ -54,7 +55,13 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     figure, page = sheet(width, height, title_of(declared.name, declared.title))
     top = height - 0.35
     for answer in answers:
-        page.text(0.15, top - 0.3, _heading(answer, declared.unit_name), fontsize=SMALL, parse_math=False)
+        page.text(
+            0.15,
+            top - 0.3,
+            _heading(answer, declared.unit_name, _engaged(train, answer.state)),
+            fontsize=SMALL,
+            parse_math=False,
+        )
         top -= 0.45
         for band in bands:
             top -= _TALL + _HEAD
@@ -92,8 +99,10 @@ def _letters(text: str) -> float:
     return len(text) * _FINE * LETTER + 0.1
 
 
-def _heading(answer: Answer, unit: str) -> str:
+def _heading(answer: Answer, unit: str, closed: Sequence[str]) -> str:
     state = f"state {answer.state}, " if answer.state is not None else ""
+    if closed:
+        state += f"{' and '.join(closed)} closed, "
     return f"{state}speeds in {unit or 'the unit of the inputs'}" + ("" if answer.verdict else f"; {answer.verdict}")
 
 
@@ -111,13 +120,29 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
     for x, speed in known:
         axes.plot([x, x], [0.0, speed], color=GREY, linewidth=2.2, zorder=2)
         axes.plot([x], [speed], "o", color=RED if x == 0 else BLUE, markersize=6, markeredgecolor="white", zorder=4)
+    held = sorted({float(x) for link, x in lever.abscissae.items() if link in train.cases[answer.state].fixed})
+    axes.plot(held, [0.0] * len(held), "^", color=PURPLE, markersize=8, zorder=5, gid="held") if held else None
     if labels:
         _names(axes, points, xs)
 
 
+def _engaged(train: GearTrain, state: str | None) -> Sequence[str]:
+    return train.declaration.states[state].engaged if state is not None else ()
+
+
+def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
+    """Behind each link that a closed brake or clutch takes hold of, the names of those."""
+    found: dict[str, list[str]] = {}
+    for name in _engaged(train, state):
+        clutch = train.declaration.clutches[name]
+        for link in clutch.locks or (clutch.fixes or "",):
+            found.setdefault(link, []).append(name)
+    return {link: f" [{', '.join(names)}]" for link, names in found.items()}
+
+
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
     """Abscissa, members and their speed about the carrier's axis, from left to right; None where undetermined."""
-    own = train.signs.get(lever.carrier, 1)
+    own, marks = train.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
     for x, members in groupby(ordered, key=lambda item: item[1]):
@@ -126,7 +151,7 @@ def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
             if same:
                 speed = answer.speeds.get(same[0])
                 turned = None if speed is None else Fraction(speed) * own * train.signs.get(same[0], 1)
-                found.append((x, same, turned))
+                found.append((x, [link + marks.get(link, "") for link in same], turned))
     return found
 
 
@@ -168,10 +193,10 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
             "parse_math": False,
             "clip_on": False,
         }
-        carrier = x == 0
-        axes.text(up, 1.08, speed, va="bottom", color=RED if carrier else BLUE, gid=f"speed {name}", **how)
+        carrier, plain = x == 0, re.sub(r" \[.*?\]", "", name)
+        axes.text(up, 1.08, speed, va="bottom", color=RED if carrier else BLUE, gid=f"speed {plain}", **how)
         axes.text(up, 1.19, name, va="bottom", color=BLACK, fontweight="bold", **how)
-        axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {name}", **how)
+        axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {plain}", **how)
 
 
 def _said(value: Fraction | None) -> str:

@@ -58,7 +58,8 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     deep = max(float(size[2]) * scale, _SIDE) if layered else 0.0
     width = max(size[0] * scale + 2 * _RIM + (deep + 2 * _RIM if layered else 0.0), 5.5)
     said = _verdict(scene, float(width))
-    height = size[1] * scale + 2 * _RIM + _HEAD + _FOOT + 0.17 * said.count("\n")
+    shifted = _elements(scene, float(width))
+    height = size[1] * scale + 2 * _RIM + _HEAD + _FOOT + 0.17 * (said.count("\n") + len(shifted))
     figure, axes = sheet(float(width), float(height), _title(scene, turns))
     left = (width - size[0] * scale - (deep + 2 * _RIM if layered else 0.0)) / 2
     page = ScaledPage(axes, scale, np.array([left - low[0] * scale, _FOOT + _RIM - low[1] * scale]), _FOOT - 0.1)
@@ -71,8 +72,12 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
         draw_side(page, standing, depth)
     _scale_bar(axes, scale)
     _remark(page, scene, float(width))
+    for row, (words, color) in enumerate(shifted):
+        top = float(height) - 0.64 - 0.17 * row
+        write(axes, 0.15, top, words, color, ha="left", fontsize=_FINE + 1, gid="elements")
     if said:
-        axes.text(0.15, float(height) - 0.55, said, fontsize=_FINE + 1, color=RED, va="top", parse_math=False)
+        top = float(height) - 0.55 - 0.17 * len(shifted)
+        axes.text(0.15, top, said, fontsize=_FINE + 1, color=RED, va="top", parse_math=False)
     handles = list(_legend(scene))
     figure.legend(handles=handles, loc="lower right", ncols=len(handles), fontsize=SMALL - 1.5, frameon=False)
     return figure
@@ -94,6 +99,17 @@ def _verdict(scene: Scene, width: float) -> str:
     room = int((width - 0.3) / ((_FINE + 1) * LETTER))
     lines = wrap(f"{scene.verdict['kind']}: {scene.verdict['text']}", room)
     return "\n".join(lines[:4]) + (" ..." if len(lines) > 4 else "")
+
+
+def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
+    """Lines of brakes and clutches that are closed, then of those that are open, with their colours."""
+    links = [body.id for body in scene.bodies]
+    room = int((width - 0.3) / ((_FINE + 1) * LETTER))
+    lines = []
+    for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
+        some = [each.words(links) for each in scene.elements if each.closed is closed]
+        lines += [(line, color) for line in wrap(f"{word}: {', '.join(some)}", room)] if some else []
+    return lines
 
 
 def _extent(standing: ProjectedScene, wheel: SceneWheel) -> Floats:

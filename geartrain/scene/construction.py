@@ -11,7 +11,7 @@ from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_pointers import find_dials, find_pointers
-from geartrain.scene.joints import find_couplings, find_pairs, find_verdict
+from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.movement import find_movement
 from geartrain.scene.train_scene import Scene
@@ -98,6 +98,7 @@ def make_scene(
         notices=tuple(_plain(notice) for notice in notices),
         back=moved.back,
         unit_days=exact(declared.unit_days),
+        elements=find_elements(stage, state),
         run=None if run is None else _played(stage, run, moved, wheels, pairs, couplings),
     )
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from geartrain.numerics.vectors import Vector
 
@@ -241,3 +242,38 @@ class SceneCoupling:
     drawn: bool
     text: str
     slot_turn: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SceneShiftElement:
+    """A brake or a clutch.
+
+    Attributes
+    ----------
+    id, kind : str
+        Its name, and brake or clutch.
+    bodies : sequence of int
+        Indices of what it holds to the frame, or of the two that it joins.
+    closed : bool
+        Whether it is closed in this state.
+
+    See Also
+    --------
+    make_scene : gives it, in `Scene.elements`.
+    """
+
+    id: str
+    kind: Literal["brake", "clutch"]
+    bodies: Sequence[int]
+    closed: bool
+
+    def words(self, links: Sequence[str]) -> str:
+        """What it is and does, such as `B brakes ring`.
+
+        Parameters
+        ----------
+        links : sequence of str
+            Names of all bodies.
+        """
+        joined = " and ".join(links[at] for at in self.bodies)
+        return f"{self.id} {'brakes' if self.kind == 'brake' else 'joins'} {joined}"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.numerics.vectors import Vector, across, beside, dot, minus, plus, size, unit_or_z
 from geartrain.scene.context import SceneContext
-from geartrain.scene.elements import SceneCoupling, ScenePair
+from geartrain.scene.elements import SceneCoupling, ScenePair, SceneShiftElement
 from geartrain.scene.movement import MovementStart
 
 if TYPE_CHECKING:
@@ -85,6 +85,18 @@ def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
             said = "; ".join(filter(None, (fault.what, fault.why, fault.fix)))
             yield {"pairs": [mesh.name], "links": links, "text": said}
+
+
+def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
+    """Brakes and clutches in the order declared, and which are closed in a state."""
+    declared = stage.train.declaration
+    closed = declared.states[state].engaged if state is not None else ()
+    found = []
+    for name, clutch in declared.clutches.items():
+        links = clutch.locks or (clutch.fixes or declared.frame,)
+        bodies = tuple(stage.body[link] for link in links)
+        found.append(SceneShiftElement(name, "brake" if clutch.locks is None else "clutch", bodies, name in closed))
+    return tuple(found)
 
 
 _LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0}  # offset over pin radius, where none is declared

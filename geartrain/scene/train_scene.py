@@ -18,7 +18,7 @@ from typing import Any
 
 from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
-from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel, ToothProfile
+from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneShiftElement, SceneWheel, ToothProfile
 from geartrain.scene.error_steps import Movement
 from geartrain.scene.scene_run import SceneRun
 
@@ -158,6 +158,8 @@ class Scene:
         The movement while the lead turns against its declared sense, on the other flanks; None where it is the same.
     unit_days : str or None
         Length of the unit in days, exact, where it is a time; None elsewhere.
+    elements : sequence of SceneShiftElement
+        Brakes and clutches, in the order declared; which are closed.
     run : SceneRun or None
         The simulated motion through time, which is then played; None where the train is turned by its crank.
 
@@ -189,6 +191,7 @@ class Scene:
     notices: Sequence[Mapping[str, str]]
     back: Movement | None = None
     unit_days: str | None = None
+    elements: Sequence[SceneShiftElement] = ()
     run: SceneRun | None = None
 
     def to_dict(self) -> dict[str, Any]:

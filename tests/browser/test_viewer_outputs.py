@@ -35,6 +35,23 @@ def needed(name: str, output: str, folder: Path) -> set[str]:
     return found
 
 
+def test_brakes_and_clutches_are_named_and_a_click_shows_what_they_hold(show: Opening) -> None:
+    shown = show("zf-8hp70")
+    declared = shipped.train("zf-8hp70").declaration
+    for at, state in enumerate(declared.states):
+        shown.page.get_by_label("State").select_option(index=at)
+        closed = shown.run("[...document.querySelectorAll('.element.closed')].map((each) => each.textContent)")
+        assert set(closed) == set(declared.states[state].engaged)
+    assert shown.run("[...document.querySelectorAll('.element')].map((each) => each.textContent)") == list(
+        declared.clutches
+    )
+    for name, clutch in declared.clutches.items():
+        shown.page.locator(".element", has_text=name).click()
+        lit = shown.run("[...geartrain.stages.find(Boolean).world.looks.chosen.wheels]")
+        held = clutch.locks or (clutch.fixes or "",)
+        assert lit == [at for at, (link, _) in enumerate(declared.wheels.values()) if link in held]
+
+
 @pytest.mark.parametrize("output", ["moon", "exeligmos"])
 def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tmp_path: Path, output: str) -> None:
     shown = show(ANTIKYTHERA)

@@ -306,6 +306,25 @@ def test_a_stick_diagram_without_clutches_is_as_it_was() -> None:
 # --------------------------------------------------------------------------------------------------------------- graph
 
 
+def test_closed_elements_stand_above_a_plan_and_at_the_members_of_a_speed_diagram() -> None:
+    train = load("zf-8hp70").declaration
+    for state, declared in train.states.items():
+        engaged = set(declared.engaged)
+        plan = drawn("zf-8hp70", "plan", state=state)
+        words = " ".join(text.get_text() for text in plan.axes[0].texts if text.get_gid() == "elements")
+        closed, _, opened = words.partition("open: ")
+        assert set(re.findall(r"(\w+) (?:brakes|joins)", closed)) == engaged
+        assert set(re.findall(r"(\w+) (?:brakes|joins)", opened)) == set(train.clutches) - engaged
+        lever = drawn("zf-8hp70", "lever", state=state)
+        shown = " ".join(text.get_text() for axes in lever.axes for text in axes.texts)
+        assert {name for each in re.findall(r"\[(.*?)\]", shown) for name in each.split(", ")} == engaged
+        for axes in lever.axes:
+            for line in axes.lines:
+                if line.get_gid() == "held":
+                    assert set(np.asarray(line.get_ydata())) == {0.0}
+    assert "elements" not in gids(drawn("planetary-24-18-60", "plan"))
+
+
 def gids(figure: Figure) -> list[str]:
     """Names of all that is drawn and has one."""
     return [str(artist.get_gid()) for artist in figure.findobj() if artist.get_gid()]

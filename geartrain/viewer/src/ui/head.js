@@ -3,10 +3,11 @@ import { el, field } from "./element.js";
 import { loopParts, verdict } from "./verdict.js";
 
 export class Head {
-  constructor(all, { compare, theme, onKeys, onShow, onLoop }) {
+  constructor(all, { compare, theme, onKeys, onShow, onLoop, onElement }) {
     this.all = all;
     this.onShow = onShow;
     this.onLoop = onLoop;
+    this.onElement = onElement;
     this.title = el("h1", {});
     this.names = el("p", { class: "quiet names" });
     this.verdicts = el("div", { class: "verdicts" });
@@ -60,7 +61,9 @@ export class Head {
     this.title.textContent = titles.join(" beside ");
     this.names.textContent = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
     this.verdicts.replaceChildren(
-      ...sides.map((side) => verdict(side, many, (of, loop) => this.onLoop(of, loopParts(of.scene, loop)))),
+      ...sides.map((side) =>
+        verdict(side, many, (of, loop) => this.onLoop(of, loopParts(of.scene, loop)), this.onElement),
+      ),
     );
   }
 }

@@ -49,6 +49,7 @@ class Interface {
       onKeys: () => this.keys.open(),
       onShow: (sides) => this.show(sides),
       onLoop: (side, loop) => this.loop(side, loop),
+      onElement: (side, each) => this.element(side, each),
     });
     this.panel = new Panel(this);
     this.#lay();
@@ -157,6 +158,13 @@ class Interface {
     const bodies = kind === "pin" ? [coupling.pin, coupling.slot] : [named(side.scene.bodies)];
     this.#highlight(new Map([[side, kind === "pair" ? { pairs: [name] } : { bodies }]]), "way");
     this.live.say(`${name} is shown`);
+  }
+
+  /** Highlights what a brake holds, or what a clutch joins. */
+  element(side, { id, kind, bodies, closed }) {
+    this.#highlight(new Map([[side, { bodies }]]), "way");
+    const names = bodies.map((index) => side.scene.bodies[index].id).join(" and ");
+    this.live.say(`${id} ${kind === "brake" ? "brakes" : "joins"} ${names}; it is ${closed ? "closed" : "open"}`);
   }
 
   /** Highlights a loop that holds the train. */

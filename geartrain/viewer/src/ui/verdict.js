@@ -13,7 +13,35 @@ export function loopParts(scene, loop) {
   };
 }
 
-export function verdict(side, many, onLoop) {
+/** Brakes and clutches: what each holds or joins, the closed ones filled; a click shows it. */
+function elements({ scene }, onElement) {
+  if (!scene.elements?.length) return null;
+  const names = (bodies) => bodies.map((index) => scene.bodies[index].id).join(" and ");
+  return el(
+    "ul",
+    { class: "elements", "aria-label": "brakes and clutches" },
+    scene.elements.map((each) => {
+      const does = `${each.kind === "brake" ? "brakes" : "joins"} ${names(each.bodies)}`;
+      return el(
+        "li",
+        {},
+        el(
+          "button",
+          {
+            type: "button",
+            class: each.closed ? "element closed" : "element",
+            title: does,
+            "aria-label": `${each.id} ${does}, ${each.closed ? "closed" : "open"}`,
+            onclick: () => onElement(each),
+          },
+          each.id,
+        ),
+      );
+    }),
+  );
+}
+
+export function verdict(side, many, onLoop, onElement) {
   const { kind, text, loops = [] } = side.scene.verdict;
   const bad = kind !== "determined";
   return el(
@@ -37,5 +65,6 @@ export function verdict(side, many, onLoop) {
           ),
         )
       : null,
+    elements(side, (each) => onElement(side, each)),
   );
 }

@@ -57,7 +57,7 @@ class Answer(FrozenFields, Result):
     speeds : mapping of str to Fraction, float or LongFloat
         Speed of each determined link [`unit`]: exact, or floats (`LongFloat` past 1e308) where `method` says so.
     outputs : mapping of str to OutputResult
-        The declared outputs, judged.
+        The declared outputs, judged when they are first read.
     ratios : mapping of str to mapping of str to Fraction
         Link -> input -> speed over that input, the others at rest; made when read, empty for floats.
     method : {"exact", "floats"}

@@ -13,7 +13,7 @@ from geartrain.errors import Problem, QuestionError, RangeError, check_choice, s
 from geartrain.kinematics.answer import Answer, SpeedAccuracy
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
-from geartrain.kinematics.judged_outputs import Relative, SpeedValue, judge_outputs
+from geartrain.kinematics.judged_outputs import OutputResult, Relative, SpeedValue, judge_outputs
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, solve
 from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
@@ -215,7 +215,10 @@ class SpeedProblem:
             shown = wanted if case.outputs else wanted[:1]
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
-        results = judge_outputs(declared, case, relative, self.is_rotation)
+
+        def outputs() -> dict[str, OutputResult]:
+            return {each.name: each for each in judge_outputs(declared, case, relative, self.is_rotation)}
+
         return Answer(
             declared.name,
             case.state,
@@ -223,7 +226,7 @@ class SpeedProblem:
             declared.unit_name,
             verdict,
             speeds,
-            {result.name: result for result in results},
+            LazyMapping(outputs),
             ratios or {},
             "floats" if ratios is None else "exact",
             {} if accuracy is None else accuracy,

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from studies.left_out_records import LeftOutRecords
-from studies.left_out_study import LIMIT, QUICK, forget, left_out
+from studies.left_out_study import LIMIT, QUICK, forget, left_out, tree_records
 from studies.page import lowered, paragraphs, read
+
+from geartrain import shipped
 
 DOCS = Path(__file__).resolve().parent
 PAGE, DATA = DOCS / "left-out.md", DOCS / "data" / "left-out.json"
@@ -84,6 +87,17 @@ def page(records: LeftOutRecords) -> list[str]:
     return [HEAD, found, "## What is asked\n", paragraphs(RULES), lowered(records.tables())]
 
 
+def merged(kept: LeftOutRecords, new: LeftOutRecords) -> LeftOutRecords:
+    """A kept run with some trains asked anew, and the trees of all trains as they are shipped now."""
+    every = tree_records(tuple(shipped()))
+    again = {row.train for row in new.rows}
+    rows = [row for row in kept.rows if row.train not in again] + list(new.rows)
+    trees = [tree.train for tree in every.trees]
+    return replace(
+        every, rows=sorted((row for row in rows if row.train in trees), key=lambda row: trees.index(row.train))
+    )
+
+
 def from_command_line() -> None:
     """Write the page; with `--measure` after its run was made anew, with `--quick` print a short run instead."""
     asked = argparse.ArgumentParser(description="Write docs/left-out.md from its kept run.")
@@ -93,14 +107,21 @@ def from_command_line() -> None:
         "--limit", type=float, default=LIMIT, help="processor seconds for a question (default %(default)g)"
     )
     asked.add_argument("--workers", type=int, default=1, help="questions at once (default %(default)s)")
-    asked.add_argument("--train", action="append", default=[], help="ask of this train alone, and write nothing")
+    asked.add_argument(
+        "--train",
+        action="append",
+        default=[],
+        help="ask of this train alone, and write nothing; with --measure put it among the others",
+    )
     given = asked.parse_args()
-    if given.quick or given.train:
+    if given.quick or (given.train and not given.measure):
         names = given.train or QUICK
         print(left_out(names, given.limit, given.workers).to_markdown())
         return
     if given.measure:
-        found = left_out((), given.limit, given.workers, JOURNAL)
+        found = left_out(given.train, given.limit, given.workers, JOURNAL)
+        if given.train:
+            found = merged(read(LeftOutRecords, DATA.stem)[0], found)
         text = json.dumps(found.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
         DATA.write_text(text + "\n", encoding="utf-8")
         forget(JOURNAL)

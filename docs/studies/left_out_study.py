@@ -54,6 +54,12 @@ def left_out(
     return LeftOutRecords(TITLE, [_tree_record(tree) for tree in trees.values()], rows, not_asked)
 
 
+def tree_records(names: Sequence[str]) -> LeftOutRecords:
+    """What would be asked of some trains, before it is."""
+    trees, not_asked = find_trees(names)
+    return LeftOutRecords(TITLE, [_tree_record(tree) for tree in trees.values()], [], not_asked)
+
+
 def find_trees(names: Sequence[str]) -> tuple[dict[str, SpurTree], list[NotAskedRecord]]:
     """The trees of trains by name, and the trains that have none of their own. Of the same trees the first counts."""
     trees: dict[str, SpurTree] = {}

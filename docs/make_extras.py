@@ -29,6 +29,7 @@ FOR = {
     "fmu": "`export` of co-simulation units (FMU)",
     "fem": "`strength --elements`",
     "sympy": "`train.formula(...)` as an expression of sympy",
+    "watch": "`watch`: pages that follow a file",
     "all": "all of these but `step`",
 }
 

@@ -24,6 +24,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             *(
                 "report",
                 "view",
+                "watch",
                 "draw",
                 "export",
                 "compare",

@@ -114,6 +114,28 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
     return declare(data, node.place_of)
 
 
+def files_of(path: Path) -> tuple[Path, ...]:
+    """A file, and the files that it changes by `extends`, as far as they can be read.
+
+    Parameters
+    ----------
+    path : Path
+        A YAML file.
+
+    Raises
+    ------
+    DeclarationError
+        If one of them cannot be read, or is not there.
+    """
+    found = [path]
+    for _ in range(_MOST_PARENTS):
+        node = parse_yaml(_read(found[-1]), str(found[-1]))
+        if "extends" not in node.mapping:
+            break
+        found.append(_parent(node.mapping["extends"].text, found[-1].parent, node.place_of(("extends",))))
+    return tuple(found)
+
+
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
     """The child laid over its parent, which is laid over its own before."""
     line, met = [written_out(child)], dict.fromkeys(chain)

@@ -28,6 +28,7 @@ OTHERS = {
     "list": ("list",),
     "periods": ("periods",),
     "reconstruct": ("reconstruct", "moon-c-e"),
+    "watch": ("watch", "train.yaml"),
 }
 
 

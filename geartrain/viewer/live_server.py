@@ -1,0 +1,166 @@
+"""Pages of a train that is being written, on the local address: made anew when a file of it is saved.
+
+One page holds the report and the turning train side by side. It keeps a line open to the server; when that says that
+there is something new, both are loaded again, and camera, crank and chosen state are put back where they were.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError
+
+if TYPE_CHECKING:
+    from tornado.web import Application
+
+_SETTLING = 0.1  # s that an editor may take to write a file in several steps
+_LOCAL = "127.0.0.1"
+
+
+@dataclass(frozen=True, slots=True)
+class LivePages:
+    """What is shown of a train: whole documents of HTML."""
+
+    report: str
+    view: str
+
+
+class LiveServer:
+    """Serves a train's pages on the local address alone, until it is interrupted.
+
+    Parameters
+    ----------
+    make : callable
+        Makes the pages anew; a `GearTrainError` is shown above the pages made last.
+    watched : callable
+        Files whose change makes them old, asked after each change.
+    port : int
+        0 for one that is free.
+
+    Raises
+    ------
+    MissingExtraError
+        Where server or watcher are not installed.
+    QuestionError
+        Where the port is taken.
+    """
+
+    def __init__(self, make: Callable[[], LivePages], watched: Callable[[], Iterable[Path]], port: int = 0) -> None:
+        try:
+            import tornado.netutil
+            import watchdog.observers  # noqa: F401
+        except ImportError:
+            raise MissingExtraError("tornado or watchdog", "watch", "a page that follows a file") from None
+        self.make, self.watched = make, watched
+        self.pages: LivePages | None = None
+        self.error = ""
+        self.version = 0
+        self._listening: set[Any] = set()
+        try:
+            self._sockets = tornado.netutil.bind_sockets(port, _LOCAL)
+        except (OSError, OverflowError) as error:
+            fix = "give another --port, or none"
+            raise QuestionError(Problem(f"no page can be served at port {port}", str(error), fix)) from None
+
+    @property
+    def address(self) -> str:
+        """Where the page is."""
+        return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
+
+    def refresh(self) -> None:
+        """Make the pages; what is wrong with the train is kept, to be shown."""
+        try:
+            self.pages, self.error = self.make(), ""
+        except GearTrainError as error:
+            self.error = str(error)
+        self.version += 1
+
+    def run(self, told: Callable[[str], object]) -> None:
+        """Serve until interrupted.
+
+        Parameters
+        ----------
+        told : callable
+            Called with what is wrong after each change, or with nothing.
+        """
+        with suppress(KeyboardInterrupt):
+            asyncio.run(self._serve(told))
+
+    async def _serve(self, told: Callable[[str], object]) -> None:
+        from tornado.httpserver import HTTPServer
+        from watchdog.events import FileSystemEvent, FileSystemEventHandler
+        from watchdog.observers import Observer
+
+        loop, changed = asyncio.get_running_loop(), asyncio.Event()
+
+        class Saved(FileSystemEventHandler):
+            def on_any_event(self, event: FileSystemEvent) -> None:
+                if event.event_type in ("modified", "created", "moved", "deleted"):
+                    paths = {Path(str(path)).resolve() for path in (event.src_path, event.dest_path) if path}
+                    if paths & {path.resolve() for path in known}:
+                        loop.call_soon_threadsafe(changed.set)
+
+        server = HTTPServer(self._application())
+        server.add_sockets(self._sockets)
+        observer, known, folders = Observer(), list[Path](), set[Path]()
+
+        def watch() -> None:
+            known[:] = self.watched()
+            for folder in {path.resolve().parent for path in known} - folders:
+                observer.schedule(Saved(), str(folder))
+                folders.add(folder)
+
+        watch()
+        observer.start()
+        try:
+            while True:
+                await changed.wait()
+                await asyncio.sleep(_SETTLING)
+                changed.clear()
+                await loop.run_in_executor(None, self.refresh)
+                told(self.error)
+                watch()
+                for each in tuple(self._listening):
+                    each.tell()
+        finally:
+            observer.stop()
+            server.stop()
+
+    def _application(self) -> Application:
+        from tornado.web import Application, RequestHandler
+        from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+        live = self
+        shell = files(__package__).joinpath("live.html").read_text(encoding="utf-8")
+
+        class Shown(RequestHandler):
+            def get(self, name: str) -> None:
+                pages = live.pages
+                text = shell if not name else "" if pages is None else getattr(pages, name)
+                self.set_header("Cache-Control", "no-store")
+                self.finish(text)
+
+        class Changes(WebSocketHandler):
+            def open(self, *args: str, **kwargs: str) -> None:
+                live._listening.add(self)
+                self.tell()
+
+            def tell(self) -> None:
+                try:
+                    self.write_message({"version": live.version, "error": live.error})
+                except WebSocketClosedError:
+                    live._listening.discard(self)
+
+            def on_close(self) -> None:
+                live._listening.discard(self)
+
+        # a name that another site has pointed here is answered by nothing
+        application = Application(log_function=lambda handler: None)
+        application.add_handlers(r"(127\.0\.0\.1|localhost)", [(r"/(report|view|)", Shown), (r"/changes", Changes)])
+        return application

@@ -1,0 +1,119 @@
+"""`geartrain watch`: the page follows the file, keeps camera and crank, and is served on this machine alone."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+pytest.importorskip("tornado", reason="the extra 'watch' is not installed")
+pytest.importorskip("watchdog", reason="the extra 'watch' is not installed")
+
+TRAIN = """
+links:
+  frame: {wheels: {r: {teeth: 60, internal: true}}}
+  sun: {wheels: {s: 24}}
+  planet: {wheels: {p: 18}}
+  carrier: {}
+revolutes: {main: [frame, sun, carrier], P: [carrier, planet]}
+gears: [s ~ p, p ~ r]
+inputs: {sun: 1}
+outputs: {carrier: {}}
+"""
+
+
+@pytest.fixture
+def parent(tmp_path: Path) -> Path:
+    (tmp_path / "elsewhere").mkdir()
+    path = tmp_path / "elsewhere" / "parent.yaml"
+    path.write_text(TRAIN, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def file(tmp_path: Path, parent: Path) -> Path:
+    path = tmp_path / "train.yaml"
+    path.write_text(f"extends: {parent.relative_to(tmp_path)}\ntitle: First\n", encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def served(file: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
+    command = [sys.executable, "-m", "geartrain", "watch", str(file)]
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**os.environ, "COLUMNS": "200"})
+    assert running.stderr is not None
+    address = re.search(r"http://127\.0\.0\.1:\d+/", running.stderr.readline())
+    assert address is not None
+    yield address[0], running
+    running.send_signal(signal.SIGINT)
+    running.communicate(timeout=20)
+    assert running.returncode == 0
+
+
+def follow(page: Page, version: int) -> None:
+    page.wait_for_function(f"document.body.dataset.version === '{version}'", timeout=60_000)
+
+
+def test_the_page_follows_the_file_and_keeps_crank_and_camera(
+    browser: Browser, served: tuple[str, subprocess.Popen[str]], file: Path, parent: Path
+) -> None:
+    page = browser.new_page(viewport={"width": 1200, "height": 700})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(served[0])
+    follow(page, 1)
+    report, view = page.frame_locator("#report"), page.frames[2]
+    assert report.get_by_text("2/7").count()
+    view.evaluate("geartrain.setTurns('7/3')")
+    view.evaluate("geartrain.stages[0].camera.position.set(10, 20, 300)")
+    # a parent in another folder
+    parent.write_text(TRAIN.replace("60", "66").replace("18", "21"), encoding="utf-8")
+    follow(page, 2)
+    view = page.frames[2]
+    assert report.get_by_text("4/15").count(), "24 / (24 + 66)"
+    assert view.evaluate("[geartrain.turns, geartrain.scenes[0].wheels[0].teeth]") == ["7/3", 66]
+    at = view.evaluate("geartrain.stages[0].camera.position.toArray()")
+    assert at == pytest.approx([10, 20, 300], rel=1e-6)
+    # what is wrong stands above what was shown last, and goes when it is mended
+    file.write_text(file.read_text(encoding="utf-8") + "gesrs: []\n", encoding="utf-8")
+    told = page.locator("#told")
+    told.wait_for(state="visible")
+    assert "did you mean 'gears'" in told.inner_text()
+    assert report.get_by_text("4/15").count()
+    file.write_text("extends: elsewhere/parent.yaml\ntitle: Second\n", encoding="utf-8")
+    told.wait_for(state="hidden")
+    report.get_by_text("Second").first.wait_for()
+    assert not errors
+    page.close()
+
+
+def test_it_answers_this_machine_alone(served: tuple[str, subprocess.Popen[str]]) -> None:
+    port = int(served[0].rstrip("/").rpartition(":")[2])
+    with urllib.request.urlopen(served[0]) as answer:
+        assert answer.status == 200
+    named = urllib.request.Request(served[0], headers={"Host": "example.org"})
+    with pytest.raises(urllib.error.HTTPError, match="404") as refused:
+        urllib.request.urlopen(named)
+    refused.value.close()
+    own = {each[4][0] for each in socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)}
+    for address in own - {"127.0.0.1", "127.0.1.1"}:
+        with pytest.raises(OSError, match="refused"):
+            socket.create_connection((str(address), port), timeout=2)
+    taken = subprocess.run(
+        [sys.executable, "-m", "geartrain", "watch", str(Path(__file__).parent / "none.yaml")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert taken.returncode == 2
+    assert "there is no file" in taken.stderr

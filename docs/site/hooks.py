@@ -1,4 +1,4 @@
-"""What mkdocs does beside its own work: gallery and viewer pages, names over files, formulas without scripts."""
+"""What mkdocs does beside its work: gallery, viewer pages, notebooks, names over files, formulas without scripts."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Any
 
 import gallery
 import markup
+import notebooks
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from pymdownx.slugs import slugify
@@ -21,6 +22,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Pictures, viewer pages and reports of all trains of the gallery join the site."""
     for name, path in gallery.make().items():
         files.append(File.generated(config, name, abs_src_path=str(path)))
+    for name, text in notebooks.pages().items():
+        files.append(File.generated(config, name, content=text))
     return files
 
 

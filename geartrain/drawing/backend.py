@@ -18,7 +18,7 @@ try:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.collections import PolyCollection
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as _Figure
     from matplotlib.lines import Line2D
     from matplotlib.patches import Circle, FancyArrowPatch, Patch, PathPatch, Polygon, Rectangle
     from matplotlib.path import Path
@@ -60,7 +60,17 @@ _LONG = re.compile(rb"(\.\d{3})\d+")  # a thousandth of a point is finer than an
 _ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figures at once
 
 
-def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
+class ShownFigure(_Figure):
+    """A figure that a notebook shows as it is: no window, and no state that figures share."""
+
+    def _repr_svg_(self) -> str:
+        return render(self, ".svg").decode("utf-8")
+
+
+Figure = ShownFigure
+
+
+def render(figure: _Figure, suffix: str, dots: float = 100.0) -> bytes:
     """A figure as the bytes of an image file; the same figure gives the same bytes with one release of matplotlib.
 
     Parameters
@@ -84,7 +94,6 @@ def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
 
     Examples
     --------
-    >>> from matplotlib.figure import Figure
     >>> render(Figure(), ".png")[1:4], render(Figure(), ".pdf")[:4]
     (b'PNG', b'%PDF')
     """

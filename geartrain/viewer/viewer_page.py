@@ -5,13 +5,18 @@ from __future__ import annotations
 import json
 from base64 import b64encode
 from collections.abc import Sequence
+from dataclasses import dataclass
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
 from string import Template
+from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.scene import Scene
+from geartrain.scene import Scene, make_scene
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
 
 _IN_SCRIPTS: dict[str, str | int | None] = {
     "<": "\\u003c",
@@ -21,6 +26,9 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
     "\u2029": "\\u2029",
 }
 """Letters that could end a script element, or start another; within JSON their escapes mean the same."""
+
+
+_AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 
 
 def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True) -> str:
@@ -67,6 +75,38 @@ def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = Non
         data=json_in_script(data),
         program=program,
     )
+
+
+@dataclass(frozen=True)
+class EmbeddedPage:
+    """A page of a train that turns, within another page: a notebook shows it as it is.
+
+    Parameters
+    ----------
+    train : GearTrain
+        What turns.
+    state : str, optional
+        One of its states; by default all, to be chosen among.
+    height : int
+        Of the frame [px].
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> "<iframe" in EmbeddedPage(geartrain.load("worm"))._repr_html_()
+    True
+    """
+
+    train: GearTrain
+    state: str | None = None
+    height: int = 620
+
+    def _repr_html_(self) -> str:
+        states = (self.state,) if self.state is not None else self.train.states or (None,)
+        # the script counts by the letter: what shows this may join lines, widen tabs and read formulas
+        inner = escape(page([make_scene(self.train, state) for state in states])).translate(_AS_NUMBERS)
+        style = f"width:100%;height:{self.height}px;border:0"
+        return f'<iframe title="{escape(self.train.name)}, turning" style="{style}" srcdoc="{inner}"></iframe>'
 
 
 def json_in_script(data: object) -> str:

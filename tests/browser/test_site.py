@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import json
 import os
 import re
 import subprocess
@@ -20,6 +21,7 @@ from playwright.sync_api import Browser, Page
 ROOT = Path(__file__).parent.parent.parent
 DOCS = sorted(path.name for path in (ROOT / "docs").glob("*.md"))
 TRAINS = ("worm", "longcase-clock", "zf-8hp70")
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 ACCURACY = sorted(name for name in DOCS if "accuracy" in name)
 
 
@@ -60,8 +62,27 @@ def pages(site: Path) -> Iterator[Path]:
 
 
 def test_the_navigation_lists_every_page_once() -> None:
-    nav = re.findall(r"([\w-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
-    assert sorted(nav) == DOCS
+    nav = re.findall(r"([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
+    books = [f"notebooks/{path.stem}.md" for path in NOTEBOOKS]
+    assert sorted(nav) == sorted([*DOCS, *books])
+
+
+def test_notebooks_are_kept_without_outputs_and_shown_with_them(site: Path, sheet: tuple[Page, list[str]]) -> None:
+    assert {path.stem for path in NOTEBOOKS} == {"historian", "engineer", "maker"}
+    for path in NOTEBOOKS:
+        cells = [cell for cell in json.loads(path.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
+        assert not any(cell["outputs"] for cell in cells)
+        page, _ = sheet
+        page.goto((site / "notebooks" / f"{path.stem}.html").as_uri())
+        pictures = page.locator("article img")
+        assert pictures.count() == sum(cell["source"][-1].startswith("picture(") for cell in cells)
+        sizes = page.evaluate("[...document.querySelectorAll('article img')].map((each) => each.naturalWidth)")
+        assert all(width > 100 for width in sizes), "each is drawn"
+    page.goto((site / "notebooks" / "engineer.html").as_uri())
+    assert "3000/7" in page.locator("article").inner_text(), "24/84 of 1500 rpm"
+    page.goto((site / "notebooks" / "historian.html").as_uri())
+    frame = page.frame_locator("article iframe")
+    frame.locator("canvas").first.wait_for(state="attached")
 
 
 def test_every_page_is_in_the_site_those_of_accuracy_with_their_pictures(site: Path) -> None:

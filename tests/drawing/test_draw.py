@@ -561,3 +561,9 @@ def test_spots_are_hidden_by_the_discs_they_lie_in(
         np.array(points).reshape(-1, 2), np.array(discs).reshape(-1, 3)[:, :2], np.array([disc[2] for disc in discs])
     )
     assert list(found) == [any(hypot(x - u, y - v) < reach for u, v, reach in discs) for x, y in points]
+
+
+def test_a_figure_shows_itself_in_a_notebook() -> None:
+    figure = drawn("planetary-24-18-60", "plan")
+    shown = figure._repr_svg_()  # type: ignore[attr-defined]
+    assert shown.encode("utf-8") == render(figure, ".svg")

@@ -6,8 +6,7 @@ from collections import deque
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from geartrain.dynamics.train_teeth import ToothedTrain, find_train_teeth
-from geartrain.dynamics.wheel_teeth import WheelTeeth
+from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth, find_train_teeth
 from geartrain.errors import GearTrainError
 from geartrain.train import Train, Wheel
 
@@ -38,14 +37,14 @@ def find_modules(declared: Train) -> Mapping[str, float]:
     return found
 
 
-def find_cut_teeth(train: ToothedTrain) -> Mapping[str, WheelTeeth]:
-    """The teeth (modules) of all wheels that lie in a plane; none where they cannot be made."""
+def find_cut_teeth(train: ToothedTrain) -> TrainTeeth:
+    """The teeth (modules) of all wheels that lie in a plane, and why others have none; none where a form is faulty."""
     declared = train.declaration
     places = {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
     try:
-        return find_train_teeth(train, places).wheels
-    except GearTrainError:
-        return {}
+        return find_train_teeth(train, places)
+    except GearTrainError as error:
+        return TrainTeeth({}, dict.fromkeys(places, error.problems), {}, frozenset(), ())
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:

@@ -166,3 +166,21 @@ def test_the_command_tells_the_same_as_the_library() -> None:
     assert json.loads(done.stdout) == json.loads(json.dumps(report.to_dict()))
     titles = [section.title for section in describe_strength(report).sections]
     assert titles == ["Strength", "Forces", "Contact pressure", "Teeth", "Arbors"]
+
+
+def test_a_wheel_that_no_teeth_fit_says_why() -> None:
+    two = PAIR.replace("  b: {wheels: {w: 51}}", "  b: {wheels: {w: 51}}\n  c: {wheels: {v: 34}}").replace(
+        "gears: [{pair: [p, w]}]",
+        "gears: [{pair: [p, w], tooth_form: {form: involute, backlash: 0.1}}, {pair: [p, v]}]",
+    )
+    joints = "{pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]"
+    found = geartrain.load(two.replace("{pair: [frame, b], axis: B}]", joints)).strength()
+    assert "ask for different teeth" in found.left_out[0].why
+
+
+def test_a_load_that_passes_beneath_the_roots_of_a_ring_bends_nothing() -> None:
+    ring = PAIR.replace("b: {wheels: {w: 51}}", "b: {wheels: {w: {teeth: 51, internal: true}}}").replace(
+        "gears: [{pair: [p, w]}]", "gears: [{pair: [p, w], tooth_form: {form: involute, addendum: [1, 0.8]}}]"
+    )
+    pair = geartrain.load(ring).strength().pairs["p~w"]
+    assert all(0 < wheel.shared_stress < 200 for wheel in pair.wheels)

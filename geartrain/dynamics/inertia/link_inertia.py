@@ -156,7 +156,7 @@ class _Bodies:
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
         """The teeth of all wheels that lie in a plane."""
-        return find_cut_teeth(self.train)
+        return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
         """Distance (m) of a planet's axis from its carrier's: that of a pair with a wheel about the carrier's axis."""

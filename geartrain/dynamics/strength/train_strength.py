@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.torques.member_torques import PairTorque
     from geartrain.dynamics.torques.torque_results import Torques
-    from geartrain.dynamics.train_teeth import ToothedTrain
+    from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth
     from geartrain.dynamics.wheel_teeth import WheelTeeth
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import GearPair, Wheel
@@ -60,6 +60,10 @@ class StrengthQuestion:
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
         """Teeth by wheel, as they are cut for all mates."""
+        return self._cut.wheels
+
+    @cached_property
+    def _cut(self) -> TrainTeeth:
         return find_cut_teeth(self.train)
 
     def answer(self) -> TrainStrength:
@@ -134,7 +138,8 @@ class StrengthQuestion:
             if name not in self.modules:
                 yield f"'{name}' has no `module`"
             if mesh is not None and name not in self.teeth:
-                yield f"'{name}' has no flat outline"
+                why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
+                yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
 
     def _width(self, wheel: Wheel) -> float:
         """Width of its teeth (m), 0 where nothing says it."""

@@ -6,6 +6,7 @@ from fractions import Fraction
 from itertools import combinations, pairwise
 
 import pytest
+import yaml
 from shipped import train as load
 
 from geartrain import GearTrain
@@ -140,6 +141,96 @@ def _deviation(chosen: tuple[object, ...]) -> float:
 
     logs = [log(getattr(each, "ratio", 1)) for each in chosen]
     return pstdev([a - b for a, b in pairwise(logs)])
+
+
+ZF_6HP26 = """
+name: ZF 6HP26
+links:
+  case: {}
+  IN: {wheels: {r1: {teeth: 71, internal: true}}}
+  S1: {wheels: {s1: 37}}
+  C1: {}
+  S2: {wheels: {s2: 31}}
+  S3: {wheels: {s3: 38}}
+  C2: {}
+  OUT: {wheels: {r: {teeth: 85, internal: true}}}
+  P1: {wheels: {p1: 17}}
+  SHORT: {wheels: {a: 23}}
+  LONG: {wheels: {b: 23}}
+frame: case
+revolutes: {main: [case, IN, S1, C1, S2, S3, C2, OUT], p: [C1, P1], a: [C2, SHORT], b: [C2, LONG]}
+gears: [r1 ~ p1, p1 ~ s1, s2 ~ a, a ~ b, b ~ s3, b ~ r]
+fixed: [S1]
+clutches: {A: {locks: [C1, S2]}, B: {locks: [C1, S3]}, C: {fixes: S3}, D: {fixes: C2}, E: {locks: [IN, C2]}}
+inputs: {IN: 1}
+outputs: {OUT: {}}
+states:
+  1: {engaged: [A, D]}
+  2: {engaged: [A, C]}
+  3: {engaged: [A, B]}
+  4: {engaged: [A, E]}
+  5: {engaged: [B, E]}
+  6: {engaged: [C, E]}
+  R: {engaged: [B, D]}
+"""
+MODEL_T = """
+name: Ford model T
+links:
+  case: {}
+  engine: {}
+  shaft: {wheels: {out: 27}}
+  slow: {wheels: {s: 21}}
+  reverse: {wheels: {v: 30}}
+  triple: {wheels: {t27: 27, t33: 33, t24: 24}}
+frame: case
+revolutes: {main: [case, engine, shaft, slow, reverse], pin: [engine, triple]}
+gears: [t27 ~ out, t33 ~ s, t24 ~ v]
+clutches: {low: {fixes: slow}, back: {fixes: reverse}, disc: {locks: [engine, shaft]}}
+inputs: {engine: 1}
+outputs: {shaft: {}}
+states: {1: {engaged: [low]}, 2: {engaged: [disc]}, R: {engaged: [back]}}
+"""
+STURMEY_ARCHER_AW = """
+name: Sturmey-Archer AW
+links:
+  axle: {wheels: {s: 20}}
+  sprocket: {}
+  cage: {}
+  planet: {wheels: {p: 20}, copies: 4}
+  ring: {wheels: {r: {teeth: 60, internal: true}}}
+  hub: {}
+frame: axle
+revolutes: {main: [axle, sprocket, cage, ring, hub], p: [cage, planet]}
+gears: [s ~ p, p ~ r]
+clutches:
+  cage in: {locks: [sprocket, cage]}
+  ring in: {locks: [sprocket, ring]}
+  ring out: {locks: [ring, hub]}
+  cage out: {locks: [cage, hub]}
+inputs: {sprocket: 1}
+outputs: {hub: {}}
+states:
+  low: {engaged: [ring in, cage out]}
+  normal: {engaged: [ring in, ring out]}
+  high: {engaged: [cage in, ring out]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "ratios", "digits"),
+    [
+        (ZF_6HP26, [4.171, 2.340, 1.521, 1.143, 0.867, 0.691, -3.403], 3),
+        (MODEL_T, [2.75, 1.0, -4.0], 2),
+        (STURMEY_ARCHER_AW, [1 / 0.75, 1.0, 1 / 1.333], 3),
+    ],
+    ids=["ZF 6HP26", "Ford model T", "Sturmey-Archer AW"],
+)
+def test_other_gearboxes_have_the_printed_ratios(text: str, ratios: list[float], digits: int) -> None:
+    train = GearTrain.declare(yaml.safe_load(text))
+    found = [state.ratio for state in train.gearbox().states]
+    assert found == pytest.approx(ratios, abs=0.6 * 10**-digits)
+    gears = {gear.engaged for gear in train.gear_search().gears}
+    assert gears >= {tuple(state.engaged) for state in train.declaration.states.values()}
 
 
 def test_a_train_without_clutches_is_no_gearbox() -> None:

@@ -206,7 +206,6 @@ class TrainDynamics(TrainMotion):
         ways = [] if found is None else [found, found[::-1]]
         return [DrivenWay(self.driven(load, source, state), source, load) for source, load in ways]
 
-    @of_all_planets
     def power_flow(self, found: Torques) -> PowerFlow:
         """The streams of power under some torques of this train.
 
@@ -301,7 +300,6 @@ class TrainDynamics(TrainMotion):
         contacts = InertialContacts(moving, acting, rubbing=rubbing)
         return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=uncounted)
 
-    @of_planets_as_one
     def tells_separation(self, state: str | None = None) -> bool:
         """True if `separation_rates` has an answer: a link behind the input has an inertia, and torques have units.
 

@@ -26,24 +26,22 @@ if TYPE_CHECKING:
 _Question = TypeVar("_Question", bound=Callable[..., Any])
 
 
-def of_planets_as_one(question: _Question) -> _Question:
-    """A question that is asked of the train with one planet as heavy and stiff as all that are equal."""
-
+def _asked_of(other: Callable[[TrainKinematics], TrainKinematics], question: _Question) -> _Question:
     @wraps(question)
     def asked(train: TrainKinematics, *args: Any, **given: Any) -> Any:
-        return question(train.planets_as_one, *args, **given)
+        return question(other(train), *args, **given)
 
     return cast("_Question", asked)
+
+
+def of_planets_as_one(question: _Question) -> _Question:
+    """A question that is asked of the train with one planet as heavy and stiff as all that are equal."""
+    return _asked_of(lambda train: train.planets_as_one, question)
 
 
 def of_all_planets(question: _Question) -> _Question:
     """A question that is asked of the train with each of its equal planets: loads are shared among them."""
-
-    @wraps(question)
-    def asked(train: TrainKinematics, *args: Any, **given: Any) -> Any:
-        return question(train.unfolded, *args, **given)
-
-    return cast("_Question", asked)
+    return _asked_of(lambda train: train.unfolded, question)
 
 
 class TrainKinematics:
@@ -76,14 +74,19 @@ class TrainKinematics:
     def tree(self) -> Tree:
         """The turning pairs as a spanning tree rooted at the frame."""
         tree = find_tree(self.declaration)
-        check_copies(self.declaration, tree)
+        if self._has_copies:
+            check_copies(self.declaration, tree)
         return tree
+
+    @cached_property
+    def _has_copies(self) -> bool:
+        return has_copies(self.declaration)
 
     @property
     def unfolded(self) -> Self:
         """The train with each of its equal planets declared; itself where no link stands for several (`copies`)."""
         # not kept where it is the train itself: that would hold itself
-        return self._with_copies if has_copies(self.declaration) else self
+        return self._with_copies if self._has_copies else self
 
     @cached_property
     def _with_copies(self) -> Self:
@@ -92,7 +95,7 @@ class TrainKinematics:
     @property
     def planets_as_one(self) -> Self:
         """The train in which one planet is as heavy and as stiff as all its copies; itself where there are none."""
-        return self._as_one if has_copies(self.declaration) else self
+        return self._as_one if self._has_copies else self
 
     @cached_property
     def _as_one(self) -> Self:

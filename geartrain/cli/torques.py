@@ -83,7 +83,7 @@ def run(
         raise typer.BadParameter("it is about the torque over some turns: give --turns too", param_hint=which)
     if resume and trials is None:
         raise typer.BadParameter("it goes on with trials of friction: give --trials too", param_hint="--resume")
-    train = load(file).unfolded
+    train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = [train.torques(name) for name in states]
     over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_, fast)

@@ -39,8 +39,7 @@ class Answer(FrozenFields, Result):
     """What a train does in one state: the solution of its Willis system, equations (4) and (5) of docs/theory.md.
 
     True if the verdict is as expected (`determined` unless the state's `expect` says otherwise), and so are all
-    outputs. `answer[name]` is the speed of an output or a link;
-    `KeyError` where it is not determined.
+    outputs. `answer[name]` is the speed of an output or a link; `KeyError` where it is not determined.
 
     Attributes
     ----------

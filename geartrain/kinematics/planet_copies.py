@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, sin, tau
+from math import tau
 
 from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.kinematics.circuits import Tree
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, Quantity, millimetres
-from geartrain.numerics.vectors import Vector, cross, dot, minus, plus, scaled, unit
+from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.numerics.vectors import minus, plus, turned
 from geartrain.train import GearPair, Link, Train
 from geartrain.train.mechanism import Axis, Revolute
 
@@ -76,8 +76,13 @@ def _heavier(train: Train, part: Link) -> Link:
     )
 
 
+def _number(train: Train, gear: GearPair) -> int:
+    """How many pairs one stands for."""
+    return max(train.links[train.wheels[wheel][0]].copies for wheel in gear.pair)
+
+
 def _stiffer(train: Train, gear: GearPair) -> GearPair:
-    number = max(train.links[train.wheels[wheel][0]].copies for wheel in gear.pair)
+    number = _number(train, gear)
     if number == 1:
         return gear
     stiffness, damping = train.stiffness_of(gear), train.damping_of(gear)
@@ -163,9 +168,9 @@ class _Unfolding:
                     axes[_named(joint.axis, at)] = self._axis(joint.axis, at)
         gears: list[tuple[int, GearPair]] = []
         for index, gear in enumerate(self.declared.gears):
-            others = self._others(*(self.declared.wheels[wheel][0] for wheel in gear.pair))
-            gears.append((index, _shared(gear, len(others) + 1)))
-            gears += [(index, self._gear(gear, at, len(others) + 1)) for at in others]
+            number = _number(self.declared, gear)
+            gears.append((index, _shared(gear, number)))
+            gears += [(index, self._gear(gear, at, number)) for at in range(2, 1 + number)]
         states = self.declared.states
         made = self.declared.changed(
             links=FrozenDict(links),
@@ -223,17 +228,16 @@ class _Unfolding:
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number
-        way = unit(_figures(about.direction))
-        direction = _turned(_figures(axis.direction), way, angle)
-        told: dict[str, object] = {"direction": tuple(Figure.parse(_decimal(part)) for part in direction)}
-        if axis.position is not None:
-            if about.position is None:
+        told: dict[str, object] = {
+            "direction": tuple(Figure.parse(_decimal(part)) for part in turned(axis.way, about.way, angle))
+        }
+        if axis.point is not None:
+            if about.point is None:
                 what = f"it is not known where copies of axis '{label}' stand"
                 fix = f"give axis '{self.tree.axis(carrier)}' a position, or take that of '{label}' away"
                 why = "they stand about the axis of their carrier, which has no position"
                 raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
-            centre = _lengths(about.position)
-            place = plus(centre, _turned(minus(_lengths(axis.position), centre), way, angle))
+            place = plus(about.point, turned(minus(axis.point, about.point), about.way, angle))
             told["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)
         return axis.changed(**told)
 
@@ -281,20 +285,6 @@ def _shared(gear: GearPair, number: int) -> GearPair:
     return gear.changed(share=Figure.parse(str(gear.share.value / number)))
 
 
-def _figures(direction: tuple[Figure, Figure, Figure]) -> Vector:
-    return float(direction[0].value), float(direction[1].value), float(direction[2].value)
-
-
-def _lengths(position: tuple[Quantity, Quantity, Quantity]) -> Vector:
-    return float(millimetres(position[0])), float(millimetres(position[1])), float(millimetres(position[2]))
-
-
 def _decimal(part: float) -> str:
     """To 15 digits; what is left of cosines of right angles is 0."""
     return f"{round(part, 13):.15g}"
-
-
-def _turned(vector: Vector, way: Vector, angle: float) -> Vector:
-    """About a unit vector, by Rodrigues' formula."""
-    along = scaled(way, dot(way, vector) * (1 - cos(angle)))
-    return plus(plus(scaled(vector, cos(angle)), scaled(cross(way, vector), sin(angle))), along)

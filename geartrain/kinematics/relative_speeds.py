@@ -43,6 +43,6 @@ def relative_speed(
     signs      -1 for links whose axis points against the reference direction of its parallels: s is their product
     """
     own, other = speed_of(of), speed_of(base)
-    if own is None or other is None or not other:  # mostly seen from what stands still
-        return None if other is None else own
-    return own - other * axis_sense(of, base, signs)
+    if own is None or other is None:
+        return None
+    return own - other * axis_sense(of, base, signs) if other else own  # mostly seen from what stands still

@@ -7,7 +7,7 @@ a length or a direction of length 1 is for floats.
 from __future__ import annotations
 
 from fractions import Fraction
-from math import atan2, sqrt
+from math import atan2, cos, sin, sqrt
 from typing import TypeVar
 
 Vector = tuple[float, float, float]
@@ -51,6 +51,12 @@ def plus(u: Vector, v: Vector, factor: float = 1.0) -> Vector:
 def scaled(u: Vector, factor: float) -> Vector:
     """u times a number."""
     return u[0] * factor, u[1] * factor, u[2] * factor
+
+
+def turned(u: Vector, way: Vector, angle: float) -> Vector:
+    """u turned about a unit vector by an angle (rad), right-handed: Rodrigues' formula."""
+    along = scaled(way, dot(way, u) * (1 - cos(angle)))
+    return plus(plus(scaled(u, cos(angle)), scaled(cross(way, u), sin(angle))), along)
 
 
 def size(v: Vector) -> float:

@@ -197,7 +197,7 @@ def collect_report(train: GearTrain) -> TrainReport:
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
         teeth=driven_pairs(train),
         pins=driven_pins(train),
-        torques=tuple(collect_torques(train.unfolded, train.torques(state)) for state in loaded),
+        torques=tuple(collect_torques(train, train.torques(state)) for state in loaded),
         strength=tuple(train.strength(state) for state in loaded if train.tells_strength(state)),
         motion=tuple(collect_motions(train)),
         errata=tuple(declared.errata),

@@ -25,6 +25,7 @@ from geartrain.numerics.quantity import (
     Mass,
     MeasuredLength,
     TorsionalDamping,
+    millimetres,
 )
 from geartrain.numerics.quantity_bounds import (
     PairDamping,
@@ -33,6 +34,7 @@ from geartrain.numerics.quantity_bounds import (
     below_right_angle,
     not_below_zero,
 )
+from geartrain.numerics.vectors import Vector, unit
 from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.bearing_friction import DeclaredBearing
 from geartrain.train.efficiencies import DeclaredEfficiency
@@ -227,6 +229,21 @@ class Axis(Declared):
     )
     position: tuple[Length, Length, Length] | None = Field(None, description="A point of the axis")
     note: str | None = Field(None, description="A remark for the reader")
+
+    @property
+    def way(self) -> Vector:
+        """Its direction, of length 1."""
+        top = max(abs(part.value) for part in self.direction)  # the float of a huge number would overflow
+        x, y, z = (float(part.value / top) for part in self.direction)
+        return unit((x, y, z))
+
+    @property
+    def point(self) -> Vector | None:
+        """Where it lies [mm]; None where that is not declared."""
+        if self.position is None:
+            return None
+        x, y, z = (float(millimetres(part)) for part in self.position)
+        return x, y, z
 
     @model_validator(mode="after")
     def _points_somewhere(self) -> Axis:

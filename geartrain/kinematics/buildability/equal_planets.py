@@ -10,8 +10,7 @@ from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding
 from geartrain.kinematics.buildability.planet_assembly import assembly_number, neighbour_terms, passing_terms
 from geartrain.kinematics.buildability.planet_sets import PlanetSet, TrainAssembly, corresponding
-from geartrain.numerics.quantity import millimetres
-from geartrain.numerics.vectors import Vector, dot, frame, minus, unit
+from geartrain.numerics.vectors import dot, frame, minus
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability.pitch_distances import PitchDistances
@@ -243,15 +242,11 @@ def _once(planet: Planet) -> list[AssemblyMesh]:
 
 def _points(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
     """Where planets stand about their carrier's axis (mm); None unless all positions are declared."""
-    places = [train.axes[label].position if label in train.axes else None for label in (centre or "", *map(str, axes))]
-    if any(place is None for place in places):
+    places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
+    spots = [place for place in places if place is not None]
+    if len(spots) < len(places):
         return None
-    direction = train.axes[centre or ""].direction
-    x, y = frame(unit((float(direction[0].value), float(direction[1].value), float(direction[2].value))))
-    spots: list[Vector] = []
-    for place in places:
-        assert place is not None
-        spots.append((float(millimetres(place[0])), float(millimetres(place[1])), float(millimetres(place[2]))))
+    x, y = frame(train.axes[centre or ""].way)
     return [(dot(minus(spot, spots[0]), x), dot(minus(spot, spots[0]), y)) for spot in spots[1:]]
 
 

@@ -264,11 +264,12 @@ def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
         group = groups.setdefault(tuple(part / scale for part in direction), len(groups))
         top = max(map(abs, direction))  # divided exactly first: the float of a huge Fraction would overflow
         x, y, z = (float(part / top) for part in direction)
+        given = declared.axes[name].point if name in declared.axes else None
         bearers = [tree.top[link]]
         while bearers[-1] in tree.top:
             bearers.append(tree.top[bearers[-1]])
         pivots = tuple(axis for bearer in bearers if (axis := tree.axis(bearer)) is not None)
-        yield AxisLine(name, unit((x, y, z)), group, tuple(bearers), pivots, _given(declared, name))
+        yield AxisLine(name, unit((x, y, z)), group, tuple(bearers), pivots, given)
 
 
 def _first_links(declared: Train, tree: Tree) -> dict[str, str]:
@@ -279,13 +280,6 @@ def _first_links(declared: Train, tree: Tree) -> dict[str, str]:
         if name is not None:
             found.setdefault(name, link)
     return found
-
-
-def _given(declared: Train, axis: str) -> Vector | None:
-    place = declared.axes[axis].position if axis in declared.axes else None
-    if place is None:
-        return None
-    return float(millimetres(place[0])), float(millimetres(place[1])), float(millimetres(place[2]))
 
 
 def _thickness(declared: Train) -> Iterator[tuple[str, float]]:

@@ -154,13 +154,15 @@ class TrainMotion(TrainKinematics):
         return declared.density is not None or any(link.inertia for link in declared.links.values()) or any(wheels)
 
     @of_planets_as_one
-    def inertias(self, state: str | None = None) -> tuple[LinkInertia, ...]:
+    def inertias(self, state: str | None = None, with_inputs: bool = False) -> tuple[LinkInertia, ...]:
         """The moment of inertia of every link whose motion is not prescribed, and where each is from.
 
         Parameters
         ----------
         state : str, optional
             A declared state; None only of a train that has none.
+        with_inputs : bool
+            Those of the inputs too, as where a torque or a weight drives them.
 
         Returns
         -------
@@ -185,7 +187,7 @@ class TrainMotion(TrainKinematics):
         """
         from geartrain.dynamics.inertia.link_inertia import find_link_inertias
 
-        return find_link_inertias(self, self._case(state))
+        return find_link_inertias(self, self._case(state), with_inputs)
 
     def _moving(self, case: StateCase, without: Sequence[str]) -> MotionProblem:
         from geartrain.dynamics.motion.motion_problem import build_motion_problem

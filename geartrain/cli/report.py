@@ -48,14 +48,11 @@ def _shared(train: GearTrain, view: bool) -> Document:
     from geartrain.report.train_data import collect_report
 
     pictures, notes = _pictures(train)
-    return describe_shared_page(collect_report(train), pictures, _viewer(train) if view else "", notes)
+    if not view:
+        return describe_shared_page(collect_report(train), pictures, "", notes)
+    from geartrain.viewer import train_page
 
-
-def _viewer(train: GearTrain) -> str:
-    from geartrain.scene import make_scene
-    from geartrain.viewer import page
-
-    return page([make_scene(train, state) for state in train.states or (None,)])
+    return describe_shared_page(collect_report(train), pictures, train_page(train), notes)
 
 
 def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:

@@ -46,13 +46,11 @@ def _pages(path: Path) -> LivePages:
     from geartrain.report.html_page import to_html
     from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report
-    from geartrain.scene import make_scene
-    from geartrain.viewer import page
+    from geartrain.viewer import train_page
     from geartrain.viewer.live_server import LivePages
 
     train = load(path)
-    scenes = [make_scene(train, state) for state in train.states or (None,)]
-    return LivePages(to_html([describe_shared_page(collect_report(train), [], "", [])]), page(scenes))
+    return LivePages(to_html([describe_shared_page(collect_report(train), [], "", [])]), train_page(train))
 
 
 def _files(path: Path) -> tuple[Path, ...]:

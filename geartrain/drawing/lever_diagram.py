@@ -5,11 +5,10 @@ The abscissae are those of `geartrain.kinematics.levers`.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import spread
@@ -20,8 +19,20 @@ from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers
 from geartrain.numerics.decimal_text import decimal, fraction_text, is_short
 
-Point = tuple[Fraction, list[str], Fraction | None]
-"""Abscissa, the members there with what is closed at them, their speed; None where undetermined."""
+
+class Point(NamedTuple):
+    """A place on a lever: abscissa, the members there, what is closed at each, their speed or None."""
+
+    x: Fraction
+    links: list[str]
+    marks: list[str]
+    speed: Fraction | None
+
+    @property
+    def names(self) -> list[str]:
+        """Members with what is closed at them."""
+        return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
+
 
 _MOST = 120  # panels
 _LEAST, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
@@ -58,7 +69,7 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
         page.text(
             0.15,
             top - 0.3,
-            _heading(answer, declared.unit_name, _engaged(train, answer.state)),
+            _heading(answer, declared.unit_name, train.cases[answer.state].engaged),
             fontsize=SMALL,
             parse_math=False,
         )
@@ -90,8 +101,8 @@ def _bands(wide: Sequence[float]) -> list[list[int]]:
 
 def _width(points: Sequence[Point]) -> float:
     """Inches in which the words above and below a panel stand side by side."""
-    above = sum(_letters(max([*links, _said(speed)], key=len)) for _, links, speed in points)
-    below = sum(_letters(_said(x)) for x, _, _ in points)
+    above = sum(_letters(max([*point.names, _said(point.speed)], key=len)) for point in points)
+    below = sum(_letters(_said(point.x)) for point in points)
     return max(above, below, _LEAST)
 
 
@@ -109,9 +120,8 @@ def _heading(answer: Answer, unit: str, closed: Sequence[str]) -> str:
 def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
     """One set in one state: a vertical for each member, the line through their speeds."""
     points = _points(train, lever, answer)
-    xs = [float(x) for x, _, _ in points]
-    speeds = [None if speed is None else float(speed) for _, _, speed in points]
-    known = [(x, speed) for x, speed in zip(xs, speeds, strict=True) if speed is not None]
+    xs = [float(point.x) for point in points]
+    known = [(float(point.x), float(point.speed)) for point in points if point.speed is not None]
     _frame(axes, xs, [speed for _, speed in known])
     for x in xs:
         axes.axvline(x, color=PALE, linewidth=1.0, zorder=1)
@@ -126,14 +136,10 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
         _names(axes, points, xs)
 
 
-def _engaged(train: GearTrain, state: str | None) -> Sequence[str]:
-    return train.declaration.states[state].engaged if state is not None else ()
-
-
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
     """Behind each link that a closed brake or clutch takes hold of, the names of those."""
     found: dict[str, list[str]] = {}
-    for name in _engaged(train, state):
+    for name in train.cases[state].engaged:
         clutch = train.declaration.clutches[name]
         for link in clutch.locks or (clutch.fixes or "",):
             found.setdefault(link, []).append(name)
@@ -141,7 +147,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Abscissa, members and their speed about the carrier's axis, from left to right; None where undetermined."""
+    """From left to right, with speeds about the carrier's axis."""
     own, marks = train.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
@@ -151,7 +157,7 @@ def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
             if same:
                 speed = answer.speeds.get(same[0])
                 turned = None if speed is None else Fraction(speed) * own * train.signs.get(same[0], 1)
-                found.append((x, [link + marks.get(link, "") for link in same], turned))
+                found.append(Point(x, same, [marks.get(link, "") for link in same], turned))
     return found
 
 
@@ -175,14 +181,14 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
     figure = axes.get_figure(root=True)
     assert figure is not None
     inches = axes.get_position().width * figure.get_size_inches()[0] / (high - low)
-    heads = [("\n".join(links), _said(speed)) for _, links, speed in points]
-    feet = [_said(x) for x, _, _ in points]
-    wide = [_letters(max([*name.split("\n"), speed], key=len)) for name, speed in heads]
+    heads = [_said(point.speed) for point in points]
+    feet = [_said(point.x) for point in points]
+    wide = [_letters(max([*point.names, speed], key=len)) for point, speed in zip(points, heads, strict=True)]
     bounds = low * inches - 0.25, high * inches + 0.25
     above = spread([x * inches for x in xs], wide, bounds)
     below = spread([x * inches for x in xs], list(map(_letters, feet)), bounds)
     across = axes.get_xaxis_transform()
-    for (name, speed), foot, x, up, down in zip(heads, feet, xs, above, below, strict=True):
+    for point, speed, foot, x, up, down in zip(points, heads, feet, xs, above, below, strict=True):
         up, down = up / inches, down / inches
         axes.plot([x, up], [1.0, 1.07], color=PALE, linewidth=0.8, transform=across, clip_on=False)
         axes.plot([x, down], [0.0, -0.07], color=PALE, linewidth=0.8, transform=across, clip_on=False)
@@ -193,10 +199,10 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
             "parse_math": False,
             "clip_on": False,
         }
-        carrier, plain = x == 0, re.sub(r" \[.*?\]", "", name)
-        axes.text(up, 1.08, speed, va="bottom", color=RED if carrier else BLUE, gid=f"speed {plain}", **how)
-        axes.text(up, 1.19, name, va="bottom", color=BLACK, fontweight="bold", **how)
-        axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {plain}", **how)
+        links = "\n".join(point.links)
+        axes.text(up, 1.08, speed, va="bottom", color=BLUE if point.x else RED, gid=f"speed {links}", **how)
+        axes.text(up, 1.19, "\n".join(point.names), va="bottom", color=BLACK, fontweight="bold", **how)
+        axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {links}", **how)
 
 
 def _said(value: Fraction | None) -> str:

@@ -103,11 +103,10 @@ def _verdict(scene: Scene, width: float) -> str:
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
     """Lines of brakes and clutches that are closed, then of those that are open, with their colours."""
-    links = [body.id for body in scene.bodies]
     room = int((width - 0.3) / ((_FINE + 1) * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
-        some = [each.words(links) for each in scene.elements if each.closed is closed]
+        some = [each.text for each in scene.elements if each.closed is closed]
         lines += [(line, color) for line in wrap(f"{word}: {', '.join(some)}", room)] if some else []
     return lines
 

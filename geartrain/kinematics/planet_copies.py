@@ -121,6 +121,28 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
         elif train.links[bearer].copies not in (1, part.copies):
             yield _unequal(train, link, bearer, "links", link)
     yield from _unequal_mates(train)
+    yield from _taken_names(train)
+
+
+def _taken_names(train: Train) -> Iterator[Problem]:
+    """What is declared under the name that a copy will bear."""
+    axes = {*train.axes, *(joint.axis for joint in train.revolutes)}
+    ids = {gear.id for gear in train.gears}
+    for link, part in train.links.items():
+        mine = {joint.axis for joint in train.revolutes if train.frame not in joint.pair and link in joint.pair}
+        pairs = [gear.id for gear in train.gears if gear.id and link in {train.wheels[wheel][0] for wheel in gear.pair}]
+        for at in range(2, 1 + part.copies):
+            for kind, own, all_of in (
+                ("link", [link], train.links),
+                ("wheel", part.wheels, train.wheels),
+                ("axis", mine, axes),
+                ("gear pair", pairs, ids),
+            ):
+                for name in own:
+                    if _named(name, at) in all_of:
+                        what = f"{kind} '{_named(name, at)}' is declared, and copy {at} of '{name}' is called so"
+                        why = f"the {part.copies} links '{link}' and what they bear are numbered from 2"
+                        yield Problem(what, why, f"rename '{_named(name, at)}'", train.place("links", link))
 
 
 def _unequal_mates(train: Train) -> Iterator[Problem]:

@@ -87,10 +87,8 @@ def collect_time_report(
     >>> found.separation.pair, found.to_dict()["lead"]
     ('d2~e', 'crank')
     """
-    from geartrain.dynamics.inertia.link_inertia import find_link_inertias
-
     separation = train.separation_rates(run.state, without) if train.tells_separation(run.state) else None
-    inertias = find_link_inertias(train, train.declaration.case(run.state), with_inputs=run.driven != "rate")
+    inertias = train.inertias(run.state, with_inputs=run.driven != "rate")
     return TimeReport(train.declaration.title, separation, inertias, run, stepped)
 
 

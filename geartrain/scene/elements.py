@@ -256,6 +256,8 @@ class SceneShiftElement:
         Indices of what it holds to the frame, or of the two that it joins.
     closed : bool
         Whether it is closed in this state.
+    text : str
+        What it is and does, such as `B brakes ring`.
 
     See Also
     --------
@@ -266,14 +268,4 @@ class SceneShiftElement:
     kind: Literal["brake", "clutch"]
     bodies: Sequence[int]
     closed: bool
-
-    def words(self, links: Sequence[str]) -> str:
-        """What it is and does, such as `B brakes ring`.
-
-        Parameters
-        ----------
-        links : sequence of str
-            Names of all bodies.
-        """
-        joined = " and ".join(links[at] for at in self.bodies)
-        return f"{self.id} {'brakes' if self.kind == 'brake' else 'joins'} {joined}"
+    text: str

@@ -90,12 +90,14 @@ def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
     """Brakes and clutches in the order declared, and which are closed in a state."""
     declared = stage.train.declaration
-    closed = declared.states[state].engaged if state is not None else ()
+    closed = stage.train.cases[state].engaged
     found = []
     for name, clutch in declared.clutches.items():
         links = clutch.locks or (clutch.fixes or declared.frame,)
         bodies = tuple(stage.body[link] for link in links)
-        found.append(SceneShiftElement(name, "brake" if clutch.locks is None else "clutch", bodies, name in closed))
+        brakes = clutch.locks is None
+        text = f"{name} {'brakes' if brakes else 'joins'} {' and '.join(links)}"
+        found.append(SceneShiftElement(name, "brake" if brakes else "clutch", bodies, name in closed, text))
     return tuple(found)
 
 

@@ -226,6 +226,7 @@ class Train(Declared):
             locks=tuple(locks),
             outputs=outputs,
             loc=loc,
+            engaged=own.engaged,
             clutches=clutches,
             loads=self.loads if own.loads is None else own.loads,
             solve_for=self.solve_for if own.solve_for is None else own.solve_for,

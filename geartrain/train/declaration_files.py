@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
+from itertools import count
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from types import MappingProxyType
@@ -127,36 +128,38 @@ def files_of(path: Path) -> tuple[Path, ...]:
     DeclarationError
         If one of them cannot be read, or is not there.
     """
-    found = [path]
-    for _ in range(_MOST_PARENTS):
-        node = parse_yaml(_read(found[-1]), str(found[-1]))
-        if "extends" not in node.mapping:
-            break
-        found.append(_parent(node.mapping["extends"].text, found[-1].parent, node.place_of(("extends",))))
-    return tuple(found)
+    child = parse_yaml(_read(path), str(path))
+    return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))
 
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
     """The child laid over its parent, which is laid over its own before."""
-    line, met = [written_out(child)], dict.fromkeys(chain)
-    while "extends" in line[-1].mapping:
-        place = line[-1].place_of(("extends",))
-        path = _parent(line[-1].mapping["extends"].text, folder, place)
+    line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
+    result = line.pop()
+    while line:
+        result = merge_parent(result, line.pop())
+    return result
+
+
+def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
+    """What it extends, what that extends, and so on; refused where they are too many, or go round in a circle."""
+    met = dict.fromkeys(chain)
+    for at in count():
+        if "extends" not in node.mapping:
+            return
+        place = node.place_of(("extends",))
+        path = _parent(node.mapping["extends"].text, folder, place)
         if path.resolve() in met:
             loop = " -> ".join(step.name for step in (*met, path))
             raise DeclarationError(
                 Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
             )
-        met[path.resolve()] = None
-        folder = path.parent
-        line.append(written_out(parse_yaml(_read(path), str(path))))
-        if len(line) > _MOST_PARENTS + 1:
+        if at == _MOST_PARENTS:
             why = f"a train may change another one that changes another one, {_MOST_PARENTS} at most"
             raise DeclarationError(Problem("the chain of `extends` is too long", why, "write one of them out", place))
-    result = line.pop()
-    while line:
-        result = merge_parent(result, line.pop())
-    return result
+        met[path.resolve()] = None
+        folder, node = path.parent, parse_yaml(_read(path), str(path))
+        yield path, node
 
 
 def _parent(name: str, folder: Path, place: str) -> Path:

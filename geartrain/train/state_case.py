@@ -32,6 +32,8 @@ class StateCase:
         What is asked for in this state, by name.
     loc : tuple of str or int
         Where the inputs were declared: the keys that lead to them.
+    engaged : tuple of str
+        Clutches and brakes that are closed.
     clutches : mapping of tuple of str to str
         The clutch or brake behind a fixed link or a lock.
     loads : mapping of str to Quantity
@@ -63,6 +65,7 @@ class StateCase:
     locks: tuple[tuple[str, str], ...]
     outputs: Mapping[str, Output]
     loc: Loc
+    engaged: tuple[str, ...]
     clutches: Mapping[tuple[str, ...], str]
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     solve_for: str | None = None

@@ -6,6 +6,6 @@ shows them; it computes angles as `geartrain.scene` says, exactly at any number 
 
 from __future__ import annotations
 
-from geartrain.viewer.viewer_page import EmbeddedPage, page
+from geartrain.viewer.viewer_page import EmbeddedPage, page, train_page
 
-__all__ = ["EmbeddedPage", "page"]
+__all__ = ["EmbeddedPage", "page", "train_page"]

@@ -77,6 +77,30 @@ def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = Non
     )
 
 
+def train_page(train: GearTrain, state: str | None = None) -> str:
+    """The page of one train: in one of its states, or in all of them, to be chosen among.
+
+    Parameters
+    ----------
+    train : GearTrain
+        What turns.
+    state : str, optional
+        One of its states.
+
+    Returns
+    -------
+    str
+        As `page` gives it.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> "sun fixed" in train_page(geartrain.load("planetary"))
+    True
+    """
+    return page([make_scene(train, each) for each in ((state,) if state is not None else train.states or (None,))])
+
+
 @dataclass(frozen=True)
 class EmbeddedPage:
     """A page of a train that turns, within another page: a notebook shows it as it is.
@@ -102,9 +126,8 @@ class EmbeddedPage:
     height: int = 620
 
     def _repr_html_(self) -> str:
-        states = (self.state,) if self.state is not None else self.train.states or (None,)
         # the script counts by the letter: what shows this may join lines, widen tabs and read formulas
-        inner = escape(page([make_scene(self.train, state) for state in states])).translate(_AS_NUMBERS)
+        inner = escape(train_page(self.train, self.state)).translate(_AS_NUMBERS)
         style = f"width:100%;height:{self.height}px;border:0"
         return f'<iframe title="{escape(self.train.name)}, turning" style="{style}" srcdoc="{inner}"></iframe>'
 

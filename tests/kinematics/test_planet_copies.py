@@ -12,6 +12,7 @@ from fitters import passed, rules_of
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics.relative_speeds import relative_speed
+from geartrain.report.time_report import collect_time_report
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 
 SET = """
@@ -132,6 +133,8 @@ def test_a_set_driven_at_a_rate_in_time_bears_what_statics_say() -> None:
     assert isclose(run.torque, 0.3 * 24 / 84, rel_tol=1e-3)
     assert isclose(torques["p~r"], 0.3 * 60 / 84, rel_tol=1e-3)
     assert run.leads[0].behind < 1e-6
+    told = {each.link: each.value for each in collect_time_report(train, run).inertias}
+    assert isclose(told["planet"], 3 * 20e-9)
 
 
 def test_planets_declared_one_by_one_in_time_are_told_what_to_do() -> None:
@@ -193,6 +196,28 @@ def test_copies_that_have_no_place_are_refused(change: tuple[str, str], words: s
         text = text.replace("  carrier:", "  rider: {}\n  carrier:")
     with pytest.raises(DeclarationError, match=words):
         read(text).solve()
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("ring", "planet.2"), "link 'planet.2' is declared"),
+        (("{s: {", "{p.3: 12, s: {"), "wheel 'p.3' is declared"),
+        (
+            (
+                "revolutes: {main: [frame, sun, ring, carrier]",
+                "revolutes: {main: [frame, sun, ring], P.2: [frame, carrier]",
+            ),
+            "axis 'P.2' is declared",
+        ),
+        (("gears: [s ~ p, {pair: [p, r]", "gears: [{id: x, pair: [s, p]}, {id: x.2, pair: [p, r]"), "pair 'x.2' is"),
+    ],
+)
+def test_names_that_copies_will_bear_are_free(change: tuple[str, str], words: str) -> None:
+    text = SET.format(s=24, p=18, r=60, n=3, more="")
+    assert change[0] in text
+    with pytest.raises(DeclarationError, match=words):
+        read(text.replace(*change)).solve()
 
 
 def test_unequal_copies_cannot_mesh() -> None:

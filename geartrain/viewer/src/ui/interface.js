@@ -161,10 +161,9 @@ class Interface {
   }
 
   /** Highlights what a brake holds, or what a clutch joins. */
-  element(side, { id, kind, bodies, closed }) {
+  element(side, { bodies, closed, text }) {
     this.#highlight(new Map([[side, { bodies }]]), "way");
-    const names = bodies.map((index) => side.scene.bodies[index].id).join(" and ");
-    this.live.say(`${id} ${kind === "brake" ? "brakes" : "joins"} ${names}; it is ${closed ? "closed" : "open"}`);
+    this.live.say(`${text}; it is ${closed ? "closed" : "open"}`);
   }
 
   /** Highlights a loop that holds the train. */

@@ -16,13 +16,11 @@ export function loopParts(scene, loop) {
 /** Brakes and clutches: what each holds or joins, the closed ones filled; a click shows it. */
 function elements({ scene }, onElement) {
   if (!scene.elements?.length) return null;
-  const names = (bodies) => bodies.map((index) => scene.bodies[index].id).join(" and ");
   return el(
     "ul",
     { class: "elements", "aria-label": "brakes and clutches" },
-    scene.elements.map((each) => {
-      const does = `${each.kind === "brake" ? "brakes" : "joins"} ${names(each.bodies)}`;
-      return el(
+    scene.elements.map((each) =>
+      el(
         "li",
         {},
         el(
@@ -30,14 +28,14 @@ function elements({ scene }, onElement) {
           {
             type: "button",
             class: each.closed ? "element closed" : "element",
-            title: does,
-            "aria-label": `${each.id} ${does}, ${each.closed ? "closed" : "open"}`,
+            title: each.text,
+            "aria-label": `${each.text}, ${each.closed ? "closed" : "open"}`,
             onclick: () => onElement(each),
           },
           each.id,
         ),
-      );
-    }),
+      ),
+    ),
   );
 }
 

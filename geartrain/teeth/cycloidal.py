@@ -149,7 +149,7 @@ class Cycloidal(ConjugateToothForm):
         return found[0], found[1]
 
 
-def _arc(pitch: PitchSurfaces, R: float, z: int, rho: float, height: Fraction) -> float:
+def _arc(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
     """The arc (X) that ends at an addendum."""
     from math import asin, sin
 

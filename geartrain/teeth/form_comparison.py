@@ -160,7 +160,7 @@ def compare_forms(
     found = [_form(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
     found += _beside(found, wheels, arcs, angle, base.measures)
     models = [model for name, (model, _) in known.items() if name in names]
-    return FormComparison((wheels.z1, wheels.z2), _matched(models, arcs), base, tuple(found))
+    return FormComparison((int(wheels.z1), int(wheels.z2)), _matched(models, arcs), base, tuple(found))
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:

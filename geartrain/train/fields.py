@@ -163,6 +163,11 @@ def _tell_friction(friction: Any) -> Any:
     return friction.model_dump(mode="json") if isinstance(friction, BaseModel) else str(friction)
 
 
+def _read_tooth_form(raw: Any) -> Any:
+    """A name alone is the form with all its defaults."""
+    return tooth_forms().validate_python({"form": raw} if isinstance(raw, str) else raw)
+
+
 @cache
 def _coulomb_friction() -> TypeAdapter[Any]:
     return TypeAdapter(DeclaredCoulombFriction)
@@ -189,12 +194,14 @@ else:
             return {"anyOf": [handler(_coulomb_friction().core_schema), handler(friction_laws().core_schema)]}
 
     class DeclaredToothForm:
-        """A tooth form as a field of a model: the forms are imported when the first is read."""
+        """A tooth form, or the name of one, as a field of a model: the forms are imported when the first is read."""
 
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
-            return core_schema.no_info_plain_validator_function(lambda raw: tooth_forms().validate_python(raw))
+            return core_schema.no_info_plain_validator_function(_read_tooth_form)
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-            return handler(tooth_forms().core_schema)
+            from geartrain.teeth.any_tooth_form import tooth_forms as by_name
+
+            return {"anyOf": [{"enum": [*by_name()]}, handler(tooth_forms().core_schema)]}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -10,6 +11,9 @@ import pytest
 from models import PAIR, PLANETARY, pair, planetary, refusal
 
 from geartrain import GearTrainError, load, shipped
+from geartrain.errors import DeclarationError
+from geartrain.teeth.any_tooth_form import tooth_forms
+from geartrain.train.validation import declare
 
 # short forms and ids --------------------------------------------------------------------------------------------------
 
@@ -418,3 +422,22 @@ Refuse = Callable[..., GearTrainError]
 )
 def test_the_top_level_knows_its_keys(refused: Refuse, text: str, said: str, line: int) -> None:
     refused(text, said, line=line)
+
+
+def test_a_tooth_form_may_be_named_alone() -> None:
+    def read(form: object) -> object:
+        pair = {"pair": ["p", "w"], "tooth_form": form}
+        links = {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 60}}}
+        train = declare({"links": links, "revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]}, "gears": [pair]})
+        return train.gears[0].tooth_form
+
+    for name in tooth_forms():
+        try:
+            wanted = read({"form": name})
+        except DeclarationError as error:
+            with pytest.raises(DeclarationError, match=re.escape(error.problems[0].what)):
+                read(name)
+        else:
+            assert read(name) == wanted
+    with pytest.raises(DeclarationError, match="involute"):
+        read("involut")

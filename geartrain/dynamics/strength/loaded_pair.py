@@ -30,9 +30,11 @@ from geartrain.teeth.strength.leaning_contact import LeaningLoad, base_helix_ang
 from geartrain.teeth.strength.root_section import RootSection, ToothLoad, ToothSide
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.strength.virtual_spurs import VirtualSpurs
     from geartrain.dynamics.wheel_teeth import WheelTeeth
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.wheel_requirement import CutTooth
     from geartrain.train import Material
 
 _MPA = 1e6
@@ -45,13 +47,14 @@ class WheelUnderLoad:
     """One wheel of a pair.
 
     gear      1 or 2, as the law of the pair calls it
-    teeth     as they are cut, in modules
+    z         its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it
     torque    on it [N m]; `turns` it makes as its carrier sees it, None where no time is given
     """
 
     name: str
     gear: int
-    teeth: WheelTeeth
+    z: float
+    teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
     torque: float
@@ -77,6 +80,7 @@ class PairUnderLoad:
     module, width   of it; the width is the narrower one
     wear      least and greatest wear coefficient
     elements  whether stresses are checked by finite elements
+    spurs     of bevels: the spur pair that stands for them
     """
 
     mesh: GearMesh
@@ -85,6 +89,7 @@ class PairUnderLoad:
     width: float
     wear: WearRange
     elements: bool = False
+    spurs: VirtualSpurs | None = None
 
     def strength(self) -> PairStrength:
         """All figures."""
@@ -116,18 +121,22 @@ class PairUnderLoad:
         if path is not None:
             return abs(path.pitch.axle_of(self.wheels[at].gear)) * self.module
         size = self.mesh.own_size
-        return self.wheels[at].teeth.z / 2 * self.module * (1.0 if size is None else size.stretch)
+        return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
+
+    def _flattened(self, at: int) -> float:
+        """Radii about its own axle over those about the axle of the spur wheel that stands for it."""
+        return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
     def tangential(self) -> float:
         """Force along the pitch line [N]: of the wheel with more, for friction takes some of it on the way."""
-        return max(abs(each.torque) * _MM / self._radius(at) for at, each in enumerate(self.wheels))
+        arms = (self._radius(at) * self._flattened(at) for at in (0, 1))
+        return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
 
     @property
     def path(self) -> PathOfContact | None:
         """The path of contact, where there is one."""
-        path = self.mesh.path
-        return None if path is None or path.pitch.bevel else path
+        return self.mesh.path if self.spurs is None else self.spurs.pair.path
 
     @cached_property
     def load(self) -> ContactLoad | None:
@@ -158,7 +167,12 @@ class PairUnderLoad:
             yield "its form has no path of contact: no pressure by Hertz, and the load stands at the tip"
         elif self.load.has_cusp:
             yield "flanks have no radius at the pitch point: Hertz's pressure has no bound there until they wear"
-        if self.mesh.form == "involute" and self._rack_pair() is None:
+        if self.spurs is not None:
+            counts = " and ".join(f"{each.z:.4g}" for each in self.wheels)
+            yield f"its bevels are taken for spur wheels of {counts} teeth, with the module in the middle of the width"
+            if self.spurs.is_wide:
+                yield "its teeth are wider than a third of their cones, more than is usual: they bear unevenly"
+        elif self.mesh.form == "involute" and self._rack_pair() is None:
             yield "ISO 6336 is worked out for external involutes with a contact ratio from 1 to 2"
         if self.lean.helix:
             yield (
@@ -179,7 +193,7 @@ class PairUnderLoad:
             wheel=own.name,
             material=own.material_name,
             torque=own.torque,
-            section=0.0 if tip is None else tip.x * self.module,
+            section=0.0 if tip is None else tip.x * self.module * self._flattened(at),
             thickness=0.0 if tip is None else tip.thickness * self.module,
             lewis=0.0 if tip is None else tip.lewis_factor(self._radius(at) / self.module),
             tip_stress=self._pin_stress(own)
@@ -250,7 +264,7 @@ class PairUnderLoad:
         from geartrain.teeth.strength.finite_elements import root_stress_factor
 
         load = self._tip_load(own)
-        found = root_stress_factor(own.side, own.teeth.z, load, own.elasticity.poisson)
+        found = root_stress_factor(own.side, own.z, load, own.elasticity.poisson)
         return found * torque / (self.width * self.module**2)
 
     # ------------------------------------------------------------------------------------------------- ISO and wear
@@ -258,15 +272,15 @@ class PairUnderLoad:
     def _rack_pair(self) -> RackPair | None:
         """Both wheels in the transverse section."""
         form, load = self.mesh.tooth_form, self.load
-        if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0:
+        if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None
         path, flat = load.path, cos(self.lean.helix)
         # as the pair names them; gears 1 and 2 of an external pair are in that order
         wheels = [
             RackWheel(
-                each.teeth.z,
+                each.z,
                 float(form.shift[at].value) * flat,
-                each.teeth.z / 2 + (float(form.shift[at].value) + float(form.addendum[at].value)) * flat,
+                each.z / 2 + (float(form.shift[at].value) + float(form.addendum[at].value)) * flat,
                 float(form.dedendum[at].value) * flat,
             )
             for at, each in enumerate(self.wheels)
@@ -307,7 +321,7 @@ class PairUnderLoad:
             return None
         slid = abs(own.torque) * 2 * pi * own.turns * loss * _MM  # N mm
         per = slid / (hardness / _MPA)  # mm3 for K = 1
-        flank = own.teeth.z * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
+        flank = self.mesh.wheels.counts[at] * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
         deep = None
         if self.load is not None and not self.lean.helix:
             deep = deepest_passage(self.load, own.gear) * own.turns / (hardness / _MPA)

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2, cos, sin, tan
+from math import cos, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.dynamics.strength.strength_results import WheelForce
+from geartrain.dynamics.strength.virtual_spurs import ConeMiddle
 from geartrain.errors import RangeError
 from geartrain.kinematics.circuits import Axes
 from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
 from geartrain.teeth.strength.pitch_force import bevel_force, friction_angle, helical_force
+from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
@@ -117,12 +120,13 @@ class ToothForces:
         return radius, helical_force(load / radius, own.helix, angle, sense * friction_angle(sliding, angle))
 
     def _bevel(self, circuit: Circuit, at: int, load: float, crossing: float) -> tuple[float, WheelParts]:
-        """At the middle of the teeth where a width is declared, else at the outer pitch circle."""
+        """At the middle of the teeth where a width is known, else at the outer pitch circle."""
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
-        cone = atan2(sin(crossing), cos(crossing) + (mate.count or 0) / (own.count or 1))
-        width = min((_MM * each.face_width.si for each in (own, mate) if each.face_width is not None), default=0.0)
-        radius = self._radius(circuit, at) - width / 2 * sin(cone)
-        return radius, bevel_force(load / radius, cone, self._angle(circuit), own.facing)
+        widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
+        cones = PitchSurfaces.cones(own.count or 1, mate.count or 1, crossing)
+        middle = ConeMiddle(cones, _MM * self.modules[circuit.wheels[at]], min(widths, default=0.0))
+        radius = middle.radius(1)
+        return radius, bevel_force(load / radius, middle.cone(1), self._angle(circuit), own.facing)
 
 
 def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:

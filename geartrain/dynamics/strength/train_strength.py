@@ -12,6 +12,7 @@ from geartrain.dynamics.strength.arbor_strength import arbor_strength
 from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
 from geartrain.dynamics.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
 from geartrain.dynamics.strength.tooth_forces import ToothForces
+from geartrain.dynamics.strength.virtual_spurs import VirtualSpurs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.train import Train
 from geartrain.train.wheel_stock import face_width, material_named
@@ -93,14 +94,20 @@ class StrengthQuestion:
         wheels = [self.declared.wheels[name][1] for name in gear.pair]
         lacking = list(self._lacking(gear, mesh, wheels, torque))
         if lacking or mesh is None:
-            self.left_out[gear.name] = NeglectedEffect("strength", (gear.name,), "; ".join(lacking))
+            self._leave_out(gear, "; ".join(lacking))
             return None
-        widths = [self._width(wheel) for wheel in wheels]
+        module, width = 1e3 * self.modules[gear.pair[0]], 1e3 * min(self._width(wheel) for wheel in wheels)
+        spurs = VirtualSpurs.of(mesh, module, width)
+        if spurs is not None and spurs.why_not:
+            self._leave_out(gear, spurs.why_not)
+            return None
+        gears = [mesh.gears.index(name) + 1 for name in gear.pair]
         found = [
             WheelUnderLoad(
                 name,
-                mesh.gears.index(name) + 1,
-                self.teeth[name],
+                gears[at],
+                wheel.count or 0 if spurs is None else spurs.count(gears[at]),
+                self.teeth[name] if spurs is None else spurs.teeth(gears[at]),
                 self._material_name(wheel),
                 material_named(self.declared, self._material_name(wheel)),
                 float(torque.torques[at]),
@@ -108,8 +115,11 @@ class StrengthQuestion:
             )
             for at, (name, wheel) in enumerate(zip(gear.pair, wheels, strict=True))
         ]
-        module = 1e3 * self.modules[gear.pair[0]]
-        return PairUnderLoad(mesh, (found[0], found[1]), module, 1e3 * min(widths), self.wear, self.elements)
+        middle = module if spurs is None else module * spurs.middle.shrunk
+        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs)
+
+    def _leave_out(self, gear: GearPair, why: str) -> None:
+        self.left_out[gear.name] = NeglectedEffect("strength", (gear.name,), why)
 
     def _lacking(
         self, gear: GearPair, mesh: GearMesh | None, wheels: Sequence[Wheel], torque: PairTorque
@@ -117,10 +127,8 @@ class StrengthQuestion:
         """What is not known of a pair, or is not worked out for it."""
         if mesh is None:
             yield "it declares no tooth form: give it `tooth_form`"
-        elif mesh.path is not None and mesh.path.pitch.bevel:
-            yield "its axes meet, and only teeth of parallel axes are worked out"
-        elif mesh.path is None and mesh.size({}) is None:
-            yield "its axes are not parallel"
+        elif mesh.path is None and mesh.own_size is None:
+            yield "its axes are not parallel, and it has no path of contact"
         elif any(wheel.is_helical for wheel in wheels) and mesh.form != "involute":
             yield "its teeth lean, and of such only involutes are worked out"
         elif faults := mesh.faults:
@@ -137,7 +145,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no `material`"
             if name not in self.modules:
                 yield f"'{name}' has no `module`"
-            if mesh is not None and name not in self.teeth:
+            if mesh is not None and mesh.own_size is not None and name not in self.teeth:
                 why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
                 yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
 

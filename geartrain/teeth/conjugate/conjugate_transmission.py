@@ -80,7 +80,7 @@ class ConjugateTransmission(ExactRatio):
         self.pair, self.path, self.driver, self.direction = pair, pair.path, driver, direction
         self.friction = check_friction(friction)
         pitch = pair.path.pitch
-        z1, z2 = pitch.teeth_of(driver), pitch.teeth_of(3 - driver)
+        z1, z2 = int(pitch.teeth_of(driver)), int(pitch.teeth_of(3 - driver))
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
         self._reach = pitch.reach_of(driver)
         self._play = pair.play / pitch.reach_of(3 - driver)

@@ -280,5 +280,5 @@ def _sizes(pair: ConjugatePair, gear: int) -> DisplacedWheelSizes:
     width = (np.sin(radius) if pitch.bevel else radius) * ((azimuth if gear == 1 else -azimuth) + half)
     depth = abs(float(radius[1] - radius[0]))
     lean = float(np.arctan2(width[0] - width[1], depth))
-    z = pitch.teeth_of(gear)
+    z = int(pitch.teeth_of(gear))
     return DisplacedWheelSizes(z, depth, max(lean, _BLUNT), z / (2 * reach))

@@ -35,7 +35,7 @@ class InvoluteWheel:
     cut   depth to which the rack's flank is straight: undercut begins where that is too deep
     """
 
-    z: int
+    z: float
     psi: float
     shift: float
     addendum: float
@@ -191,6 +191,6 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
     return (acos(min(cos(tip) / base, 1.0)) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
 
 
-def cone_height(R: float, z: int, height: float) -> float:
+def cone_height(R: float, z: float, height: float) -> float:
     """Angle (rad) by which a height in modules of the large end stands over a pitch cone R."""
     return atan(height * 2 * sin(R) / z)

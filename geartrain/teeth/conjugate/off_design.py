@@ -53,7 +53,7 @@ def _gears(pair: ConjugatePair, distance: float) -> OutlineGears:
 def outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
     """Both wheels of a spur pair, in modules."""
     pitch = pair.path.pitch
-    return _outline(pair, 1, pitch.z1, pitch.R1), _outline(pair, 2, pitch.z2, pitch.R2)
+    return _outline(pair, 1, int(pitch.z1), pitch.R1), _outline(pair, 2, int(pitch.z2), pitch.R2)
 
 
 def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:

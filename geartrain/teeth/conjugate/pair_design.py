@@ -77,7 +77,7 @@ class PairDesign(Result):
     @property
     def teeth(self) -> tuple[int, int]:
         """Teeth of gear 1 and of gear 2."""
-        return self.path.pitch.z1, self.path.pitch.z2
+        return int(self.path.pitch.z1), int(self.path.pitch.z2)
 
     @property
     def pitch_radii(self) -> tuple[float, float]:

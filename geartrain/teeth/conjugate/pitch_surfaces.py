@@ -18,25 +18,25 @@ if TYPE_CHECKING:
 class PitchSurfaces:
     """The pitch surfaces of a pair, gear 1 driving.
 
-    z1, z2   tooth numbers
+    z1, z2   tooth numbers; those of wheels that stand for bevels are not whole
     R1, R2   spur: pitch radii in modules; bevel: half-angles of the pitch cones (rad) on the unit sphere
     bevel    True for cones
     A ring is gear 2 with a negative R2: the formulas of an external pair then hold as they stand.
     """
 
-    z1: int
-    z2: int
+    z1: float
+    z2: float
     R1: float
     R2: float
     bevel: bool = False
 
     @classmethod
-    def spur(cls, z1: int, z2: int, internal: bool = False) -> PitchSurfaces:
+    def spur(cls, z1: float, z2: float, internal: bool = False) -> PitchSurfaces:
         """Parallel axes, module 1; `internal`: gear 2 is a ring."""
         return cls(z1, z2, z1 / 2, -z2 / 2 if internal else z2 / 2)
 
     @classmethod
-    def cones(cls, z1: int, z2: int, shaft_angle: float = pi / 2) -> PitchSurfaces:
+    def cones(cls, z1: float, z2: float, shaft_angle: float = pi / 2) -> PitchSurfaces:
         """Axes that meet under `shaft_angle` (rad): tan R1 = sin S / (z2/z1 + cos S), R1 + R2 = S."""
         R1 = atan2(sin(shaft_angle), z2 / z1 + cos(shaft_angle))
         return cls(z1, z2, R1, shaft_angle - R1, True)
@@ -61,7 +61,7 @@ class PitchSurfaces:
         """Pitch-line displacement X in one radian of gear 2: R2 (negative for a ring), or sin R2."""
         return sin(self.R2) if self.bevel else self.R2
 
-    def teeth_of(self, gear: int) -> int:
+    def teeth_of(self, gear: int) -> float:
         """Tooth number of gear 1 or 2."""
         return self.z1 if gear == 1 else self.z2
 

@@ -20,14 +20,14 @@ _LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, a
 class WheelPair:
     """The two wheels that a form is asked about.
 
-    z1, z2        tooth numbers; `internal`: the second is a ring
+    z1, z2        tooth numbers, not whole of wheels that stand for bevels; `internal`: the second is a ring
     shaft_angle   rad, for bevels; None for parallel axes
     module        m, or None where no length says it; transverse, as all lengths of the pair are
     helix         helix angle (rad) of helical wheels, 0 or more
     """
 
-    z1: int
-    z2: int
+    z1: float
+    z2: float
     internal: bool = False
     shaft_angle: float | None = None
     module: float | None = None

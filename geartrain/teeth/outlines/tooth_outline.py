@@ -41,7 +41,7 @@ class RootFillet:
 
 
 def fillet(
-    flank: FlankCurve, widening: float, root: float, radius: float, z: int, relief: float = 0.0
+    flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
     """The round of `radius` between the flank and the circle of radius `root`; None where there is no room.
 
@@ -89,7 +89,7 @@ class ToothOutline:
     root       radius of the root circle
     """
 
-    z: int
+    z: float
     flank: FlankCurve
     fillet: RootFillet
     widening: float
@@ -138,7 +138,7 @@ class ToothOutline:
 
     def whole(self) -> Contour:
         """All teeth round the axle, counter-clockwise, the first of them about the x axis."""
-        return Contour.of(repeated(self.vertices(), self.z))
+        return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
         """One tooth about the x axis, from one root to the other, the last edge along the root circle."""

@@ -39,7 +39,7 @@ class MateTooth:
     """
 
     span: Floats
-    z: int
+    z: float
     distance: float
     internal: bool
     ring: bool
@@ -56,7 +56,7 @@ class MatePassage:
     aside: Floats
 
 
-def passage(z: int, tip: float, outward: int, mate: MateTooth) -> MatePassage:
+def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
     """The way of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
     turn = _positions(tip, outward, mate)[:, None]
     r, angle = mate.span
@@ -130,7 +130,7 @@ class ToothRequirement(WheelRequirement):
         return self.pair.path.pitch.R2 < 0
 
     @property
-    def z(self) -> int:
+    def z(self) -> float:
         """Tooth number."""
         return self.pair.path.pitch.teeth_of(self.gear)
 

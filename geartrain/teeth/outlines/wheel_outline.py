@@ -92,7 +92,7 @@ class _Both:
         scale = self.cut.module
         inner, outer = pins.circle - pins.radius, pins.circle + pins.radius
         rim = 2 * pins.radius * scale if self.cut.rim is None else self.cut.rim
-        contours = [*lantern(pins, self._of(pins.gear).z, scale, rim), *_bore(self.cut, inner * scale)]
+        contours = [*lantern(pins, int(self._of(pins.gear).z), scale, rim), *_bore(self.cut, inner * scale)]
         sizes = (self._of(pins.gear).flank.R, outer, inner, 2 * self.pair.halves[pins.gear - 1], 0.0)
         return self._wheel(pins.gear, "pins", contours, sizes, 0.0)
 
@@ -104,7 +104,7 @@ class _Both:
         pitch, tip, root, thickness, round_ = (size * scale for size in sizes)
         return WheelOutline(
             gear=gear,
-            z=self._of(gear).z,
+            z=int(self._of(gear).z),
             kind=kind,
             contours=tuple(contours),
             module=scale,

@@ -24,7 +24,9 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
     The energy through the pair times this is the integral of force over the way slid. None for teeth that lock.
     """
     wheels = replace(mesh.wheels, friction=_SLIGHT, friction_law=None)
-    slight = mesh.tooth_form.mesh(wheels, lambda: None).driven_by(mesh.who)  # type: ignore[attr-defined]
+    path = mesh.path
+    angle = None if path is None or not path.pitch.bevel else path.pitch.R1 + path.pitch.R2
+    slight = mesh.tooth_form.mesh(wheels, lambda: angle).driven_by(mesh.who)  # type: ignore[attr-defined]
     mean = slight.efficiency(mesh.driver).mean
     return None if mean is None else (1 - float(mean)) / _SLIGHT
 

@@ -22,7 +22,7 @@ FINE = 0.03
 """Edges at the root [module]; coarser ones change stresses by less than 1 in 200."""
 
 
-def root_stress_factor(side: ToothSide, z: int, load: ToothLoad, poisson: float, fine: float = FINE) -> float:
+def root_stress_factor(side: ToothSide, z: float, load: ToothLoad, poisson: float, fine: float = FINE) -> float:
     """Greatest tension along the round of the loaded side, over torque/(width module^2): docs/strength.md, section 6.
 
     Three teeth on a rim held inside and at its ends, plane stress, quadratic triangles; Young's modulus cancels.
@@ -40,7 +40,7 @@ def root_stress_factor(side: ToothSide, z: int, load: ToothLoad, poisson: float,
 class _Held:
     """Where the rim is held: its inner circle, and both of its cuts."""
 
-    def __init__(self, side: ToothSide, z: int) -> None:
+    def __init__(self, side: ToothSide, z: float) -> None:
         self.radius = side.root - side.outward * _DEEP
         self.angle = 3 * pi / z
 
@@ -52,7 +52,7 @@ class _Held:
         return np.asarray(found)
 
 
-def _sector(side: ToothSide, z: int) -> tuple[Floats, Floats]:
+def _sector(side: ToothSide, z: float) -> tuple[Floats, Floats]:
     """Three teeth on their rim, anticlockwise, and the round at the loaded side of the middle one."""
     half = side.points[side.points[:, 1] > 1e-9]
     r, angle = np.hypot(*half.T), np.arctan2(half[:, 1], half[:, 0])

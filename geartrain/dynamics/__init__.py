@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
+    from geartrain.dynamics.strength.contact_results import FlankStrength, PointContact
     from geartrain.dynamics.strength.strength_results import (
         ArborStrength,
         FlankWear,
@@ -64,6 +65,7 @@ __all__ = [
     "EnergyAccount",
     "ErrorEstimates",
     "ErrorSamples",
+    "FlankStrength",
     "FlankWear",
     "HoldingTorque",
     "ImpactList",
@@ -77,6 +79,7 @@ __all__ = [
     "PairStrength",
     "PairTorque",
     "PlaceInRun",
+    "PointContact",
     "PowerFlow",
     "PowerLoss",
     "PowerNode",
@@ -111,6 +114,7 @@ _PLACES = {
     "EnergyAccount": "time.run_parts",
     "ErrorEstimates": "motion.superposition",
     "ErrorSamples": "motion.error_composition",
+    "FlankStrength": "strength.contact_results",
     "FlankWear": "strength.strength_results",
     "HoldingTorque": "torques.member_torques",
     "ImpactList": "time.run_parts",
@@ -124,6 +128,7 @@ _PLACES = {
     "PairStrength": "strength.strength_results",
     "PairTorque": "torques.member_torques",
     "PlaceInRun": "turn.cycle_parts",
+    "PointContact": "strength.contact_results",
     "PowerFlow": "torques.power_flow",
     "PowerLoss": "torques.power_flow",
     "PowerNode": "torques.power_circulation",

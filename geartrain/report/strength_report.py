@@ -11,8 +11,9 @@ from geartrain.report.document import Document, Section, Table, figure, filled_t
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ArborStrength, PairStrength, TrainStrength
-    from geartrain.dynamics.strength.strength_results import WearRange, WheelForce
+    from geartrain.dynamics import ArborStrength, PairStrength, PointContact, TrainStrength
+    from geartrain.dynamics.strength.contact_results import WheelForce
+    from geartrain.dynamics.strength.strength_results import WearRange
 
 _FORCES = (
     "At the circles on which wheels roll, as means. Axial above 0 along the direction of the axis; radial towards the "
@@ -22,6 +23,11 @@ _FORCES = (
 _CONTACT = (
     "Hertz pressure of smooth flanks under the mean torque; couples that touch at once carry the same force, as rigid "
     "exact teeth of equal stiffness do. Positions in pitches past the pitch point."
+)
+_POINT = (
+    "Teeth of crossed axes touch at a point: Hertz's ellipse, the load shared evenly among the couples that touch at "
+    "once, addenda of one module. The pressure is the greatest where fewest touch; safety is 1.6 times the strength "
+    "over it."
 )
 _ROOT = (
     "Bending by Lewis on the outline that is cut, without the stress concentration of its round: at the tip one couple "
@@ -122,9 +128,12 @@ def strength_sections(found: TrainStrength) -> Iterator[Section]:
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
     if found.forces:
         yield Section(_title(head, "Forces"), (_FORCES,), (_forces(found.forces),))
-    if not found.pairs and not found.arbors:
+    if not found.pairs and not found.arbors and not found.points:
         return
     pairs = tuple(found.pairs.values())
+    if found.points:
+        notes = [f"{each.pair}: {note}." for each in found.points.values() for note in each.notes]
+        yield Section(_title(head, "Contact at a point"), (_POINT, *notes), tuple(_points([*found.points.values()])))
     contacts = [_contact(pair) for pair in pairs if pair.contact]
     if contacts:
         yield Section(_title(head, "Contact pressure"), (_CONTACT,), tuple(contacts))
@@ -181,6 +190,24 @@ def _contact(pair: PairStrength) -> Table:
         for each in pair.contact
     ]
     return Table((pair.pair, "position", "couples", "force (N)", "pressure (MPa)"), rows)
+
+
+def _points(points: Sequence[PointContact]) -> Iterator[Table]:
+    rows = [
+        (
+            *(each.pair, figure(each.contact_ratio, 4), figure(each.normal_force, 4), figure(each.longer, 3)),
+            *(figure(each.shorter, 3), figure(each.pressure, 4)),
+        )
+        for each in points
+    ]
+    header = ("pair", "contact ratio", "force (N)", "half axes (mm)", "", "pressure (MPa)")
+    yield Table(header, rows)
+    wheels = [
+        (wheel.wheel, wheel.material, _strength(wheel.strength, wheel.spread), figure(wheel.safety, 3))
+        for each in points
+        for wheel in each.wheels
+    ]
+    yield Table(("wheel", "material", "strength (MPa)", "safety of flank"), wheels)
 
 
 def _teeth(pairs: Sequence[PairStrength]) -> Table:

@@ -130,6 +130,7 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
     "formula": [("formula", "prius-power-split", "--sensitivities"), ("formula", "freeth-2008")],
     "strength": [
         ("strength", "longcase-clock-loaded"),
+        ("strength", "crossed-helical"),
         ("strength", "longcase-clock-loaded", "--years", "10", "--wear", "1e-6", "1e-4"),
     ],
     "budget": [

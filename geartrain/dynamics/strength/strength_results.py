@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from geartrain.dynamics.strength.contact_results import PointContact, WheelForce
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.plain_data import Result
 from geartrain.teeth.strength.contact_pressure import YIELD_AT, ContactPlace
 from geartrain.teeth.strength.iso_6336 import IsoContact, IsoRoot
 
@@ -47,36 +48,6 @@ class FlankWear(Result):
     volume: WearRange
     mean_depth: WearRange
     depth: WearRange | None
-
-
-@dataclass(frozen=True)
-class WheelForce(Result):
-    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
-
-    Attributes
-    ----------
-    pair, wheel : str
-        The pair, and which of its wheels.
-    radius : float
-        Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm].
-    tangential : float
-        Along that circle, of the sign of its torque.
-    axial : float
-        Above 0 along the direction of its axis.
-    radial : float or None
-        Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known.
-
-    See Also
-    --------
-    TrainStrength : holds it
-    """
-
-    pair: str
-    wheel: str
-    radius: float
-    tangential: float
-    axial: float
-    radial: float | None
 
 
 @dataclass(frozen=True)
@@ -270,6 +241,8 @@ class TrainStrength(FrozenFields, Result):
         K of Archard's law, least and greatest.
     left_out : tuple of NeglectedEffect
         Pairs of which nothing is said, and why.
+    points : mapping of str to PointContact
+        Loaded gear pairs whose teeth touch at a point, by name.
 
     See Also
     --------
@@ -293,7 +266,10 @@ class TrainStrength(FrozenFields, Result):
     (1176.47, 706.85, 87.99)
     """
 
-    KEYS = ("state", "verdict", "forces", "pairs", "arbors", "weakest", "turns", "wear_coefficients", Key("left_out"))
+    KEYS = (
+        *("state", "verdict", "forces", "pairs", "points", "arbors", "weakest", "turns", "wear_coefficients"),
+        "left_out",
+    )
 
     state: str | None
     verdict: TorqueVerdict
@@ -303,6 +279,7 @@ class TrainStrength(FrozenFields, Result):
     wear_coefficients: WearRange = NO_WEAR
     left_out: tuple[NeglectedEffect, ...] = ()
     forces: tuple[WheelForce, ...] = ()
+    points: Mapping[str, PointContact] = field(default_factory=dict)
 
     @property
     def weakest(self) -> WeakestPart | None:
@@ -313,6 +290,12 @@ class TrainStrength(FrozenFields, Result):
             for wheel in pair.wheels
             for what, safety in (("root", wheel.root_safety), ("contact", wheel.contact_safety))
             if safety is not None
+        ]
+        found += [
+            WeakestPart(wheel.wheel, "contact", wheel.safety)
+            for pair in self.points.values()
+            for wheel in pair.wheels
+            if wheel.safety is not None
         ]
         found += [WeakestPart(each.link, "arbor", each.safety) for each in self.arbors if each.safety is not None]
         return min(found, key=lambda each: each.safety, default=None)

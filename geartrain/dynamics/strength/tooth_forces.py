@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.strength.strength_results import WheelForce
+from geartrain.dynamics.strength.contact_results import WheelForce
 from geartrain.dynamics.strength.virtual_spurs import ConeMiddle
 from geartrain.errors import RangeError
 from geartrain.kinematics.circuits import Axes
@@ -18,6 +18,7 @@ from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
 from geartrain.teeth.strength.pitch_force import bevel_force, friction_angle, helical_force
+from geartrain.teeth.strength.point_contact import CrossedWheels
 from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:
@@ -58,11 +59,11 @@ class ToothForces:
         wheels = [self.setting.train.wheels[name][1] for name in circuit.wheels]
         if any(wheel.kind == "contrate" for wheel in wheels):
             return
-        labels = [self.setting.tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
-        crossing = None if self._axes.are_parallel(labels) else _shaft_angle(self.setting, circuit)
+        parallel = self._is_parallel(circuit)
+        crossing = None if parallel else _shaft_angle(self.setting, circuit)
         for at, name in enumerate(circuit.wheels):
             load = float(torque.torques[at]) * _MM
-            if self._axes.are_parallel(labels):
+            if parallel:
                 radius, force = self._parallel(circuit, at, load)
             elif crossing is not None:
                 radius, force = self._bevel(circuit, at, load, crossing)
@@ -71,6 +72,30 @@ class ToothForces:
             else:
                 return
             yield WheelForce(circuit.id, name, radius, *force)
+
+    def is_crossed(self, circuit: Circuit) -> bool:
+        """True of helical wheels, or a worm and its wheel, on axes that neither meet nor are parallel."""
+        if any(self._wheel(circuit, at).kind not in ("spur", "worm") for at in (0, 1)):
+            return False
+        return not self._is_parallel(circuit) and _shaft_angle(self.setting, circuit) is None
+
+    def crossed_wheels(self, circuit: Circuit) -> CrossedWheels:
+        """Of wheels on crossed axes whose helix angles and modules are known."""
+        wheels = [self._wheel(circuit, at) for at in (0, 1)]
+        widths = [face_width(self.setting.train, wheel) for wheel in wheels]
+        first, second = (float("inf") if width is None else _MM * width.si for width in widths)
+        return CrossedWheels(
+            (self._radius(circuit, 0), self._radius(circuit, 1)),
+            (wheels[0].helix, wheels[1].helix),
+            _MM * self.modules[circuit.wheels[0]] / wheels[0].slant,
+            self._angle(circuit),
+            widths=(first, second),
+        )
+
+    def _is_parallel(self, circuit: Circuit) -> bool:
+        return self._axes.are_parallel(
+            [self.setting.tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
+        )
 
     @cached_property
     def _axes(self) -> Axes:

@@ -9,8 +9,15 @@ from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
 from geartrain.dynamics.strength.arbor_strength import arbor_strength
+from geartrain.dynamics.strength.contact_results import WheelForce
 from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
-from geartrain.dynamics.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
+from geartrain.dynamics.strength.skew_pair import SkewPair
+from geartrain.dynamics.strength.strength_results import (
+    ArborStrength,
+    PairStrength,
+    TrainStrength,
+    WearRange,
+)
 from geartrain.dynamics.strength.tooth_forces import ToothForces
 from geartrain.dynamics.strength.virtual_spurs import VirtualSpurs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
@@ -70,10 +77,14 @@ class StrengthQuestion:
     def answer(self) -> TrainStrength:
         """All pairs and arbors."""
         meshes = {mesh.name: mesh for mesh in self.meshes}
+        forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes)
+        told = tuple(forces.find())
+        points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
         found: dict[str, PairStrength] = {}
         for gear in self.declared.gears:
-            torque = self.torques.pairs[gear.name]
-            pair = self._pair(gear, meshes.get(gear.name), torque)
+            if gear.name in self.left_out:
+                continue
+            pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
                 found[gear.name] = pair.strength()
         arbors = tuple(self._arbors(found))
@@ -84,22 +95,48 @@ class StrengthQuestion:
             arbors,
             self.turns,
             self.wear,
-            tuple(self.left_out.values()),
-            tuple(ToothForces(self.setting, self.modules, self.torques.pairs, meshes).find()),
+            tuple(self.left_out[gear.name] for gear in self.declared.gears if gear.name in self.left_out),
+            told,
+            points,
         )
+
+    def _skew_pairs(self, forces: ToothForces, told: Sequence[WheelForce]) -> Iterator[SkewPair]:
+        """Pairs on crossed axes, but for those that lack something."""
+        for circuit in self.setting.circuits:
+            if circuit.kind != "gear" or not forces.is_crossed(circuit):
+                continue
+            wheels = {name: self.declared.wheels[name][1] for name in circuit.wheels}
+            names = [self._material_name(wheel) for wheel in wheels.values()]
+            if lacking := [
+                *self._lacking_of_skew(wheels),
+                *self._lacking_of_all(wheels, self.torques.pairs[circuit.id]),
+            ]:
+                self._leave_out(circuit.id, "; ".join(lacking))
+                continue
+            self._leave_out(circuit.id, "bending of teeth that touch at a point is not worked out")
+            first, second = ((name, material_named(self.declared, name)) for name in names)
+            both = [each for each in told if each.pair == circuit.id]
+            is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
+            yield SkewPair(forces.crossed_wheels(circuit), (both[0], both[1]), (first, second), is_worm)
+
+    @staticmethod
+    def _lacking_of_skew(wheels: Mapping[str, Wheel]) -> Iterator[str]:
+        for name, wheel in wheels.items():
+            if wheel.helix_angle is None:
+                yield f"'{name}' has no `helix_angle`"
 
     # ------------------------------------------------------------------------------------------------------- pairs
 
     def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> PairUnderLoad | None:
-        wheels = [self.declared.wheels[name][1] for name in gear.pair]
-        lacking = list(self._lacking(gear, mesh, wheels, torque))
+        wheels = {name: self.declared.wheels[name][1] for name in gear.pair}
+        lacking = list(self._lacking(mesh, wheels, torque))
         if lacking or mesh is None:
-            self._leave_out(gear, "; ".join(lacking))
+            self._leave_out(gear.name, "; ".join(lacking))
             return None
-        module, width = 1e3 * self.modules[gear.pair[0]], 1e3 * min(self._width(wheel) for wheel in wheels)
+        module, width = 1e3 * self.modules[gear.pair[0]], 1e3 * min(self._width(wheel) for wheel in wheels.values())
         spurs = VirtualSpurs.of(mesh, module, width)
         if spurs is not None and spurs.why_not:
-            self._leave_out(gear, spurs.why_not)
+            self._leave_out(gear.name, spurs.why_not)
             return None
         gears = [mesh.gears.index(name) + 1 for name in gear.pair]
         found = [
@@ -113,41 +150,46 @@ class StrengthQuestion:
                 float(torque.torques[at]),
                 self._turns(torque, at),
             )
-            for at, (name, wheel) in enumerate(zip(gear.pair, wheels, strict=True))
+            for at, (name, wheel) in enumerate(wheels.items())
         ]
         middle = module if spurs is None else module * spurs.middle.shrunk
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs)
 
-    def _leave_out(self, gear: GearPair, why: str) -> None:
-        self.left_out[gear.name] = NeglectedEffect("strength", (gear.name,), why)
+    def _leave_out(self, pair: str, why: str) -> None:
+        self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
 
-    def _lacking(
-        self, gear: GearPair, mesh: GearMesh | None, wheels: Sequence[Wheel], torque: PairTorque
-    ) -> Iterator[str]:
+    def _lacking(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
         """What is not known of a pair, or is not worked out for it."""
         if mesh is None:
             yield "it declares no tooth form: give it `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
             yield "its axes are not parallel, and it has no path of contact"
-        elif any(wheel.is_helical for wheel in wheels) and mesh.form != "involute":
+        elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":
             yield "its teeth lean, and of such only involutes are worked out"
         elif faults := mesh.faults:
             yield f"its teeth do not turn: {faults[0].what}"
+        yield from self._lacking_of_all(wheels, torque)
+        if not torque.multiplier and not torque.loose:
+            return
+        for name, wheel in wheels.items():
+            if not self._width(wheel):
+                yield f"'{name}' has no `face_width`"
+            if mesh is not None and mesh.own_size is not None and name not in self.teeth:
+                why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
+                yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
+
+    def _lacking_of_all(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+        """What any pair needs."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
         if torque.loose:
             yield "how it shares its torque with others is not declared: give `share`"
-        for name, wheel in zip(gear.pair, wheels, strict=True):
-            if not self._width(wheel):
-                yield f"'{name}' has no `face_width`"
+        for name, wheel in wheels.items():
             if not self._material_name(wheel):
                 yield f"'{name}' has no `material`"
             if name not in self.modules:
                 yield f"'{name}' has no `module`"
-            if mesh is not None and mesh.own_size is not None and name not in self.teeth:
-                why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
-                yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
 
     def _width(self, wheel: Wheel) -> float:
         """Width of its teeth (m), 0 where nothing says it."""

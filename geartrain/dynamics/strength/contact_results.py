@@ -1,0 +1,101 @@
+"""What wheels bear where they touch: forces of all pairs, and contacts at a point. Forces in N, lengths in mm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from geartrain.numerics.plain_data import Result
+
+
+@dataclass(frozen=True)
+class WheelForce(Result):
+    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
+
+    Attributes
+    ----------
+    pair, wheel : str
+        The pair, and which of its wheels.
+    radius : float
+        Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm].
+    tangential : float
+        Along that circle, of the sign of its torque.
+    axial : float
+        Above 0 along the direction of its axis.
+    radial : float or None
+        Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    wheel: str
+    radius: float
+    tangential: float
+    axial: float
+    radial: float | None
+
+
+@dataclass(frozen=True)
+class FlankStrength(Result):
+    """A wheel whose teeth touch those of its mate at a point.
+
+    Attributes
+    ----------
+    wheel, material : str
+        Its name, and that of its material.
+    strength, spread : float
+        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
+    safety : float or None
+        Pressure at which yielding begins below the flank over that of the contact.
+
+    See Also
+    --------
+    PointContact : holds it
+    """
+
+    wheel: str
+    material: str
+    strength: float | None
+    spread: float | None
+    safety: float | None
+
+
+@dataclass(frozen=True)
+class PointContact(Result):
+    """Helical wheels on axes that cross, or a worm and its wheel, under load: docs/strength.md (24) and (25).
+
+    Attributes
+    ----------
+    pair : str
+        Its name.
+    contact_ratio : float
+        Pitches on which a couple touches, of teeth one module high.
+    normal_force : float
+        Across the flanks, of all couples together [N].
+    pitch_pressure : float
+        At the pitch point [MPa].
+    pressure : float
+        The greatest where as few couples touch as anywhere [MPa].
+    longer, shorter : float
+        Half axes of the ellipse in which they touch there [mm].
+    wheels : tuple of FlankStrength
+        Both, as the pair names them.
+    notes : tuple of str
+        What does not hold here, and why.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    contact_ratio: float
+    normal_force: float
+    pitch_pressure: float
+    pressure: float
+    longer: float
+    shorter: float
+    wheels: tuple[FlankStrength, ...]
+    notes: tuple[str, ...] = ()

@@ -1,0 +1,165 @@
+"""Helical wheels on crossed axes under load: printed ellipses, helicoids put into space, and the balance of forces."""
+
+from __future__ import annotations
+
+from math import atan2, cos, pi, radians, sin, sqrt, tan
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import geartrain
+from geartrain.numerics.arrays import Floats
+from geartrain.teeth.strength.point_contact import CrossedWheels, contact_ellipse
+
+ALPHA = radians(20)
+
+CROSSED = """
+name: crossed
+axes:
+  A: {direction: [0, 0, 1], position: [0 mm, 0 mm, 0 mm]}
+  B: {direction: [0, 1, 0], position: [42.426406871 mm, 0 mm, 0 mm]}
+links:
+  frame: {}
+  a: {wheels: {p: {teeth: 20, helix_angle: 45 deg, hand: right, module: 1.5 mm, material: steel}}}
+  b: {wheels: {w: {teeth: 20, helix_angle: 45 deg, hand: right, module: 1.5 mm, material: brass}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [{pair: [p, w], friction: 0.1}]
+inputs: {a: 1}
+loads: {a: 1 N m}
+solve_for: b
+"""
+
+
+@pytest.mark.parametrize(
+    ("angle", "longer", "shorter"),
+    [(30, 2.731, 0.493), (45, 1.926, 0.604), (60, 1.486, 0.717), (80, 1.128, 0.893), (90, 1.0, 1.0)],
+)
+def test_ellipses_are_those_of_the_printed_table(angle: float, longer: float, shorter: float) -> None:
+    """Timoshenko and Goodier, Theory of Elasticity, article on two bodies in contact: m and n by theta."""
+    modulus = 200.0
+    found = contact_ellipse(90, sqrt(modulus / pi), (0.5, 0.5), radians(angle))
+    unit = (3 * 90 / (4 * modulus * 0.5)) ** (1 / 3)
+    assert (found.longer / unit, found.shorter / unit) == pytest.approx((longer, shorter), abs=6e-4)
+    assert found.pressure == pytest.approx(1.5 * 90 / (pi * found.longer * found.shorter))
+
+
+@given(st.floats(1e-3, 1.0), st.floats(0.05, 20), st.floats(0.05, 20))
+def test_pressure_goes_to_that_of_spheres_and_grows_with_force_by_its_cube_root(
+    w: float, one: float, two: float
+) -> None:
+    angle = w * pi / 2
+    first, second = (contact_ellipse(force, 190.0, (one, two), angle) for force in (10, 80))
+    assert second.pressure == pytest.approx(2 * first.pressure)
+    assert first.longer >= first.shorter * (1 - 1e-12)
+
+
+def helicoid(radius: float, helix: float) -> tuple[float, float]:
+    """Radius of the base cylinder, and rise (mm per rad, right-handed) of the helix on it."""
+    transverse = atan2(tan(ALPHA), cos(helix))
+    return radius * cos(transverse), radius / tan(helix)
+
+
+def surface(wheel: tuple[float, float], angle: float, along: float) -> Floats:
+    """A point of an involute helicoid about the z axis: from the helix on the base cylinder along its tangent."""
+    rb, rise = wheel
+    start = np.array([rb * cos(angle), rb * sin(angle), rise * angle])
+    tangent = np.array([-rb * sin(angle), rb * cos(angle), rise]) / np.hypot(rb, rise)
+    return np.asarray(start + along * tangent)
+
+
+def curvature(wheel: tuple[float, float], along: float) -> tuple[Floats, Floats]:
+    """Of the helicoid at one of its points: its normal, and its curvature as a tensor in space, by differences."""
+    h = 2e-3
+
+    def at(a: int, b: int) -> Floats:
+        return surface(wheel, a * h, along + b * h)
+
+    first = np.array([(at(1, 0) - at(-1, 0)) / (2 * h), (at(0, 1) - at(0, -1)) / (2 * h)])
+    normal = np.cross(*first)
+    normal /= np.linalg.norm(normal)
+    mixed = (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / 4
+    own = at(1, 0) - 2 * at(0, 0) + at(-1, 0), at(0, 1) - 2 * at(0, 0) + at(0, -1)
+    second = np.array([[own[0] @ normal, mixed @ normal], [mixed @ normal, own[1] @ normal]]) / h**2
+    dual = np.linalg.pinv(first).T
+    return normal, dual.T @ second @ dual
+
+
+def frame_of(normal: Floats, axis: Floats) -> Floats:
+    """A normal, and what stands at right angles to it and to an axis."""
+    beside = np.cross(normal, axis)
+    beside /= np.linalg.norm(beside)
+    return np.stack([normal, beside, np.cross(normal, beside)])
+
+
+@pytest.mark.parametrize(
+    ("radii", "helix"),
+    [((20.0, 30.0), (45, 45)), ((12.0, 40.0), (60, 30)), ((11.5, 61.0), (80, 10)), ((25.0, 18.0), (50, -20))],
+)
+def test_flanks_are_curved_as_helicoids_in_space(radii: tuple[float, float], helix: tuple[float, float]) -> None:
+    """Each flank's radius across its lines, and the angle at which both lines cross, from the surfaces themselves."""
+    lean = radians(helix[0]), radians(helix[1])
+    wheels = CrossedWheels(radii, lean, 2.0, ALPHA)
+    normal_there = np.array([cos(ALPHA), 0.0, sin(ALPHA)])
+    lines = []
+    for at, side in ((0, 1), (1, -1)):
+        rb, rise = helicoid(radii[at], lean[at])
+        along = sqrt(radii[at] ** 2 - rb**2) * np.hypot(rb, rise) / rb  # out to the pitch cylinder
+        normal, tensor = curvature((rb, rise), along)
+        values, vectors = np.linalg.eigh(tensor)
+        order = np.argsort(np.abs(values))
+        assert abs(values[order[2]]) == pytest.approx(1 / wheels.flank_radius(at), rel=1e-4)
+        assert abs(values[order[1]]) < 1e-5
+        # put where both touch: the same normal, and the wheel's own axis
+        axis = np.array([side * sin(lean[at]), cos(lean[at]), 0.0])
+        sign = np.sign(normal[2] * (normal_there @ axis))
+        here = frame_of(sign * normal, np.array([0.0, 0.0, 1.0]))
+        lines.append(frame_of(normal_there, axis).T @ here @ np.cross(normal, vectors[:, order[2]]))
+    assert np.linalg.norm(np.cross(*lines)) == pytest.approx(sin(wheels.crossing), rel=1e-3)
+
+
+def test_contact_ends_where_tips_are_reached() -> None:
+    """The end of contact stands as far from the axle as the tip circle."""
+    wheels = CrossedWheels((20.0, 30.0), (pi / 4, pi / 4), 2.0, ALPHA)
+    back, front = wheels.ends
+    normal = np.array([cos(ALPHA), 0.0, sin(ALPHA)])
+    for place, height, radius, side in ((front, -20.0, 20.0, 1), (-back, 30.0, 30.0, -1)):
+        axis = np.array([side * sin(pi / 4), cos(pi / 4), 0.0])
+        off = place * normal - np.array([0.0, 0.0, height])
+        assert np.linalg.norm(off - (off @ axis) * axis) == pytest.approx(radius + 2.0)
+    narrow = CrossedWheels((20.0, 30.0), (pi / 4, pi / 4), 2.0, ALPHA, widths=(3.0, 100.0))
+    assert narrow.contact_ratio < wheels.contact_ratio
+    assert narrow.bounded_by == {"width"}
+    assert wheels.bounded_by == {"tip"}
+
+
+def test_couples_are_counted_on_the_way() -> None:
+    wheels = CrossedWheels((20.0, 30.0), (pi / 4, pi / 4), 2.0, ALPHA)
+    back, front = wheels.ends
+    places = np.linspace(-back, front, 2000, endpoint=False)
+    mean = np.mean([1 / wheels.couples(place) for place in places])
+    # each couple is met once by each: the way over the mean number is one pitch
+    assert (back + front) * mean == pytest.approx(wheels.pitch, rel=2e-3)
+
+
+def test_a_declared_pair_presses_as_hard_on_both_wheels() -> None:
+    found = geartrain.load(CROSSED).strength()
+    (point,) = found.points.values()
+    forces = {each.wheel: each for each in found.forces}
+    for force in forces.values():
+        # all three parts together are the force across the flanks and the friction along them
+        whole = force.tangential**2 + force.axial**2 + (force.radial or 0) ** 2
+        assert whole == pytest.approx(point.normal_force**2 * (1 + 0.1**2))
+    steel, brass = point.wheels
+    assert steel.safety == pytest.approx(1.6 * 340 / point.pressure)
+    assert brass.safety == pytest.approx(1.6 * 200 / point.pressure)
+    assert found.weakest is not None
+    assert found.weakest.part == "w"
+    assert "bending" in found.left_out[0].why
+
+
+def test_what_a_crossed_pair_lacks_is_named() -> None:
+    bare = geartrain.load(CROSSED.replace(", material: brass", "")).strength()
+    assert bare.left_out[0].why == "'w' has no `material`"
+    assert not bare.points

@@ -6,13 +6,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, find_circulation
 from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
     from geartrain.analysis.train_strength import TrainUnderLoad
@@ -136,7 +137,7 @@ class ShiftElement(Result):
 
 
 @dataclass(frozen=True)
-class Gearbox(Result):
+class Gearbox(Tabular, Result):
     """All states of a train with clutches.
 
     Attributes
@@ -168,10 +169,30 @@ class Gearbox(Result):
     shifts: tuple[Shift, ...]
 
     @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each state: what is closed, ratio, step, efficiency, and the speeds of links over the input's."""
+        links = dict.fromkeys(link for each in self.states for link in each.speeds)
+        numbers = {
+            name: [_told(getattr(each, name)) for each in self.states]
+            for name in ("ratio", "step", "efficiency", "recirculating")
+        }
+        speeds = {link: [_told(each.speeds.get(link)) for each in self.states] for link in links}
+        return {
+            "state": [each.state for each in self.states],
+            "engaged": [", ".join(each.engaged) for each in self.states],
+            **numbers,
+            **{f"speed of {link}": values for link, values in speeds.items()},
+        }
+
+    @property
     def spread(self) -> Fraction | None:
         """Greatest over least ratio of the forward states."""
         ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
         return max(ratios) / min(ratios) if ratios else None
+
+
+def _told(value: Fraction | None) -> float | None:
+    return None if value is None else as_float(value)
 
 
 def find_gearbox(train: TrainUnderLoad, output: str | None = None) -> Gearbox:

@@ -5,27 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from html import escape
-from itertools import islice
 from math import prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import MissingExtraError, Problem, QuestionError, check_choice
+from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.kinematics.formulas import Formulas, find_formulas
 from geartrain.numerics.plain_data import Result
+from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
     from geartrain.train import Train
 
 MOST_VARIANTS = 100_000_000
-_SHOWN = 20
 
 
 @dataclass(frozen=True)
-class TrainVariants(Result):
+class TrainVariants(Tabular, Result):
     """Speeds of outputs by assignment of tooth counts. `found["moon"]` is a column: of an output, or of counts.
 
     Attributes
@@ -79,29 +77,10 @@ class TrainVariants(Result):
         counts = dict(zip(self.wheels, self.counts[row].tolist(), strict=True))
         return self.formulas[output].value(counts) if self.formulas.turns(counts) else None
 
-    def to_frame(self) -> Any:
-        """The counts and speeds as a pandas DataFrame.
-
-        Raises
-        ------
-        MissingExtraError
-            Without pandas, which the extra `errors` brings.
-        """
-        try:
-            import pandas
-        except ImportError:
-            raise MissingExtraError("pandas", "errors", "a table of its kind") from None
-        return pandas.DataFrame({name: self[name] for name in (*self.wheels, *self.outputs)})
-
-    def _repr_html_(self) -> str:
-        names = (*self.wheels, *self.outputs)
-        head = "".join(f"<th>{escape(name)}</th>" for name in names)
-        rows = (
-            "<tr>" + "".join(f"<td>{value:.10g}</td>" for value in (*counts, *speeds)) + "</tr>"
-            for counts, speeds in islice(zip(self.counts, self.speeds, strict=True), _SHOWN)
-        )
-        rest = f"<p>{len(self) - _SHOWN:,} more</p>" if len(self) > _SHOWN else ""
-        return f"<table><tr>{head}</tr>{''.join(rows)}</table>{rest}"
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """Counts, then speeds."""
+        return {name: self[name] for name in (*self.wheels, *self.outputs)}
 
 
 def find_variants(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TypedDict
+from typing import Any, TypedDict
 
 from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, SpeedValue, speed_figures
 from geartrain.kinematics.verdict import Verdict
@@ -14,6 +14,7 @@ from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.tabular import Tabular
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ class RowResiduals(TypedDict, total=False):
 
 
 @dataclass(frozen=True, slots=True)
-class Answer(FrozenFields, Result):
+class Answer(FrozenFields, Tabular, Result):
     """What a train does in one state: the solution of its Willis system, equations (4) and (5) of docs/theory.md.
 
     True if the verdict is as expected (`determined` unless the state's `expect` says otherwise), and so are all
@@ -105,6 +106,13 @@ class Answer(FrozenFields, Result):
         if speed is None:
             raise KeyError(f"'{name}' is no determined output or link of '{self.train}'")
         return speed
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each determined link: its speed as a float, and exactly."""
+        speeds = self.speeds.values()
+        exact = [str(speed) if isinstance(speed, Fraction) else None for speed in speeds]
+        return {"link": [*self.speeds], "speed": [float(speed) for speed in speeds], "exact": exact}
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 from numpy.typing import NDArray
 
 from geartrain.numerics.plain_data import Result
+from geartrain.numerics.tabular import Tabular
 
 _MOST = 40  # labels of an axis that are shown whole
 
 
 @dataclass(frozen=True, slots=True)
-class LabelledArray(Result):
+class LabelledArray(Tabular, Result):
     """A read-only array whose every axis has a name and a label for each position.
 
     `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels; `KeyError` for one there is not.
@@ -52,6 +54,17 @@ class LabelledArray(Result):
         """The value (or sub-array) at the given labels, one an axis, in order."""
         keys = (key,) if isinstance(key, str) else key
         return self.values[tuple(self._position(axis, label) for axis, label in enumerate(keys))]
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each label of the last axis, and a column for each of the first; of more axes a row a number."""
+        if len(self.axes) == 1:
+            return {self.axes[0]: self.labels[0], "value": self.values.tolist()}
+        if len(self.axes) == 2:
+            return {self.axes[1]: self.labels[1], **dict(zip(self.labels[0], self.values.tolist(), strict=True))}
+        places = [*product(*self.labels)]
+        axes = {name: [place[at] for place in places] for at, name in enumerate(self.axes)}
+        return {**axes, "value": self.values.ravel().tolist()}
 
     def _position(self, axis: int, label: str) -> int:
         try:

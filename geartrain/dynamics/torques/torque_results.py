@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, LinkTorque, PairTorque
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.tabular import Tabular
 
 TorqueVerdictKind = Literal[
     "determined",
@@ -121,7 +122,7 @@ class DrivenWay(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Torques(FrozenFields, Result):
+class Torques(FrozenFields, Tabular, Result):
     """Torques and powers of a train in one state, all exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
     Torques are in N m where loads have units, else in the plain unit of the loads; powers are torques times the train's
@@ -199,6 +200,17 @@ class Torques(FrozenFields, Result):
         powers = self.powers
         return {
             link: LinkTorque(torque, powers.get(link), link in self.asked) for link, torque in self.external.items()
+        }
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each link with a torque from outside: its torque, speed and power as floats; None where open."""
+        speeds, powers = ((each.get(link) for link in self.external) for each in (self.speeds, self.powers))
+        return {
+            "link": [*self.external],
+            "torque": [as_float(torque) for torque in self.external.values()],
+            "speed": [None if speed is None else as_float(speed) for speed in speeds],
+            "power": [None if power is None else as_float(power) for power in powers],
         }
 
     @property

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class TorqueCycle(FrozenFields, Result):
+class TorqueCycle(FrozenFields, Tabular, Result):
     """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
 
     Positions are about `samples` even ones, every corner and jump of the laws with a position on either side of it,
@@ -147,6 +148,12 @@ class TorqueCycle(FrozenFields, Result):
             value = getattr(self, each.name)
             if hasattr(value, "flags"):
                 value.flags.writeable = False
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each position: turns of the input, and torques at the link as the attributes of these names say."""
+        names = ("turns", "torque", "highest", "standing")
+        return {name: getattr(self, name).tolist() for name in names}
 
     @property
     def unit(self) -> str:

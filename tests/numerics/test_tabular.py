@@ -1,0 +1,76 @@
+"""Results as tables: rows are those of the answer, in frames, in records and in HTML."""
+
+from __future__ import annotations
+
+import builtins
+from typing import Any
+
+import numpy as np
+import pytest
+
+import geartrain
+from geartrain.errors import MissingExtraError
+from geartrain.numerics.labelled_array import labelled_array
+from geartrain.numerics.tabular import Tabular
+
+
+def tables() -> dict[str, Tabular]:
+    box, set_ = geartrain.load("zf-8hp70"), geartrain.load("planetary-24-18-60")
+    loaded = geartrain.load("longcase-clock-loaded")
+    return {
+        "answer": set_.solve(),
+        "torques": loaded.torques(),
+        "gearbox": box.gearbox(),
+        "variants": set_.variants({"s": range(20, 30)}),
+        "cycle": loaded.torques(turns=0.01),
+        "array": set_.floats(inputs={"sun": [7.0, 14.0]}).speeds,
+    }
+
+
+@pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "array"])
+def test_frames_and_records_hold_the_columns(name: str) -> None:
+    table = tables()[name]
+    frame, records = table.to_frame(), table.to_records()
+    assert list(frame.columns) == list(table.columns) == list(records.dtype.names)
+    assert len(frame) == len(records) > 0
+    for column, values in table.columns.items():
+        given = [value for value in values if value is not None]
+        assert frame[column].dropna().tolist() == [value for value in given if value == value]
+    assert table._repr_html_().startswith("<")
+
+
+def test_an_answer_is_exact_beside_its_floats() -> None:
+    frame = geartrain.load("planetary-24-18-60").solve().to_frame().set_index("link")
+    assert frame.exact["carrier"] == "2/7"
+    assert frame.speed["carrier"] == 2 / 7
+
+
+def test_a_gearbox_has_a_row_a_state() -> None:
+    records = geartrain.load("zf-8hp70").gearbox().to_records()
+    first = records[records["state"] == "1"]
+    assert first["ratio"] == pytest.approx(4.696, abs=5e-4)
+    assert records["engaged"][0].count(",") == 2
+
+
+def test_arrays_of_any_number_of_axes() -> None:
+    values = np.arange(6.0)
+    one = labelled_array(values, link=list("abcdef")).columns
+    two = labelled_array(values.reshape(2, 3), link=["a", "b"], case=["0", "1", "2"]).columns
+    three = labelled_array(values.reshape(1, 2, 3), state=["s"], link=["a", "b"], case=["0", "1", "2"]).columns
+    assert one["value"] == [0, 1, 2, 3, 4, 5]
+    assert two == {"case": ("0", "1", "2"), "a": [0, 1, 2], "b": [3, 4, 5]}
+    assert three["link"] == ["a", "a", "a", "b", "b", "b"]
+    assert three["value"] == one["value"]
+
+
+def test_without_pandas_it_is_said_what_brings_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def without(name: str, *args: Any, **given: Any) -> Any:
+        if name == "pandas":
+            raise ImportError(name)
+        return real(name, *args, **given)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(MissingExtraError, match="errors"):
+        geartrain.load("planetary-24-18-60").solve().to_frame()

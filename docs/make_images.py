@@ -51,6 +51,9 @@ def trains() -> None:
         figure = picture(geartrain.load(name), kind, turns=Fraction(31, 7))  # type: ignore[arg-type]
         (IMAGES / f"draw-{kind}.svg").write_bytes(render(figure, ".svg"))
         print(f"wrote docs/images/draw-{kind}.svg")
+    figure = picture(geartrain.load("cycloidal-reducer"), "plan")
+    (IMAGES / "reducer.svg").write_bytes(render(figure, ".svg"))
+    print("wrote docs/images/reducer.svg")
 
 
 def teeth() -> None:

@@ -39,6 +39,7 @@ NAMES = (
     "sphere",
     "tooth-numbers",
     "shapes",
+    "reducers",
     "drawing",
     "cut-by-hand",
     "counts-in-doubt",

@@ -71,7 +71,7 @@ def willis_rows(data: Mapping[str, Any]) -> tuple[list[dict[str, Fraction]], dic
         tau = Fraction(z_j, z_i) * (1 if ring_i or ring_j else -1)
         rows.append(_row(carriers, graph, pair_name(gear), i, j, tau))
     for coupling in data.get("couplings", ()):
-        winding = Fraction(1 if coupling["kind"] == "pin_and_slot" else 0)
+        winding = Fraction(0 if coupling["kind"] == "pin_follower" else 1)
         name = coupling.get("id") or f"{coupling['pin']}~{coupling['slot']}"
         rows.append(_row(carriers, graph, name, coupling["slot"], coupling["pin"], winding))
     return rows, carriers

@@ -246,7 +246,10 @@ def _draw_arms(page: ScaledPage, standing: ProjectedScene) -> None:
 
 
 def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
-    """The pin, and the slot as far as the pin goes."""
+    """The pin, and the slot as far as the pin goes; or pins in their holes."""
+    if coupling.hole:
+        _draw_holes(page, standing, coupling)
+        return
     pin = page.at(standing.seen(standing.pose.point(coupling.pin, coupling.pin_at)))
     body = standing.scene.bodies[coupling.slot]
     hub = page.at(standing.seen(standing.pose.point(coupling.slot, coupling.slot_at if body else body.point)))
@@ -258,6 +261,20 @@ def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCo
     page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
     spot = (float(pin[0]), float(pin[1]))
     page.axes.add_artist(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
+
+
+def _draw_holes(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
+    for what, body, places, size in (
+        ("hole", coupling.slot, coupling.holes_at, coupling.hole),
+        ("pin", coupling.pin, coupling.pins_at, coupling.pin_diameter),
+    ):
+        for at, place in enumerate(places):
+            x, y = page.at(standing.seen(standing.pose.point(body, place)))
+            gid = f"{what} {at + 1} {coupling.id}"
+            round_ = Circle((float(x), float(y)), size / 2 * page.scale, zorder=5, gid=gid)
+            face, edge = ("white", PURPLE) if what == "hole" else (PURPLE, BLACK)
+            round_.set(facecolor=face, edgecolor=edge, linewidth=0.8)
+            page.axes.add_artist(round_)
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
@@ -284,6 +301,6 @@ def _legend(scene: Scene) -> Iterator[Line2D | Patch]:
     if any(body.role == "carrier" for body in scene.bodies):
         yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")
     if scene.couplings:
-        yield Line2D([], [], color=PURPLE, linewidth=5.5, label="slots")
+        yield Line2D([], [], color=PURPLE, linewidth=5.5, label="slots and pins")
     if any(pair.broken for pair in scene.pairs):
         yield Patch(facecolor="white", edgecolor=RED, label="loop that does not close")

@@ -103,7 +103,8 @@ class _Steps:
 
     def _pins(self) -> Iterator[AssemblyStep]:
         for name, cut in self.work.cut_couplings.items():
-            yield self._step(f"Press the pin of '{name}' into {cut.pin.id}", [f"{name} pin"])
+            pins = [f"{name} pin {at + 1}" for at in range(len(cut.coupling.pins_at))] or [f"{name} pin"]
+            yield self._step(f"Press the pin{'s'[: len(pins) - 1]} of '{name}' into {cut.pin.id}", pins)
 
     def _carried(self) -> Iterator[AssemblyStep]:
         """Studs of carriers with what turns on them, the nearest to the carrier first."""

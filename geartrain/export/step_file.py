@@ -233,6 +233,8 @@ def _smooth(line: Floats) -> Iterator[Floats]:
     steps = np.diff(line, axis=0)
     turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
     ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]
+    if len(ends) == 2 and np.allclose(line[0], line[-1]):
+        ends.insert(1, len(line) // 2)  # an edge has two ends
     for low, high in pairwise(ends):
         whole = line[low : high + 1]
         part = whole[simplified(whole, FINE)]

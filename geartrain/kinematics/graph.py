@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 def build_graph(train: Train) -> Graph:
     """Links as vertices; turning pairs, gear pairs and couplings as edges.
 
-    Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower), `label` (the axis or the pair's id) and
-    `declared`, the model object as it stands in the declaration. The edge key is the id of a pair or coupling, and
-    `revolute 0` and so on for turning pairs in the order declared.
+    Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (the axis or the
+    pair's id) and `declared`, the model object as it stands in the declaration. The edge key is the id of a pair or
+    coupling, and `revolute 0` and so on for turning pairs in the order declared.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
@@ -78,7 +78,8 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
     graph : networkx.MultiGraph
         `GearTrain.graph`.
     kinds : iterable of str
-        Kinds of edges that are counted: revolute, gear, pin_and_slot, pin_follower; default all.
+        Kinds of edges that are counted: revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel; default
+        all.
 
     Returns
     -------

@@ -14,7 +14,7 @@ class WillisEquation(NamedTuple):
     label : str
         The pair's id, or what is prescribed: `input sun`.
     kind : str
-        frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower.
+        frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower, pins_in_holes, parallel.
     terms : tuple of (str, int)
         Links with their coefficients, none of them 0.
     right : Fraction

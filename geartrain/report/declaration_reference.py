@@ -12,7 +12,17 @@ _URL = "https://json-schema.org/draft/2020-12/schema"
 _SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
 """The sections of a numpydoc docstring, from the first on."""
 
-_MERGED = ("Wheel", "GearPair", "Revolute", "PinAndSlot", "PinFollower", "Source", "Published")
+_MERGED = (
+    "Wheel",
+    "GearPair",
+    "Revolute",
+    "PinAndSlot",
+    "PinFollower",
+    "PinsInHoles",
+    "Parallel",
+    "Source",
+    "Published",
+)
 """Parts that a child of `extends` may give in pieces: an editor must not ask it for all of them."""
 
 

@@ -28,6 +28,7 @@ from geartrain.train import Link, Source, Train, Wheel
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
+    from geartrain.kinematics.phasing import MeshPhasing
 
 _CIRCUITS_ABREAST = 6
 
@@ -56,7 +57,7 @@ def describe_train(found: TrainReport) -> Document:
     train, answers = found.train, found.states
     declared = train.declaration
     sections = [*_structure(train), _circuits(train), _mobility(train)]
-    sections += _phasing(train)
+    sections += _phasing(found.closure)
     if train.build_findings:
         head = "Told by the declaration alone; an error cannot be built so, a note is unwise or open."
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
@@ -76,13 +77,13 @@ def describe_train(found: TrainReport) -> Document:
         # a gearbox has all speeds in one table
         sections += told if box is None or not answer.verdict else islice(told, 1, None)
         sections += formula_section(train, answer.state)
-    sections += teeth_sections(train, found.teeth)
+    sections += teeth_sections(train, found.teeth, found.pins)
     sections += loaded_sections(found.torques)
     for strength in found.strength:
         from geartrain.report.strength_report import strength_sections
 
         sections += strength_sections(strength)
-    sections += moving_sections(train, found.motion)
+    sections += moving_sections(train, found.motion, bool(found.teeth))
     sections += doubtful_wheels(train, answers)
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
@@ -183,6 +184,15 @@ def _circuits(train: GearTrain) -> Section:
     return Section("Fundamental circuits", (text, *more), tables)
 
 
+_ENDS = {
+    "pin_and_slot": ("slot", "pin"),
+    "pin_follower": ("slot", "pin"),
+    "pins_in_holes": ("holes", "pins"),
+    "parallel": ("1", "1"),
+}
+"""What circuits of couplings have in place of wheels."""
+
+
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
     """Circuits side by side, one row each for bodies, carrier, teeth and ratio."""
     wheels = declared.wheels
@@ -190,7 +200,7 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
     def teeth(circuit: Circuit, side: int) -> str:
         name = circuit.wheels[side]
         if circuit.kind != "gear":
-            return ("slot", "pin")[side]
+            return _ENDS[circuit.kind][side]
         return f"{name} {wheels[name][1].count}"
 
     rows = [
@@ -227,11 +237,10 @@ def _mobility(train: GearTrain) -> Section:
     return Section("Mobility", lines)
 
 
-def _phasing(train: GearTrain) -> Iterator[Section]:
+def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
     """Phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
-    if not train.is_placed or train.closure.kind == "open":
+    if closure is None or closure.kind == "open":
         return
-    closure = train.closure
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
     text = "Zero marks of links at these angles put every tooth before a gap; wheels have a tooth at their link's mark."
     lines = [line.strip() for line in closure.text.splitlines()]

@@ -205,7 +205,7 @@ class ScenePair:
 
 @dataclass(frozen=True, slots=True)
 class SceneCoupling:
-    """A pin in a slot.
+    """A pin in a slot, or pins in round holes.
 
     Attributes
     ----------
@@ -224,6 +224,10 @@ class SceneCoupling:
     slot_turn : float
         Angle about the slot's direction by which the slot, in the zero pose, runs aside from the line from `slot_at` to
         `pin_at` [rad]: 0 unless starting angles are declared.
+    pins_at, holes_at : sequence of tuple of float
+        Middles of all pins in round holes, and of these, in the zero pose [mm]; none of a pin in a slot.
+    pin_diameter, hole : float
+        Diameters of such pins and holes [mm]; 0 of a pin in a slot.
 
     See Also
     --------
@@ -242,6 +246,10 @@ class SceneCoupling:
     drawn: bool
     text: str
     slot_turn: float = 0.0
+    pins_at: Sequence[Vector] = ()
+    holes_at: Sequence[Vector] = ()
+    pin_diameter: float = 0.0
+    hole: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from math import pi, sin
 from typing import TYPE_CHECKING, Any
 
-from geartrain.numerics.vectors import Vector, across, beside, dot, minus, plus, size, unit_or_z
+from geartrain.numerics.vectors import Vector, across, beside, dot, minus, plus, size, turned, unit_or_z
 from geartrain.scene.context import SceneContext
 from geartrain.scene.elements import SceneCoupling, ScenePair, SceneShiftElement
 from geartrain.scene.movement import MovementStart
+from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
@@ -101,15 +103,18 @@ def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftEle
     return tuple(found)
 
 
-_LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0}  # offset over pin radius, where none is declared
+# offset over pin radius, where none is declared
+_LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0, "pins_in_holes": 0.1}
+_PART = 0.65  # of the distance of two pins: a hole, where no pin is declared
 _REACH = 10.0  # mm, of a pin where neither sizes nor places give one
 _NONE = 1e-9  # mm
 
 
 def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
-    """All couplings in the order declared."""
+    """All couplings by pins in the order declared."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
-    return tuple(_coupling(stage, moved, circuits[each.name], each) for each in stage.train.declaration.couplings)
+    drawn = (each for each in stage.train.declaration.couplings if not isinstance(each, Parallel))
+    return tuple(_coupling(stage, moved, circuits[each.name], each) for each in drawn)
 
 
 def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, declared: Declared) -> SceneCoupling:
@@ -119,6 +124,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
     between = across(minus(slot_axis, pin_axis), axis)
     radius, offset = _sizes(declared, size(between))
     towards = unit_or_z(between) if size(between) > _NONE else beside(axis)
+    pin, hole = _holes(declared, radius, offset)
     pin_axis, slot_axis = (_at_height(point, axis, _height(stage, declared, axis)) for point in (pin_axis, slot_axis))
     return SceneCoupling(
         id=circuit.id,
@@ -133,7 +139,29 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
         drawn=declared.pin_radius is not None and declared.offset is not None,
         text=in_words(circuit, stage.train.signs),
         slot_turn=_aside(stage, moved, circuit),
+        pins_at=_around(declared, pin_axis, towards, radius, axis),
+        holes_at=_around(declared, slot_axis, towards, radius, axis),
+        pin_diameter=pin,
+        hole=hole,
     )
+
+
+def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, axis: Vector) -> tuple[Vector, ...]:
+    """Places on a circle, the first of them in a direction; none of a pin in a slot."""
+    number = declared.pins if isinstance(declared, PinsInHoles) else 0
+    return tuple(plus(middle, turned(towards, axis, 2 * pi * at / number), radius) for at in range(number))
+
+
+def _holes(declared: Declared, radius: float, offset: float) -> tuple[float, float]:
+    """Diameters of pins and of their holes (mm); 0 of a pin in a slot."""
+    if not isinstance(declared, PinsInHoles):
+        return 0.0, 0.0
+    apart = 2 * radius * sin(pi / declared.pins)
+    pin = max(_PART * apart - 2 * offset, 0.1 * apart)
+    if declared.pin_diameter is not None:
+        own = declared.pin_diameter
+        pin = 1000 * own.si if own.unit is not None else float(own.value)
+    return pin, pin + 2 * offset
 
 
 def _aside(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:

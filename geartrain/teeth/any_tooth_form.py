@@ -12,6 +12,7 @@ from geartrain.teeth.ideal import Ideal
 from geartrain.teeth.involute import Involute
 from geartrain.teeth.lantern import Lantern
 from geartrain.teeth.least_friction import LeastFriction
+from geartrain.teeth.pin_ring import PinRing
 from geartrain.teeth.tooth_form import ToothForm
 from geartrain.teeth.triangular import Triangular
 from geartrain.teeth.uniform_stress import UniformStress
@@ -20,7 +21,7 @@ from geartrain.teeth.uniform_temperature import UniformTemperature
 ConjugateForm = Involute | Cycloidal | Lantern | UniformStress | UniformTemperature | LeastFriction
 """Teeth that keep their ratio at every instant at the distance they are made for."""
 
-AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular | CircularArc, Field(discriminator="form")]
+AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular | CircularArc | PinRing, Field(discriminator="form")]
 """Whatever a declaration may say of the teeth of a pair."""
 
 
@@ -42,6 +43,7 @@ __all__ = [
     "Involute",
     "Lantern",
     "LeastFriction",
+    "PinRing",
     "Triangular",
     "UniformStress",
     "UniformTemperature",

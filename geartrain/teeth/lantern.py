@@ -117,7 +117,7 @@ class Lantern(ConjugateToothForm):
         if wheels.bevel:
             raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
         if wheels.internal and self.pins == 2:
-            raise _beyond("a ring of pins", "its path of contact does not pass the pitch point")
+            raise _beyond("a ring of pins", "`tooth_form: pin_ring` has it, for a disc of one lobe less")
         pitch = wheels.pitch
         R, mate = (pitch.R2, pitch.R1) if self.pins == 2 else (pitch.R1, pitch.R2)
         A, B = self._sizes(R, wheels)

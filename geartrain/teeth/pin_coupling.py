@@ -1,15 +1,17 @@
-"""Pin-and-slot and pin-and-follower as a train declares them: couplings whose mean motion is a winding number.
+"""Pins in slots and pins in holes as a train declares them: couplings whose mean motion is a winding number.
 
 A pin on one link works in a slot of another whose axis lies `offset` away. In the frame of their carrier the
 slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e: over one turn
 of the pin the slot turns m times, m = 1 where the pin's circle encloses the slot's axis (r > e), else m = 0.
+
+Three pins or more in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, RangeError
@@ -19,6 +21,11 @@ from geartrain.teeth.restitution import DeclaredRestitution
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
+
+
+def _whole(raw: object) -> object:
+    """A declaration gives numbers as text."""
+    return int(raw) if isinstance(raw, str) and raw.isdecimal() else raw
 
 
 def _not_negative(length: Quantity) -> Quantity:
@@ -32,7 +39,7 @@ def _not_negative(length: Quantity) -> Quantity:
 
 
 class _Coupling(BaseModel):
-    """A coupling of two links by a pin in a slot."""
+    """A coupling of two links by pins."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
@@ -94,12 +101,66 @@ class PinFollower(_Coupling):
         return self
 
 
-Coupling = Annotated[PinAndSlot | PinFollower, Field(discriminator="kind")]
+class _Uniform(_Coupling):
+    """What keeps two links parallel, so that both turn alike at every instant."""
+
+    @model_validator(mode="after")
+    def _has_no_friction(self) -> _Uniform:
+        if self.friction is not None:
+            raise PydanticCustomError(
+                "pin",
+                "friction of a {kind} coupling is not worked out",
+                {"kind": self.kind, "fix": "give the gear pair of its disc an `efficiency` that has it"},  # type: ignore[attr-defined]
+            )
+        for name in ("pin_radius", "offset", "pin_diameter"):
+            length = getattr(self, name, None)
+            if length is not None and length.value <= 0:
+                said = {"name": name, "text": length.text, "fix": "give it above 0"}
+                raise PydanticCustomError("pin", "{name} {text} is not a distance", said)
+        return self
+
+    @property
+    def law(self) -> None:
+        """None: the ratio at every instant is that of the means."""
+        return None
+
+
+class PinsInHoles(_Uniform):
+    """Pins in round holes that keep two links parallel, as those of a cycloidal reducer.
+
+    Both turn alike at every instant about axes that are `offset` apart: holes are wider than their pins by twice that.
+    `slot` is the link with the holes, `pin_radius` the radius of the circle on which pins stand.
+    """
+
+    kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at all times")
+    pins: Annotated[int, BeforeValidator(_whole)] = Field(
+        6, ge=3, le=1000, description="How many pins stand evenly on their circle"
+    )
+    pin_diameter: Length | None = Field(None, description="Of the pins; that of the holes is greater by twice `offset`")
+
+
+class Parallel(_Uniform):
+    """Whatever else keeps two links parallel: cranks side by side, a cross between two slots, a flexible wall.
+
+    Which of the two is the `pin` and which the `slot` does not matter. It is not drawn.
+    """
+
+    kind: Literal["parallel"] = Field(description="Cranks side by side, or a cross: ratio 1 at all times")
+
+    @model_validator(mode="after")
+    def _has_no_pin(self) -> Parallel:
+        if self.pin_radius is not None or self.clearance is not None:
+            said = {"fix": "leave pin_radius and clearance out, or take `kind: pins_in_holes`"}
+            raise PydanticCustomError("pin", "what keeps two links parallel has no pin of its own", said)
+        return self
+
+
+Coupling = Annotated[PinAndSlot | PinFollower | PinsInHoles | Parallel, Field(discriminator="kind")]
 
 
 def winding_number(kind: str) -> int:
-    """Mean ratio slot over pin in the carrier's frame: 1 for a pin and slot, 0 for a pin and follower."""
-    return 1 if kind == "pin_and_slot" else 0
+    """Mean ratio slot over pin in the carrier's frame: 0 for a pin and follower, 1 for all others."""
+    return 0 if kind == "pin_follower" else 1
 
 
 def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:

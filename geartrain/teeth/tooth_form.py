@@ -57,6 +57,9 @@ class ToothForm(BaseModel, ABC):
     conjugate: ClassVar[bool] = False
     """True for teeth designed by a path of contact: for rings and cones too, their roots left to who cuts them."""
 
+    ringed: ClassVar[bool] = False
+    """True for teeth whose second wheel is a ring."""
+
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
     """Fields that say nothing of a shape: how teeth of this form yield in trains that move in time."""
 

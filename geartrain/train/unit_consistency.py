@@ -146,7 +146,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
             if length.value:
                 (plain if length.unit is None else named).append(("axes", label))
     for at, coupling in enumerate(train.couplings):
-        for size in (coupling.pin_radius, coupling.offset, coupling.clearance):
+        for size in (coupling.pin_radius, coupling.offset, coupling.clearance, getattr(coupling, "pin_diameter", None)):
             if size is not None and size.value:
                 (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:

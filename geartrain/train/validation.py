@@ -214,7 +214,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """`loc` without the tags pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "pin_and_slot", "pin_follower", *_forms(), *_laws()}
+    tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *_forms(), *_laws()}
     return tuple(
         step
         for at, step in enumerate(loc)

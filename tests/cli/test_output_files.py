@@ -76,10 +76,11 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("mesh compare", "-o"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".md", ".json")),
     ("mesh compare", "--plot"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".svg",)),
 }
-for _form in FORMS:
-    ASKED[f"mesh {_form.replace('-', '_')}", "-o"] = (("mesh", _form.replace("-", "_"), *PAIR), (".md",))
-    ASKED[f"mesh {_form.replace('-', '_')}", "--plot"] = (("mesh", _form.replace("-", "_"), *PAIR), (".svg",))
-    ASKED[f"mesh {_form.replace('-', '_')}", "--profile"] = (("mesh", _form.replace("-", "_"), *SIZED), (".svg",))
+for _form, _pair in [*((form.replace("-", "_"), PAIR) for form in FORMS), ("pin_ring", ("--teeth", "11", "12"))]:
+    _sized = (*_pair, *SIZED[len(PAIR) :])
+    ASKED[f"mesh {_form}", "-o"] = (("mesh", _form, *_pair), (".md",))
+    ASKED[f"mesh {_form}", "--plot"] = (("mesh", _form, *_pair), (".svg",))
+    ASKED[f"mesh {_form}", "--profile"] = (("mesh", _form, *_sized), (".svg",))
 FOLDER = ("export", "--to")
 FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstruct_command.py
 TRAINS: dict[str, Path] = {}

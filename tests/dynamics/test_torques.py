@@ -175,6 +175,7 @@ def test_without_losses_powers_sum_to_zero_exactly(name: str) -> None:
     (source,) = case.inputs
     answer = train.solve()
     plain = {gear.name for gear in train.declaration.gears if gear.efficiency is None and gear.friction is None}
+    rough = train.declaration.friction is not None or any(gear.friction for gear in train.declaration.gears)
     lossy = bool(train.meshes) or len(plain) < len(train.declaration.gears)
     for output in list(case.outputs)[:4]:
         link = answer.outputs[output].of
@@ -183,7 +184,7 @@ def test_without_losses_powers_sum_to_zero_exactly(name: str) -> None:
         found = train.driven(link, source)
         if lossy:
             assert sum(found.powers.values()) == found.loss >= 0
-            assert found.loss > 0 or not train.meshes
+            assert found.loss > 0 or not train.meshes or not rough
             continue
         assert sum(found.powers.values()) == 0
         assert found.efficiency == 1

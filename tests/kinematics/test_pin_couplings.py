@@ -63,7 +63,8 @@ def test_the_winding_number_is_what_the_law_of_the_slot_gains_in_a_turn(turns: f
         ("kind: pin_and_slot, pin_radius: 2 mm, offset: 1", "mix a plain number and a length"),
         ("kind: pin_and_slot, pin_radius: 0 mm, offset: 1 mm", "not a distance"),
         ("kind: pin_and_slot, pin_radius: 2 mm, offset: -1 mm", "not a distance"),
-        ("kind: pin_in_hole", "pin_and_slot"),
+        ("kind: pin_in_hole", "pins_in_holes"),
+        ("kind: pin_and_slots", "pin_and_slot"),
     ],
 )
 def test_couplings_that_contradict_their_dimensions_are_refused(coupling: str, said: str) -> None:

@@ -22,7 +22,18 @@ ROOMS = {
 FILES = {"__init__", "__main__", "py"}
 
 # words in -ing that the field uses as nouns
-NOUNS = {"bearing", "coupling", "drawing", "manufacturing", "matching", "packing", "phasing", "scaling", "sharing"}
+NOUNS = {
+    "bearing",
+    "coupling",
+    "drawing",
+    "manufacturing",
+    "matching",
+    "packing",
+    "phasing",
+    "ring",
+    "scaling",
+    "sharing",
+}
 
 LONGEST = 350
 

@@ -110,7 +110,7 @@ def _run(
     to, picture, outlined = _sinks(out, plot, profile, force)
     angle, size = read_shaft_angle(internal, bevel), read_module(module, backlash)
     rub = read_pair_friction(friction)
-    wheels = two_wheels(teeth, rub.coefficient, size, internal, angle, read_helix(helix, angle))
+    wheels = two_wheels(teeth, rub.coefficient, size, internal or model.ringed, angle, read_helix(helix, angle))
     form = read_form(model, own | {"backlash": backlash})
     try:
         mesh = rub.of(pair_in_mesh(form, wheels, angle, driver), rate)

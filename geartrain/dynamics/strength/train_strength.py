@@ -164,6 +164,8 @@ class StrengthQuestion:
             yield "it declares no tooth form: give it `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
             yield "its axes are not parallel, and it has no path of contact"
+        elif mesh.form == "pin_ring":
+            yield "lobes among pins are no beams, and their pressure is not worked out"
         elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":
             yield "its teeth lean, and of such only involutes are worked out"
         elif faults := mesh.faults:

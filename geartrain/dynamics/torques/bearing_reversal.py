@@ -96,7 +96,7 @@ def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[
 
 def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
     for circuit in setting.circuits:
-        if circuit.kind != "gear":
+        if circuit.swings:
             joint = setting.joints.get(circuit.id)
             law = joint.law if joint else None
             yield _Uneven(circuit.id, law, circuit.j, circuit.carrier, Fraction(circuit.a), Fraction(-circuit.b))

@@ -226,7 +226,7 @@ def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: st
     if turn is None:
         return _open(setting, circuit, "nothing says how fast its two sides turn against each other")
     if not turn:
-        what = "its wheels do not turn against each other" if circuit.kind == "gear" else "its slot swings and stays"
+        what = "its slot swings and stays" if circuit.swings else "its two sides do not turn against each other"
         return _open(setting, circuit, f"{what}, so no power flows on average")
     return _open(setting, circuit, "no power flows through it")
 

@@ -173,7 +173,7 @@ def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffe
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
         declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
-        if circuit.kind != "gear" or (tooth is not None and (not tooth.rigid or (tooth.rubs and not declared))):
+        if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.rubs and not declared))):
             found.append(circuit.id)
     if found:
         yield NeglectedEffect("swing within a turn", tuple(found), f"{_MEAN}: at single angles they are more and less")
@@ -182,7 +182,7 @@ def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffe
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
     """Masses that uneven pairs set swinging."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
-    uneven = any(circuit.kind != "gear" for circuit in setting.circuits)
+    uneven = any(circuit.swings for circuit in setting.circuits)
     if heavy and (uneven or any(not tooth.rigid for tooth in setting.meshes.values())):
         yield NeglectedEffect(
             "inertia", heavy, "torques are those of slow turning: no acceleration and no blow is counted"

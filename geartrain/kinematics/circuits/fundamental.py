@@ -23,14 +23,14 @@ from geartrain.train import Train, Wheel
 class Circuit(NamedTuple):
     """A fundamental circuit and its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
-    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot with a = 1
-    and j the pin with b = -m, m the winding number, equations (13) to (15).
+    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot (or holes)
+    with a = 1 and j the pin with b = -m, m the winding number, equations (13) to (15).
 
     Attributes
     ----------
     id : str
         Name of the pair or coupling.
-    kind : {"gear", "pin_and_slot", "pin_follower"}
+    kind : {"gear", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel"}
         What closes the circuit.
     i, j : str
         Links of its two wheels, or of the slot and the pin.
@@ -60,6 +60,11 @@ class Circuit(NamedTuple):
     b: int
     wheels: tuple[str, str]
     note: str = ""
+
+    @property
+    def swings(self) -> bool:
+        """True of a pin in a slot, whose ratio is a mean; teeth may swing by their form besides."""
+        return self.kind in ("pin_and_slot", "pin_follower")
 
     @property
     def ratio(self) -> Fraction:
@@ -193,7 +198,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
 def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
     return Problem(
         f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
-        "a pin slides along its slot in one plane, and these turn in two",
+        "a pin moves in its slot or hole in one plane, and these turn in two",
         "declare parallel directions in `axes`, or join the links by bevel wheels",
         train.place("couplings", at),
     )

@@ -11,6 +11,7 @@ from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_coupling import Coupling
@@ -102,6 +103,16 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 
 def _discs(couplings: Sequence[Coupling], diameters: Mapping[str, float], notices: list[Problem]) -> Iterator[Plate]:
     for coupling in couplings:
+        if isinstance(coupling, Parallel):
+            what, why = f"'{coupling.name}' is in no part", "what keeps its two links parallel is not declared"
+            notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
+            continue
+        if isinstance(coupling, PinsInHoles):
+            what = f"the pins and holes of '{coupling.name}' are in no part"
+            why = "they are cut into wheels of both links, wide enough for them, where sizes are declared"
+            fix = "give pin_radius, offset and pin_diameter, and both links a wheel; else add them by hand"
+            notices.append(Problem(what, why, fix))
+            continue
         if coupling.pin_radius is None or coupling.offset is None:
             what = f"'{coupling.name}' has no drawing of pin and slot"
             notices.append(Problem(what, "its dimensions are not declared", "give pin_radius and offset"))

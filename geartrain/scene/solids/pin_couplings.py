@@ -40,9 +40,10 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
     """Couplings that find their place in two flat wheels, by name; `bores` are diameters of holes for arbors (mm)."""
     found = {}
     for coupling in scene.couplings:
-        r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_diameter(coupling.pin_radius)
+        r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
+        far = coupling.hole / 2 if coupling.hole else e + half
         pins = _roomy(scene, coupling.pin, blanks, bores, (r - half, r + half))
-        slots = _roomy(scene, coupling.slot, blanks, bores, (abs(r - e) - half, r + e + half))
+        slots = _roomy(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
         if coupling.drawn and pins and slots:
             along = np.array(scene.bodies[coupling.slot].direction)
             near = min(
@@ -50,6 +51,11 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
             )
             found[coupling.id] = CutCoupling(coupling, *near)
     return found
+
+
+def pin_width(coupling: SceneCoupling) -> float:
+    """Diameter of its pins (mm)."""
+    return coupling.pin_diameter or pin_diameter(coupling.pin_radius)
 
 
 def _roomy(
@@ -90,11 +96,15 @@ def pin_axis(scene: Scene, coupling: SceneCoupling) -> tuple[Floats, Floats]:
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, press: float) -> list[Contour]:
     """What a wheel, whose own axes are `turn` at `place`, has cut out for a pin and for a slot."""
-    coupling, thick = cut.coupling, pin_diameter(cut.coupling.pin_radius)
+    coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if wheel == cut.pin.id:
-        found.append(Contour.circle((thick + press) / 2, _flat(coupling.pin_at, turn, place)))
-    if wheel == cut.slot.id:
+        found += [
+            Contour.circle((thick + press) / 2, _flat(at, turn, place)) for at in coupling.pins_at or (coupling.pin_at,)
+        ]
+    if wheel == cut.slot.id and coupling.hole:
+        found += [Contour.circle(coupling.hole / 2, _flat(at, turn, place)) for at in coupling.holes_at]
+    elif wheel == cut.slot.id:
         x = slot_frame(scene, coupling)[:, 0]
         ends = abs(coupling.pin_radius - coupling.offset), coupling.pin_radius + coupling.offset
         points = [_flat(coupling.slot_at + x * end, turn, place) for end in ends]

@@ -21,7 +21,14 @@ from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs,
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
-from geartrain.scene.solids.pin_couplings import CutCoupling, cut_couplings, holes, pin_axis, slot_frame
+from geartrain.scene.solids.pin_couplings import (
+    CutCoupling,
+    cut_couplings,
+    holes,
+    pin_axis,
+    pin_width,
+    slot_frame,
+)
 from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
 from geartrain.scene.solids.triangle_solids import plate_solid, wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks
@@ -256,18 +263,23 @@ class _Parts:
     def couplings(self) -> Iterator[SolidPart]:
         """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
         for coupling in self.scene.couplings:
-            turn, middle = pin_axis(self.scene, coupling)
+            turn, axis = pin_axis(self.scene, coupling)
             along, cut = turn[:, 2], self.work.cut_couplings.get(coupling.id)
+            if cut is None and coupling.hole:
+                continue  # no wheel bears such pins
             if cut is None:
                 height = float(coupling.pin_at @ along)
                 levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
                 low, high = min(levels) - _GAP, max(levels) + _GAP
             else:
                 low, high = self._faces(cut.pin, cut.slot, along)
-            band = Band(low, high, pin_diameter(coupling.pin_radius) / 2)
-            name, joint = f"{coupling.id} pin", self.work.process.joint
-            part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
-            yield SolidPart(coupling.pin, name, part.kind, part.solid(), turn, middle, turned=part)
+            band = Band(low, high, pin_width(coupling) / 2)
+            joint, first = self.work.process.joint, np.array(coupling.pin_at)
+            for at, place in enumerate(coupling.pins_at or (coupling.pin_at,)):
+                name = f"{coupling.id} pin" + (f" {at + 1}" if coupling.pins_at else "")
+                part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
+                middle = axis + np.array(place) - first
+                yield SolidPart(coupling.pin, name, part.kind, part.solid(), turn, middle, turned=part)
             if cut is None:
                 yield self._bar(coupling, along)
 

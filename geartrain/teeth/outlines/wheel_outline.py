@@ -45,7 +45,12 @@ def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
     tooth, mate = (mesh.requirement(name, scale, tolerance).cut() for name in mesh.gear.pair[:: 3 - 2 * gear])
     z, other = mesh.wheels.counts[:: 3 - 2 * gear]
     distance = mesh.wheels.touching if size is None else size.distance
-    contours = [Contour.of(repeated(tooth.tooth, z)).scaled(cut.module), *_bore(cut, tooth.root * cut.module)]
+    teeth = Contour.of(repeated(tooth.tooth, z)).scaled(cut.module)
+    if tooth.kind == "ring":
+        rim = 2 * cut.module if cut.rim is None else cut.rim
+        contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
+    else:
+        contours = [teeth, *_bore(cut, tooth.root * cut.module)]
     points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
     side = points[points[:, 1] >= 0]
     side = side[np.argsort(np.hypot(*side.T))]

@@ -57,11 +57,12 @@ class WheelRequirement(ABC):
 
 @dataclass(frozen=True)
 class FixedTooth(WheelRequirement):
-    """A tooth that its form gives whole, whatever the mate does; its vertices as in `CutTooth`, modules."""
+    """A tooth that its form gives whole, whatever the mate does; vertices and kind as in `CutTooth`, modules."""
 
     tip_radius: float
     root_radius: float
     tooth: tuple[Vertex, ...]
+    kind: str = "external"
 
     @property
     def tip(self) -> float:
@@ -70,7 +71,7 @@ class FixedTooth(WheelRequirement):
 
     def agrees(self, other: WheelRequirement) -> bool:
         """True if every vertex is the same."""
-        if not isinstance(other, FixedTooth) or len(self.tooth) != len(other.tooth):
+        if not isinstance(other, FixedTooth) or (self.kind, len(self.tooth)) != (other.kind, len(other.tooth)):
             return False
         pairs = (pair for both in zip(self.tooth, other.tooth, strict=True) for pair in zip(*both, strict=True))
         return all(abs(a - b) <= SAME_SIZE * max(abs(a), 1.0) for a, b in pairs)
@@ -78,4 +79,4 @@ class FixedTooth(WheelRequirement):
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
         """The tooth itself."""
         del others
-        return CutTooth("external", self.tip_radius, self.root_radius, self.tooth)
+        return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth)

@@ -134,7 +134,7 @@ def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
 def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
     """The pairs and couplings whose error reaches an output, be it through the angle at which a pin stands."""
     spread, signs = motion.spread, motion.train.signs
-    couplings = {circuit.id for circuit in motion.train.circuits if circuit.kind != "gear"}
+    couplings = {circuit.id for circuit in motion.train.circuits if circuit.swings}
     waiting, found = [motion.outputs[output]], dict.fromkeys(spread.pairs, False)
     index = {link: at for at, link in enumerate(spread.links)}
     while waiting:
@@ -156,7 +156,7 @@ def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
     sized = {joint.coupling.name for joint in motion.train.pins}
     moving = moving_pairs(motion, output)
     gears = [name for name in moving if circuits[name].kind == "gear"]
-    pins = [name for name in moving if circuits[name].kind != "gear"]
+    pins = [name for name in moving if circuits[name].swings]
     return DeclaredPairs(
         sum(name in real for name in gears),
         len(gears),

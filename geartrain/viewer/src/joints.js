@@ -13,6 +13,7 @@ export function couplingParts(scene, coupling, size) {
   const [pinAt, slotAt] = [vector(coupling.pin_at), vector(coupling.slot_at)];
   const radius = Math.max(0.005 * size, Math.min(0.012 * size, 0.12 * coupling.pin_radius));
   const height = 4 * radius;
+  if (coupling.hole) return holesParts(coupling, pinBody, slotBody, height);
   const pin = bar(radius, -height / 2, height / 2, 16);
   const standing = frameAt(coupling.pin_at, pinBody.direction, across(pinBody.direction).toArray());
   const parts = [
@@ -26,6 +27,19 @@ export function couplingParts(scene, coupling, size) {
     parts.push({ body: coupling.pin, colour: PARTS.slot, shape, matrix, at: pinAt });
   }
   return parts;
+}
+
+/** Pins that stand about an axis, and rings for the holes that they move in. */
+function holesParts(coupling, pinBody, slotBody, height) {
+  const pin = bar(coupling.pin_diameter / 2, -height, height, 24);
+  const wide = coupling.hole / 2;
+  const ring = swept(new Shape(), band(wide, 1.12 * wide + 0.1, -0.6 * height, 0.6 * height), 48);
+  const across_ = (body) => across(body.direction).toArray();
+  const part = (index, body, colour, shape) => (place) => ({ body: index, colour, shape, matrix: frameAt(place, body.direction, across_(body)), at: vector(place) });
+  return [
+    ...coupling.holes_at.map(part(coupling.slot, slotBody, PARTS.slot, ring)),
+    ...coupling.pins_at.map(part(coupling.pin, pinBody, PARTS.pin, pin)),
+  ];
 }
 
 /** Two rails between which the pin slides, and what ties them to their axis. */

@@ -1,0 +1,245 @@
+"""A disc of lobes that rolls in a ring of round pins: its outline, where pins press, what that costs.
+
+Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from that of
+its ring. A pin's centre describes a shortened epitrochoid in the disc, whose outline stands a pin's radius within it.
+Every normal at a contact passes the pitch point; half of all pins press at once (docs/reducers.md, (1) to (6)).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import cos, inf, pi, sin, sqrt, tan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.teeth.outlines.wheel_requirement import FixedTooth
+from geartrain.teeth.pair_verdict import PairVerdict
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+
+_SAMPLES = 4096  # of a lobe, where its sharpest round is sought
+_FEWEST, _MOST = 16, 4096  # points of a lobe
+_PHASES = 64  # of a pitch, for means
+_FREE = 0.1  # modules between lobes and the ring behind the pins
+
+
+@dataclass(frozen=True)
+class CycloidalDisc:
+    """The two wheels.
+
+    lobes      of the disc; its ring has one pin more
+    circle     radius on which the centres of pins stand; `pin`, radius of a pin
+    clearance  by which the disc stands back from every pin
+    """
+
+    lobes: int
+    circle: float
+    pin: float
+    clearance: float = 0.0
+
+    @property
+    def pins(self) -> int:
+        """Of the ring."""
+        return self.lobes + 1
+
+    @property
+    def shortening(self) -> float:
+        """Pitch radius of the ring over that of the pins' circle, below 1: docs/reducers.md (1)."""
+        return self.pins / 2 / self.circle
+
+    def centres(self, turn: Floats) -> Floats:
+        """Where the centre of a pin stands in the disc, as complex numbers, while the eccentric turns: (2)."""
+        found: Floats = self.circle * np.exp(1j * turn / self.lobes) - np.exp(1j * turn * self.pins / self.lobes) / 2
+        return found
+
+    def outline(self, turn: Floats) -> Floats:
+        """Points of the disc: (3)."""
+        found: Floats = self.centres(turn) + (self.pin + self.clearance) * self._inwards(turn)
+        return found
+
+    def _inwards(self, turn: Floats) -> Floats:
+        """Directions across the outline, from the centres of the pins to it."""
+        to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
+        found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
+        return found
+
+    @cached_property
+    def sharpest(self) -> float:
+        """Least radius of the curve of centres where it is round outwards: a pin must be smaller."""
+        turn = np.linspace(0, 2 * pi, _SAMPLES)
+        z, e, R = self.lobes, 0.5, self.circle
+        slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
+        first = 1j * (R / z * slow - e * (z + 1) / z * fast)
+        second = -R / z**2 * slow + e * ((z + 1) / z) ** 2 * fast
+        bent = (np.conj(first) * second).imag / np.abs(first) ** 3
+        return 1 / float(bent.max()) if bent.max() > 0 else inf
+
+    # ------------------------------------------------------------------------------------------------------- contacts
+
+    def distance(self, angle: Floats) -> Floats:
+        """From the pitch point to the centre of a pin, seen from the ring's axis at an angle (rad) from it."""
+        a, R = self.pins / 2, self.circle
+        found: Floats = np.sqrt(R**2 + a**2 - 2 * R * a * np.cos(angle))
+        return found
+
+    def arms(self, angle: Floats) -> Floats:
+        """Lever arms of the normals about the disc's centre, of pins that push it forwards; 0 of others: (4)."""
+        found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
+        return found
+
+    def loads(self, phase: Floats) -> Floats:
+        """Forces on all pins, shape (pins, ...), over that which the torque exerts on the disc's pitch circle: (5).
+
+        phase   of a pin from the line of centres (rad)
+        """
+        arms = self.arms(self._angles(phase))
+        found: Floats = arms * self.lobes / 2 / (arms**2).sum(axis=0)
+        return found
+
+    def _angles(self, phase: Floats) -> Floats:
+        each = 2 * pi / self.pins * np.arange(self.pins)
+        found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
+        return found
+
+    def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
+        """Speed of sliding over that of the pitch line, in the mean of the load, and loss over friction: (6)."""
+        angles = self._angles(phase)
+        reach = (self.distance(angles) - self.pin) / (self.lobes / 2) / self.pins
+        loads = self.loads(phase)
+        lost = (loads * reach).sum(axis=0)
+        return lost / loads.sum(axis=0), lost
+
+    @cached_property
+    def greatest_load(self) -> float:
+        """Of any pin at any time, over the force that the torque exerts on the disc's pitch circle."""
+        return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
+
+    @property
+    def loss(self) -> float:
+        """Mean loss over friction."""
+        return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
+
+    # ---------------------------------------------------------------------------------------------------------- teeth
+
+    def lobe(self, tolerance: float) -> FixedTooth:
+        """One lobe about the x axis, as chords, none of which reaches out of it: a pin must pass."""
+        number = _FEWEST
+        while np.abs(self._out(number)).max() > tolerance and number < _MOST:
+            number *= 2
+        out = np.maximum(self._out(number), 0.0)
+        turn = np.linspace(0, 2 * pi, number, endpoint=False)
+        points = self.outline(turn) + np.maximum(out, np.roll(out, 1)) * self._inwards(turn)
+        points *= np.exp(-1j * pi / self.lobes)
+        tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
+        tip = self.circle + 0.5 - self.pin - self.clearance
+        return FixedTooth(tip, float(np.abs(points[0])), tooth)
+
+    def _out(self, number: int) -> Floats:
+        """How far each of so many chords of a lobe stands out of it at its middle; below 0 where it cuts it."""
+        turn = np.linspace(0, 2 * pi, 2 * number + 1)
+        points = self.outline(turn)
+        off = points[1::2] - (points[:-1:2] + points[2::2]) / 2
+        found: Floats = (off * np.conj(self._inwards(turn[1::2]))).real
+        return found
+
+    def pin_tooth(self) -> FixedTooth:
+        """One pin about the x axis, half round, with the ring behind it."""
+        root = max(self.circle, self.circle + 0.5 - self.pin - self.clearance + _FREE)
+        R, r = self.circle, self.pin
+        if root > R:  # straight sides from the pin's middle outwards
+            side = pi / 2
+            start = (R, r)
+        else:
+            open_ = 2 * np.arcsin(r / (2 * R))
+            side, start = (pi - open_) / 2, (R * cos(open_), R * sin(open_))
+        foot = (sqrt(root**2 - start[1] ** 2), start[1]) if root > R else start
+        across = 2 * pi / self.pins - 2 * float(np.arctan2(foot[1], foot[0]))
+        points = [(foot[0], -foot[1], 0.0)] if root > R else []
+        points += [(start[0], -start[1], -tan(side / 2)), (start[0], start[1], 0.0)]
+        points += [(foot[0], foot[1], 0.0)] if root > R else []
+        tooth = [(float(x), float(y), float(bulge)) for x, y, bulge in points]
+        tooth[-1] = (*tooth[-1][:2], tan(across / 4))
+        return FixedTooth(R - r, root, tuple(tooth), "ring")
+
+
+class DiscTransmission(ExactRatio):
+    """The law of a disc in its ring of pins, in the frame of the eccentric: the exact ratio at every instant.
+
+    driver     1, the disc, or 2, the ring; `direction` -1 turns back, on the other flanks
+    """
+
+    def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
+        self.disc, self.driver, self.direction = disc, driver, direction
+        self.friction = check_friction(friction)
+        z1, z2 = (disc.lobes, disc.pins) if driver == 1 else (disc.pins, disc.lobes)
+        super().__init__(Fraction(z1, z2), 2 * pi / z1)
+        self._play = 4 * disc.clearance / z2
+
+    @property
+    def verdict(self) -> PairVerdict:
+        """They run: what cannot run is refused as it is declared."""
+        return PairVerdict("runs", "the teeth run", self._play, ())
+
+    @property
+    def reversed(self) -> DiscTransmission:
+        """The law with the other wheel driving."""
+        return DiscTransmission(self.disc, self.friction, 3 - self.driver, self.direction)
+
+    def turned_back(self) -> DiscTransmission:
+        """The law of the other flanks."""
+        return DiscTransmission(self.disc, self.friction, self.driver, -self.direction)
+
+    @property
+    def _ahead(self) -> float:
+        return self._play if self.direction < 0 else 0.0
+
+    def error(self, S: ArrayLike) -> Floats:
+        """0 rad of the driven wheel everywhere; the play where the other flanks drive."""
+        return self._constant(S, self._ahead)
+
+    def error_range(self) -> tuple[float, float]:
+        """The constant error twice."""
+        return self._ahead, self._ahead
+
+    def error_moments(self) -> tuple[float, float]:
+        """The constant error, and 0."""
+        return self._ahead, 0.0
+
+    def _phase(self, S: ArrayLike) -> Floats:
+        """Of a pin from the line of centres; a lobe stands between two pins."""
+        S = self.direction * np.asarray(S, dtype=float)
+        found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
+        return found
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Power out over power in."""
+        found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
+        return found
+
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """Of all pins together, in the mean of their loads."""
+        speed, lost = self.disc.sliding(self._phase(S))
+        return ContactRubbing(speed[None], lost[None], np.zeros_like(lost)[None])
+
+    @cached_property
+    def _sampled(self) -> Floats:
+        return self.efficiency(np.linspace(0, self.period, _PHASES, endpoint=False))
+
+    def efficiency_mean(self) -> float:
+        """Over a pitch."""
+        return float(self._sampled.mean())
+
+    def efficiency_at_constant_load(self) -> float:
+        """Over a pitch, with the same torque going out."""
+        return float(1 / (1 / self._sampled).mean())
+
+    def efficiency_least(self) -> float:
+        """At any angle."""
+        return float(self._sampled.min())

@@ -1,0 +1,222 @@
+"""Cycloidal reducers: a disc of lobes in a ring of round pins, one more than its lobes."""
+
+from __future__ import annotations
+
+from math import pi, sin
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.errors import Problem
+from geartrain.numerics.quantity import Length, Quantity
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
+
+if TYPE_CHECKING:
+    from geartrain.teeth.cycloidal_disc import CycloidalDisc, DiscTransmission
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.teeth.pair_account import PairFigures
+
+_SHORTENING = 0.7  # pitch radius of the ring over that of the pins' circle, unless it is declared
+_CROWDED = 1.7  # distance of two pins over the diameter of one, unless that is declared
+
+
+class PinRing(ToothForm):
+    """A disc of lobes that rolls in a ring of round pins, one more than lobes: a cycloidal reducer's.
+
+    The ratio is exact at every instant, and half of all pins bear. The module is twice the eccentricity, for the disc's
+    centre is half a module from that of the ring (docs/reducers.md).
+
+    See Also
+    --------
+    geartrain.teeth.Lantern : pins on an external wheel.
+
+    Examples
+    --------
+    >>> disc = PinRing(form="pin_ring").disc(11)
+    >>> round(disc.circle, 3), round(disc.pin, 3), round(disc.greatest_load, 3)
+    (8.571, 1.305, 0.335)
+    """
+
+    ringed: ClassVar[bool] = True
+
+    form: Literal["pin_ring"] = Field(description="The name of this form")
+    pin_circle: Length | None = Field(
+        None,
+        description="Radius of the circle on which pins stand, in modules or with a unit; default the ring's pitch "
+        "radius over 0.7",
+    )
+    pin_diameter: Length | None = Field(
+        None, description="Of the pins, in modules or with a unit; default the distance of two pins over 1.7"
+    )
+    clearance: Length = Field(
+        "0",
+        validate_default=True,
+        description="By how much the disc stands back from every pin, in modules or with a unit",
+    )
+
+    @model_validator(mode="after")
+    def _lengths_are_lengths(self) -> PinRing:
+        for name in ("pin_circle", "pin_diameter"):
+            length = getattr(self, name)
+            if length is not None and length.value <= 0:
+                raise bad("length", f"{name} {length.text} is no length", "write it above 0")
+        if self.clearance.value < 0:
+            raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "write 0 or more")
+        return self
+
+    @classmethod
+    def figures(cls) -> type[PairFigures]:
+        """With the loads of its pins."""
+        from geartrain.teeth.disc_mesh import DiscFigures
+
+        return DiscFigures
+
+    def disc(self, lobes: int, module: float | None = None) -> CycloidalDisc:
+        """The disc and its pins.
+
+        Parameters
+        ----------
+        lobes : int
+            Of the disc, 3 or more.
+        module : float, optional
+            Module [m], for lengths with a unit.
+
+        Returns
+        -------
+        CycloidalDisc
+            Lengths in modules.
+
+        Raises
+        ------
+        GearTrainError
+            Where these sizes give no disc.
+        """
+        from geartrain.teeth.cycloidal_disc import CycloidalDisc
+
+        pins = lobes + 1
+        if lobes < 3:
+            raise refused(f"a disc of {lobes} lobes", "so few leave no pins that press", "give 3 lobes or more")
+        circle = pins / 2 / _SHORTENING if self.pin_circle is None else self._modules("pin_circle", module)
+        if circle <= pins / 2:
+            raise refused(
+                f"pins at {circle:.6g} modules from the axis stand on the pitch circle or within it",
+                f"its radius is {pins / 2:.6g} modules, and the path of a pin would have loops",
+                "give a greater pin_circle, or a smaller module (twice the eccentricity)",
+            )
+        apart = 2 * circle * sin(pi / pins)
+        found = CycloidalDisc(lobes, circle, 0.0)
+        usual = min(apart / _CROWDED / 2, 0.9 * found.sharpest)
+        pin = usual if self.pin_diameter is None else self._modules("pin_diameter", module) / 2
+        if 2 * pin >= apart:
+            raise refused(
+                f"pins of {2 * pin:.6g} modules touch each other",
+                f"on their circle they are {apart:.6g} modules apart",
+                f"give a pin_diameter below {apart:.5g} modules",
+            )
+        back = self._modules("clearance", module)
+        if pin + back >= found.sharpest:
+            raise refused(
+                f"pins of {2 * pin:.6g} modules undercut the lobes",
+                f"the path of their centres is bent to a radius of {found.sharpest:.6g} modules",
+                f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a greater pin_circle",
+            )
+        return CycloidalDisc(lobes, circle, pin, back)
+
+    def _modules(self, name: str, module: float | None) -> float:
+        length: Quantity = getattr(self, name)
+        if length.unit is None or not length.value:
+            return float(length.value)
+        if module is None:
+            raise refused(
+                f"the {name} {length.text} has nothing to be compared with",
+                "the wheels declare no module with a unit",
+                f"give the `module` of both wheels, or the {name} as a plain number of modules",
+            )
+        return length.si / module
+
+    def law(
+        self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, module: float | None = None
+    ) -> DiscTransmission:
+        """The transmission function of a pair.
+
+        Parameters
+        ----------
+        z1, z2 : int
+            Lobes of the disc, and pins of the ring: one more.
+        friction : float
+            Coefficient of friction, 0 or more: of pins that do not roll.
+        driver : {1, 2}
+            Which wheel drives, seen from the eccentric.
+        module : float, optional
+            Module [m], for lengths with a unit.
+
+        Returns
+        -------
+        DiscTransmission
+            Exact at every instant.
+
+        Raises
+        ------
+        GearTrainError
+            Where these sizes give no disc.
+        """
+        from geartrain.teeth.cycloidal_disc import DiscTransmission
+
+        if z2 != z1 + 1:
+            raise refused(
+                f"a disc of {z1} lobes does not roll in {z2} pins",
+                "these lobes reach round one pin each, so that a turn of the eccentric moves the disc on by one",
+                f"give the ring {z1 + 1} pins",
+            )
+        return DiscTransmission(self.disc(z1, module), friction, driver)
+
+    def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
+        """The mesh of a disc and its ring, whichever the pair names first.
+
+        Returns
+        -------
+        GearMesh
+            What a train asks of the pair.
+        """
+        from geartrain.teeth.disc_mesh import DiscMesh
+
+        del shaft_angle
+        if set(wheels.kinds) != {"spur"} or sum(wheels.internal) != 1:
+            why = "the disc is an external wheel and its ring an internal one, on parallel axes"
+            raise refused("it cannot have a ring of pins", why, f"write `internal: true` for the ring, or {IDEAL}")
+        first = 2 if wheels.internal[0] else 1
+        z1, z2 = wheels.counts[:: 3 - 2 * first]
+        law = self.law(z1, z2, wheels.friction or 0.0, first, wheels.module)
+        return DiscMesh(wheels, self, wheels.driver, law)
+
+    def own_play(self, pair: str) -> Problem | None:
+        """Why a maker's play does not hold for this pair: declared clearance wins.
+
+        Returns
+        -------
+        Problem or None
+            None where none is declared.
+        """
+        if not self.clearance.value:
+            return None
+        why = f"it declares a clearance of {self.clearance.text}, and what is declared wins"
+        return Problem(
+            f"pair '{pair}' has a clearance of its own", why, "leave --backlash out, or take it out of the file"
+        )
+
+    def thinned(self, backlash: Quantity) -> PinRing:
+        """The same disc, so far back from its pins that it has this play.
+
+        Parameters
+        ----------
+        backlash : Quantity
+            On the pitch circle, in modules or with a unit.
+
+        Returns
+        -------
+        PinRing
+            A copy.
+        """
+        half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
+        return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

@@ -1,0 +1,215 @@
+"""Discs of lobes in rings of pins: outlines against pins in the plane, forces by virtual work, ratios of reducers."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from commands import ended
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import Point, Polygon
+from shapely.affinity import rotate, translate
+
+import geartrain
+from geartrain.errors import DeclarationError, GearTrainError
+from geartrain.teeth import PinRing
+from geartrain.teeth.cycloidal_disc import CycloidalDisc
+from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.tooth_outline import repeated
+from geartrain.teeth.outlines.wheel_requirement import FixedTooth
+
+FORM = PinRing(form="pin_ring")
+lobes = st.integers(3, 60)
+shortening = st.floats(0.3, 0.85)
+
+
+def polygon(tooth: FixedTooth, z: int) -> Polygon:
+    return Polygon(Contour.of(repeated(tooth.tooth, z)).flattened(1e-5))
+
+
+def pins_of(disc: CycloidalDisc) -> list[Point]:
+    return [
+        Point(disc.circle * cos(2 * pi * at / disc.pins), disc.circle * sin(2 * pi * at / disc.pins))
+        for at in range(disc.pins)
+    ]
+
+
+def placed(disc: CycloidalDisc, shape: Polygon, turn: float) -> Polygon:
+    """The disc while its eccentric has turned: at 0 a space stands at the pitch point."""
+    own = np.degrees((pi - turn) / disc.lobes)
+    return translate(rotate(shape, own, origin=(0, 0)), cos(turn) / 2, sin(turn) / 2)
+
+
+@settings(max_examples=25)
+@given(lobes, shortening, st.floats(0, 6.28))
+def test_every_pin_touches_the_disc_wherever_the_eccentric_stands(z: int, part: float, turn: float) -> None:
+    bare = CycloidalDisc(z, (z + 1) / 2 / part, 0.0)
+    disc = CycloidalDisc(z, bare.circle, min(bare.sharpest * 0.8, 0.8 * bare.circle * sin(pi / (z + 1))))
+    shape = placed(disc, polygon(disc.lobe(1e-4), z), turn)
+    for pin in pins_of(disc):
+        assert shape.exterior.distance(pin) == pytest.approx(disc.pin, abs=3e-4)
+        assert not shape.contains(pin)
+
+
+def test_clearance_is_that_to_every_pin() -> None:
+    form = PinRing.declared({"clearance": "0.05"})
+    disc = form.disc(11)
+    shape = placed(disc, polygon(disc.lobe(1e-5), 11), 1.0)
+    for pin in pins_of(disc):
+        assert shape.exterior.distance(pin) - disc.pin == pytest.approx(0.05, abs=1e-4)
+    # turned by its play it touches, and no sooner
+    law = form.law(11, 12, driver=2)
+    centre = (cos(1.0) / 2, sin(1.0) / 2)
+    for part, free in ((0.49, True), (0.53, False)):
+        turned = rotate(shape, np.degrees(part * law.verdict.play), origin=centre)
+        assert all(turned.exterior.distance(pin) > disc.pin for pin in pins_of(disc)) is free
+
+
+@given(lobes, shortening, st.floats(0, 6.28))
+def test_arms_are_those_of_the_normals_and_forces_balance_the_torque(z: int, part: float, phase: float) -> None:
+    disc = CycloidalDisc(z, (z + 1) / 2 / part, 0.1)
+    angles = phase + 2 * pi * np.arange(z + 1) / (z + 1)
+    pins = disc.circle * np.exp(1j * angles)
+    pitch_point, middle = (z + 1) / 2, 0.5
+    normal = (pitch_point - pins) / np.abs(pitch_point - pins)  # from the pin into the disc
+    torque = (np.conj(pins - middle) * normal).imag
+    arms = disc.arms(angles)
+    # a pin pushes, it does not pull: only those on one side bear
+    assert arms == pytest.approx(np.maximum(-torque, 0.0), abs=1e-9)
+    loads = disc.loads(np.array(phase))
+    assert float((loads * arms).sum()) == pytest.approx(z / 2)
+
+
+def test_the_greatest_load_is_four_over_the_number_of_pins() -> None:
+    """The formula of handbooks, 4 T / (e z_d z_p): of pins far out, whose normals are parallel."""
+    disc = CycloidalDisc(59, 60 / 2 / 0.02, 0.1)
+    assert disc.greatest_load == pytest.approx(4 / 60, rel=2e-3)
+    assert FORM.disc(11).greatest_load == pytest.approx(4 / 12, rel=0.03)
+
+
+def test_losses_are_the_work_of_friction_at_all_pins() -> None:
+    """Worked out from points: how fast the disc slides past each pin where they touch, in the frame of the ring."""
+    disc = FORM.disc(11)
+    phase, step = 0.2, 1e-6
+
+    def touching(turn: float) -> np.ndarray:
+        # points of the disc that touch at `turn` = 0, as they stand later
+        pins = disc.circle * np.exp(1j * (phase + 2 * pi * np.arange(12) / 12))
+        at = pins + disc.pin * (6 - pins) / np.abs(6 - pins)
+        own = np.exp(-1j * turn / 11)
+        return np.asarray(0.5 * np.exp(1j * turn) + (at - 0.5) * own)
+
+    speed = np.abs(touching(step) - touching(-step)) / (2 * step)
+    loads = disc.loads(np.array(phase))
+    # the disc turns by 1 + 1/11 against the eccentric in a radian of this
+    lost = float((loads * speed).sum()) / (11 / 2 * (1 + 1 / 11))
+    assert float(disc.sliding(np.array(phase))[1]) == pytest.approx(lost, rel=1e-6)
+    assert float(FORM.law(11, 12, 0.05).efficiency_mean()) == pytest.approx(1 / (1 + 0.05 * disc.loss), rel=1e-4)
+
+
+def test_law_keeps_its_ratio_and_shifts_by_its_play() -> None:
+    law = PinRing.declared({"clearance": "0.02"}).law(11, 12)
+    assert law.ratio == Fraction(11, 12)
+    assert law.error([0.0, 0.3]) == pytest.approx([0, 0])
+    assert law.turned_back().error(0.3) == pytest.approx(law.verdict.play)
+    assert law.reversed.ratio == Fraction(12, 11)
+    assert law.verdict.play == pytest.approx(4 * 0.02 / 12)
+
+
+@pytest.mark.parametrize(
+    ("given_", "z", "words"),
+    [
+        ({}, (11, 13), "give the ring 12 pins"),
+        ({"pin_circle": "6"}, (11, 12), "greater pin_circle"),
+        ({"pin_diameter": "5"}, (11, 12), "touch each other"),
+        ({"pin_circle": "6.2", "pin_diameter": "2.5"}, (11, 12), "undercut"),
+        ({"pin_circle": "20 mm"}, (11, 12), "no module"),
+        ({}, (2, 3), "3 lobes or more"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_a_cure(given_: dict[str, str], z: tuple[int, int], words: str) -> None:
+    with pytest.raises(GearTrainError) as caught:
+        PinRing.declared(given_).law(*z)
+    assert words in str(caught.value)
+
+
+def test_a_ring_is_wanted() -> None:
+    text = """
+links: {frame: {}, a: {wheels: {p: 11}}, b: {wheels: {w: 12}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [{pair: [p, w], tooth_form: pin_ring}]
+"""
+    with pytest.raises(GearTrainError, match="internal"):
+        _ = geartrain.load(text).meshes
+
+
+# ------------------------------------------------------------------------------------------------------------ reducers
+
+
+@pytest.mark.parametrize(
+    ("name", "link", "ratio"),
+    [
+        ("cycloidal-reducer", "flange", Fraction(-11)),
+        ("strain-wave", "cup", Fraction(-100)),
+        ("rv-reducer", "output", 1 + Fraction(26, 10) * 40),
+    ],
+)
+def test_reducers_have_the_ratio_of_their_makers_formula(name: str, link: str, ratio: Fraction) -> None:
+    train = geartrain.load(name)
+    answer = train.solve()
+    (source,) = train.cases[None].inputs
+    assert Fraction(answer[source]) / Fraction(answer[link]) == ratio
+    assert train.mobility.by_rank == 1
+
+
+def test_torques_of_a_reducer_are_those_of_its_ratio_less_what_its_pins_lose() -> None:
+    train = geartrain.load("cycloidal-reducer")
+    found = train.torques()
+    loss = train.meshes[0].law.disc.loss  # type: ignore[attr-defined]
+    # of 12 times the power that passes the pins a part is lost
+    assert float(found.external["shaft"]) == pytest.approx(10 / 11 * (1 + 12 * 0.05 * loss), rel=2e-3)
+    assert not any("holes" in effect.where for effect in found.left_out)
+
+
+def test_holes_are_cut_where_both_links_have_wheels() -> None:
+    from geartrain.scene import ManufacturingSizes, SolidModel
+
+    path = geartrain.shipped()["cycloidal-reducer"]
+    text = path.read_text(encoding="utf-8").replace("flange: {}", "flange: {wheels: {out: {teeth: 15, module: 3 mm}}}")
+    model = SolidModel(geartrain.load(text), ManufacturingSizes())
+    names = {part.name for part in model.parts}
+    assert {f"holes pin {at}" for at in range(1, 7)} <= names
+    disc = next(part for part in model.parts if part.name == "lobes")
+    assert sum(contour.is_circle for contour in disc.contours) >= 6
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("pins: 6", "pins: 2"), "greater than or equal to 3"),
+        (("offset: 1.5 mm}", "offset: 1.5 mm, friction: 0.1}"), "not worked out"),
+        (("kind: pins_in_holes", "kind: parallel"), "pins"),
+    ],
+)
+def test_couplings_that_are_none_are_refused(change: tuple[str, str], words: str) -> None:
+    text = geartrain.shipped()["cycloidal-reducer"].read_text(encoding="utf-8")
+    assert change[0] in text
+    with pytest.raises(DeclarationError, match=words):
+        geartrain.load(text.replace(*change))
+
+
+def test_an_offset_that_is_not_the_eccentricity_cannot_be_built() -> None:
+    """It is half the module times one tooth."""
+    text = geartrain.shipped()["cycloidal-reducer"].read_text(encoding="utf-8")
+    (found,) = geartrain.load(text.replace("offset: 1.5 mm", "offset: 2 mm")).build_findings
+    assert "2 mm apart" in found.problem.what
+    assert "need 1.5 mm" in found.problem.what
+    assert not geartrain.load(text).build_findings
+
+
+def test_the_command_tells_of_one_pair() -> None:
+    out = ended("mesh", "pin_ring", "--teeth", 11, 12, "--friction", 0.05, "--json")
+    assert '"greatest_load": 0.33' in out.stdout

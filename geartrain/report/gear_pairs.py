@@ -54,11 +54,11 @@ class DrivenPin(Result):
     figures: PinFigures
 
 
-def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair]) -> Iterator[Section]:
+def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
     """The real teeth and pins of a train; nothing where none are declared."""
     if pairs:
         yield _teeth(train, pairs)
-    if train.pins:
+    if pins:
         yield _pins(train)
 
 

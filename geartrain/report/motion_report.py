@@ -79,8 +79,10 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
             yield _spectrum(name, lines)
 
 
-def moving_sections(train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion]) -> Iterator[Section]:
-    """Motion in every state of a train with real teeth or pins."""
+def moving_sections(
+    train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
+) -> Iterator[Section]:
+    """Motion in every state of a train with real teeth or pins; `toothed`, whether its teeth are told of."""
     for each in found:
         head = "Motion" if each.state is None else f"State {each.state}: motion"
         if isinstance(each, UnfollowedMotion):
@@ -90,7 +92,7 @@ def moving_sections(train: GearTrain, found: Sequence[MotionFigures | Unfollowed
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
         holds = () if each.separation is None else tuple(separation_text(each.separation))
         yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run)),))
-    if train.meshes and not ripples(train):
+    if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
 

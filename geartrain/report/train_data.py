@@ -149,13 +149,15 @@ class TrainReport(TrainAnswers):
     errata: tuple[Erratum, ...]
 
 
-def collect_report(train: GearTrain) -> TrainReport:
+def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata.
 
     Parameters
     ----------
     train : GearTrain
         A train in all its states. What it does not declare, such as teeth or loads, is not worked out.
+    whole : bool
+        False leaves out what takes numpy: teeth, pins, torques, strength, motion, and whether loops close.
 
     Returns
     -------
@@ -184,21 +186,21 @@ def collect_report(train: GearTrain) -> TrainReport:
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     doubts = ((answer, change) for answer in answers if answer.verdict for change in train.sensitivity(answer))
-    loaded = tuple(state for state in train.states or (None,) if declared.is_loaded(state))
+    loaded = tuple(state for state in train.states or (None,) if whole and declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
         gridlock=train.gridlock,
-        closure=train.closure if train.is_placed else None,
+        closure=train.closure if whole and train.is_placed else None,
         sources={key: source.cite for key, source in declared.sources.items()},
         circuits=train.circuits,
         adjacency=AdjacencyLetters(tuple(train.graph), adjacency_labels(train.graph)) if small else None,
         build_findings=train.build_findings,
         remarks=train.remarks,
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
-        teeth=driven_pairs(train),
-        pins=driven_pins(train),
+        teeth=driven_pairs(train) if whole else (),
+        pins=driven_pins(train) if whole else (),
         torques=tuple(collect_torques(train, train.torques(state)) for state in loaded),
         strength=tuple(train.strength(state) for state in loaded if train.tells_strength(state)),
-        motion=tuple(collect_motions(train)),
+        motion=tuple(collect_motions(train)) if whole else (),
         errata=tuple(declared.errata),
     )

@@ -2,14 +2,32 @@
 
 from __future__ import annotations
 
+import logging
+import re
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import gallery
 import markup
 import notebooks
+import try_page
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
 from pymdownx.slugs import slugify
+
+_log = logging.getLogger("mkdocs.hooks")
+
+
+@cache
+def _try_page() -> dict[str, Path]:
+    """What try.html loads; nothing where npm or its packages are not at hand, which the log tells and the page too."""
+    try:
+        return try_page.make()
+    except (FileNotFoundError, RuntimeError) as error:
+        _log.info("try.html answers nothing in this copy: %s", error)
+        return {}
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
@@ -22,13 +40,17 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Pictures, viewer pages and reports of all trains of the gallery join the site."""
     for name, path in gallery.make().items():
         files.append(File.generated(config, name, abs_src_path=str(path)))
+    for name, path in _try_page().items():
+        files.append(File.generated(config, name, abs_src_path=str(path)))
     for name, text in notebooks.pages().items():
         files.append(File.generated(config, name, content=text))
     return files
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
+def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
     """The marks above code blocks become their titles, tables of the gallery become cards."""
+    if page.file.src_uri == "try.md" and not _try_page():
+        markdown = re.sub(r"^<(link|script) .*\btry/try\..*\n", "", markdown, flags=re.MULTILINE)
     return gallery.with_cards(markup.with_titles(markdown))
 
 

@@ -61,7 +61,7 @@ class Train(Declared):
     )
     revolutes: Revolutes = Field((), description="Turning pairs; together they form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
-    couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
+    couplings: tuple[Coupling, ...] = Field((), description="Pins in slots and in holes, links that turn alike")
     tooth_form: DeclaredToothForm | None = Field(
         None, description="Form of the teeth of every pair that has none of its own"
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,7 +17,7 @@ pytest.importorskip("playwright", reason="playwright is not installed: no page i
 
 import shipped
 from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Request, sync_playwright
-from viewing import DESK, Opening, html_of, wait
+from viewing import DESK, GALLERY, Opening, html_of, wait
 
 from geartrain.viewer import page
 
@@ -32,6 +34,7 @@ SWITCHES = (
     "--disable-gpu-compositing",  # only what a page draws in 3D needs the software GPU
     "--disable-extensions",
 )
+ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 90_000  # ms: software draws slowly on a busy machine
 
 
@@ -163,3 +166,14 @@ def _listen(shown: Shown, address: str) -> None:
 def _is_of_the_driver(text: str) -> bool:
     """Software rendering grumbles about itself; a page can do nothing about that."""
     return "GL Driver Message" in text or "GPU stall" in text
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the site."""
+    folder = tmp_path_factory.mktemp("site")
+    environment = os.environ | {"GEARTRAIN_GALLERY": ",".join(GALLERY), "NO_MKDOCS_2_WARNING": "1"}
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return folder

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
-import os
 import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -17,10 +14,10 @@ import pytest
 import yaml
 from package.test_public_names import SHOWING
 from playwright.sync_api import Browser, Page
+from viewing import GALLERY
 
 ROOT = Path(__file__).parent.parent.parent
 DOCS = sorted(path.name for path in (ROOT / "docs").glob("*.md"))
-TRAINS = ("worm", "longcase-clock", "zf-8hp70")
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 ACCURACY = sorted(name for name in DOCS if "accuracy" in name)
 
@@ -43,17 +40,6 @@ class Links(HTMLParser):
         self.fetched += [found[key] for key in ("src", "srcset", "data", "poster") if key in found]
         if tag == "link" and found.get("rel") not in ("canonical", "next", "prev"):
             self.fetched.append(found.get("href", ""))
-
-
-@pytest.fixture(scope="session")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of the site."""
-    folder = tmp_path_factory.mktemp("site")
-    environment = os.environ | {"GEARTRAIN_GALLERY": ",".join(TRAINS), "NO_MKDOCS_2_WARNING": "1"}
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)]
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return folder
 
 
 def pages(site: Path) -> Iterator[Path]:
@@ -130,13 +116,13 @@ def test_what_makes_the_site_is_no_part_of_it(site: Path) -> None:
 
 def test_the_gallery_has_picture_viewer_and_report_of_each_train(site: Path) -> None:
     found = Links(site / "gallery.html")
-    for name in TRAINS:
+    for name in GALLERY:
         assert (site / "plan" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert {f"view/{name}.html", f"report/{name}.html"} <= set(found.links)
     text = (site / "gallery.html").read_text(encoding="utf-8")
     for path in (ROOT / "trains").glob("*/*.yaml"):
         assert f"<strong>{path.stem}</strong>" in text
-    assert sorted(path.stem for path in (site / "view").iterdir()) == sorted(TRAINS)
+    assert sorted(path.stem for path in (site / "view").iterdir()) == sorted(GALLERY)
 
 
 def test_the_gallery_tells_what_the_trains_declare() -> None:

@@ -19,6 +19,16 @@
 
 from __future__ import annotations
 
-from geartrain.scene.layout.train_layout import AxisPlace, Layout, WheelPlace, lay_out
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.scene.layout.train_layout import AxisPlace as AxisPlace
+    from geartrain.scene.layout.train_layout import Layout as Layout
+    from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
+    from geartrain.scene.layout.train_layout import lay_out as lay_out
 
 __all__ = ["AxisPlace", "Layout", "WheelPlace", "lay_out"]
+
+__getattr__ = lazy_names(__name__, dict.fromkeys(__all__, "train_layout"))

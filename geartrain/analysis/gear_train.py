@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.analysis.train_strength import TrainUnderLoad
 from geartrain.errors import GearTrainError
+from geartrain.numerics.result_picture import picture_maker
 from geartrain.train import declare
 
 if TYPE_CHECKING:
@@ -96,6 +98,43 @@ class GearTrain(TrainUnderLoad):
         from geartrain.analysis.train_graph import build_train_graph
 
         return build_train_graph(self, self._case(state).state)
+
+    def draw(
+        self,
+        kind: Literal["plan", "stick", "graph", "lever", "dials"] = "plan",
+        state: str | None = None,
+        turns: Fraction | int = 0,
+        labels: bool = True,
+        outputs: Sequence[str] = (),
+    ) -> Any:
+        """A picture of the train, as a figure of matplotlib that notebooks show: `geartrain.drawing.picture`.
+
+        Parameters
+        ----------
+        kind : {"plan", "stick", "graph", "lever", "dials"}
+            How.
+        state : str, optional
+            Its name; by default the first, of "lever" all.
+        turns : Fraction
+            Of the input since the pose where all angles are zero [turn]; counts for "plan" and "dials".
+        labels : bool
+            Names and numbers beside what is drawn.
+        outputs : sequence of str
+            Those whose dials are drawn; by default all.
+        """
+        return picture_maker("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
+
+    def view(self, state: str | None = None, height: int = 620) -> Any:
+        """The train as it turns, for a notebook: `geartrain.viewer.EmbeddedPage`.
+
+        Parameters
+        ----------
+        state : str, optional
+            One of its states; by default all, to be chosen among.
+        height : int
+            Of the frame [px].
+        """
+        return picture_maker("viewer", "EmbeddedPage")(self, state, height)
 
     @cached_property
     def closure(self) -> MeshPhasing:

@@ -15,6 +15,7 @@ from geartrain.dynamics.motion.compiled_composition import CompiledComposition, 
 from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
 from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
+from geartrain.dynamics.motion.motion_picture import PicturedMotion
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.pointer_compositions import PointerCompositions
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-class Motion:
+class Motion(PicturedMotion):
     """A train's motion with real teeth and pins, as a function of the turns of its input.
 
     Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At

@@ -14,6 +14,7 @@ from geartrain.dynamics.motion.order_spectrum import SpectrumLine, find_spectrum
 from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
 from geartrain.dynamics.motion.superposition import ErrorEstimates, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.numerics.result_picture import Pictured
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples
@@ -33,7 +34,7 @@ def _untold(_: int) -> None:
 
 
 @dataclass
-class MotionRun:
+class MotionRun(Pictured):
     """One run of a motion: positions from 0 to `turns` of the input, and what is asked of them.
 
     Results stand here as far as they were asked for, by `go`, `try_phases`, `estimate` and `analyse`.
@@ -75,6 +76,8 @@ class MotionRun:
     >>> moon.ratio, round(moon.peak_to_peak, 3), round(moon.rms, 3)
     (Fraction(254, 95), 0.097, 0.022)
     """
+
+    FIGURE = "motion_figure"
 
     motion: Motion
     turns: float

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 from geartrain.numerics.files import csv_text
 from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.result_picture import Pictured
 
 if TYPE_CHECKING:
     from geartrain.dynamics.time.run_parts import (
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class TimeRun(Result):
+class TimeRun(Pictured, Result):
     """A train in time, by steps of one length; everything is of the run with the shorter steps.
 
     Attributes
@@ -102,6 +103,8 @@ class TimeRun(Result):
     >>> round(run.torque * 1000, 6), run.energy.closure < 1e-12
     (0.666667, True)
     """
+
+    FIGURE = "time_run_figure"
 
     KEYS = (
         "train",

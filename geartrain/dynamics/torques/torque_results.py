@@ -11,6 +11,7 @@ from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorq
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.result_picture import picture_maker
 from geartrain.numerics.tabular import Tabular
 
 TorqueVerdictKind = Literal[
@@ -212,6 +213,12 @@ class Torques(FrozenFields, Tabular, Result):
             "speed": [None if speed is None else as_float(speed) for speed in speeds],
             "power": [None if power is None else as_float(power) for power in powers],
         }
+
+    def plot(self) -> Any:
+        """The flow of power under these torques, as a figure that notebooks show: `geartrain.drawing.power_figure`."""
+        from geartrain.dynamics.torques.power_flow import find_power_flow
+
+        return picture_maker("drawing", "power_figure")(find_power_flow(self), self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVer
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.result_picture import Pictured
 from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class TorqueCycle(FrozenFields, Tabular, Result):
+class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
 
     Positions are about `samples` even ones, every corner and jump of the laws with a position on either side of it,
@@ -100,6 +101,8 @@ class TorqueCycle(FrozenFields, Tabular, Result):
     >>> found.link, round(found.mean, 6), round(found.greatest.torque, 6), round(found.efficiency, 6)
     ('a', 12.098195, 50.978459, 0.82657)
     """
+
+    FIGURE = "torque_cycle_figure"
 
     KEYS = (
         "state",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Result
+from geartrain.numerics.result_picture import Pictured
 from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit, best_within
 from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement, confirm_by_outlines
 from geartrain.synthesis.tooth_sizes.size_design import AIMS, SizeLimit, ToothSizes, equal_depth_radii
@@ -14,7 +15,7 @@ from geartrain.synthesis.tooth_sizes.size_search import Range, SizeSearch, check
 
 
 @dataclass(frozen=True)
-class BestToothSizes(Result):
+class BestToothSizes(Pictured, Result):
     """The best sizes of a pair with triangular teeth, and what they are better than.
 
     Attributes
@@ -44,6 +45,8 @@ class BestToothSizes(Result):
     --------
     find_tooth_sizes : an example.
     """
+
+    FIGURE = "tooth_sizes_figure"
 
     KEYS = (
         *("teeth", "driver", "friction", "aims", "free", "limits", "best", "outlines"),

@@ -8,6 +8,7 @@ from math import degrees
 from typing import Any
 
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.result_picture import Pictured
 from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement
 from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes
 from geartrain.synthesis.tooth_sizes.size_search import Range
@@ -60,7 +61,7 @@ class PairSizes(Result):
 
 
 @dataclass(frozen=True)
-class BestTrainSizes(Result):
+class BestTrainSizes(Pictured, Result):
     """The sizes of the triangular teeth with which a train is best, and what they gain.
 
     Attributes
@@ -87,6 +88,8 @@ class BestTrainSizes(Result):
     --------
     find_train_sizes : an example.
     """
+
+    FIGURE = "train_sizes_figure"
 
     KEYS = (
         *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.result_picture import Pictured
 
 if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import SpeedValue
@@ -202,7 +203,7 @@ class PointerBudget(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class TrainBudget(Result):
+class TrainBudget(Pictured, Result):
     """The budgets of a train's pointers in one state, with the crank and the jams of its wheels.
 
     Attributes
@@ -240,6 +241,8 @@ class TrainBudget(Result):
     >>> budget.not_declared["cutting"], len(budget.pointers)
     (9, 10)
     """
+
+    FIGURE = "budget_figure"
 
     KEYS = (
         *("name", "state", "span_days", "turns", "samples", Key("input", "lead"), "pointers", "crank"),

@@ -8,6 +8,7 @@ from math import degrees
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.result_picture import Pictured
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK
 
@@ -30,7 +31,7 @@ class PartialTrials(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class MonteCarloResult(Result):
+class MonteCarloResult(Pictured, Result):
     """Trials, and what else was asked of one train: what reports and pictures are made from.
 
     Attributes
@@ -50,6 +51,8 @@ class MonteCarloResult(Result):
     --------
     run_trials : gives what it must hold
     """
+
+    FIGURE = "monte_carlo_figure"
 
     KEYS = (
         Key("train", "trials.plan.name"),

@@ -1,0 +1,48 @@
+"""Results that show themselves: the one way from a room to those above it that draw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, ClassVar, Literal
+
+
+def picture_maker(room: Literal["drawing", "viewer"], name: str) -> Callable[..., Any]:
+    """A function that draws, by its name, for a method that hands itself to it.
+
+    Rooms that draw stand above those that calculate. A result reaches up to them here alone, by name, and when it is
+    asked to show itself: nothing that draws is imported before.
+
+    room   where it is, by the name below `geartrain`
+    name   of the function or class, public there
+    """
+    found: Callable[..., Any] = getattr(import_module(f"geartrain.{room}"), name)
+    return found
+
+
+class Pictured:
+    """A result with a picture of its own, which `FIGURE` names: a function of `geartrain.drawing`."""
+
+    __slots__ = ()
+
+    FIGURE: ClassVar[str]
+
+    def plot(self, *how: Any) -> Any:
+        """The result as a figure of matplotlib, which notebooks show.
+
+        Parameters
+        ----------
+        *how
+            What the function of `geartrain.drawing` that draws such results takes after the result itself.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            For `geartrain.drawing.render`, or to be drawn on.
+
+        Raises
+        ------
+        MissingExtraError
+            Without matplotlib, which the extra `plot` brings.
+        """
+        return picture_maker("drawing", self.FIGURE)(self, *how)

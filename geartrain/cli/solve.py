@@ -35,6 +35,9 @@ def run(
         emit(as_json(collect_answers(train, answers, whole=output is None)), to)
     else:
         from geartrain.report.speeds_text import speeds_text
+        from geartrain.train.trade_words import told_words
 
-        emit("\n".join(speeds_text(answer, output, train.bookkeeping) for answer in answers), to)
+        words = told_words("\n".join(str(answer.verdict) for answer in answers if not answer))
+        tables = (speeds_text(answer, output, train.bookkeeping) for answer in answers)
+        emit("\n".join((*tables, *filter(None, [words]))), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)

@@ -25,6 +25,7 @@ from geartrain.report.motion_report import moving_sections
 from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
+from geartrain.train.trade_words import trade_words
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
@@ -52,7 +53,7 @@ def describe_train(found: TrainReport) -> Document:
     >>> from geartrain.report import collect_report
     >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
     >>> [section.title for section in page.sections]
-    ['Structure', 'Adjacency matrix', 'Fundamental circuits', 'Mobility', 'Speeds', 'Outputs', 'Formulas']
+    ['Structure', 'Adjacency matrix', 'Fundamental circuits', 'Mobility', 'Speeds', 'Outputs', 'Formulas', 'Words']
     """
     train, answers = found.train, found.states
     declared = train.declaration
@@ -88,7 +89,16 @@ def describe_train(found: TrainReport) -> Document:
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         sections.append(Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),)))
-    return Document(declared.title or declared.name, tuple(_lead(train, answers)), tuple(sections))
+    return Document(declared.title or declared.name, tuple(_lead(train, answers)), (*sections, *_words(sections)))
+
+
+def _words(sections: Sequence[Section]) -> Iterator[Section]:
+    """What makers and historians call the things that a report names."""
+    told = (
+        text for each in sections for text in (each.title, *each.paragraphs, *(" ".join(t.header) for t in each.tables))
+    )
+    if words := list(trade_words("\n".join(told))):
+        yield Section("Words", (), (Table(("engineer", "maker", "historian"), words),))
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:

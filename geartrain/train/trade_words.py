@@ -1,0 +1,56 @@
+"""What makers and historians call the things that messages and pages name as engineers do."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+_MOST_TOLD = 4
+
+
+class TradeWord(NamedTuple):
+    """One thing in three trades: the words of the field, of who makes clocks, of who writes on old mechanisms."""
+
+    engineer: str
+    maker: str
+    historian: str
+
+    def __str__(self) -> str:
+        same = self.maker == self.historian
+        return f"{self.engineer}: {self.maker}" if same else f"{self.engineer}: {self.maker}, or {self.historian}"
+
+
+TRADE_WORDS = (
+    TradeWord("link", "an arbor with all that is fixed on it", "an axle with its gears"),
+    TradeWord("frame", "the plates", "the case and its plates"),
+    TradeWord("turning pair", "a pivot in its hole, or an arbor in a pipe", "the bearing of an axle"),
+    TradeWord("gear pair", "a wheel and a pinion in mesh", "two gears that engage"),
+    TradeWord("coupling", "a pin in a slot", "a pin-and-slot device"),
+    TradeWord("carrier", "a platform that goes round with arbors on it", "a turntable or epicyclic platform"),
+    TradeWord("planet", "a wheel on a stud that is carried round", "an epicyclic gear"),
+    TradeWord("circuit", "a mesh with the pivots between its wheels", "two gears and the axles that hold them apart"),
+    TradeWord("mobility", "how many cranks or weights it takes", "how many things must be turned by hand"),
+    TradeWord("input", "what is turned by hand, weight or spring", "the crank"),
+    TradeWord("output", "what a hand is put on", "a pointer"),
+    TradeWord("clutch", "two arbors coupled when wanted", "two axles coupled when wanted"),
+)
+"""Told where a message or page names them."""
+
+_PLURALS = {"mobility": "mobilities", "clutch": "clutches"}
+_SPOKEN = {
+    word: re.compile(rf"\b(?:{word.engineer}s?|{_PLURALS.get(word.engineer, word.engineer)})\b", re.IGNORECASE)
+    for word in TRADE_WORDS
+}
+
+
+def trade_words(text: str) -> Iterator[TradeWord]:
+    """Those that a text names; names in quotes and code are the reader's own."""
+    text = re.sub(r"`[^`]*`|'[^']*'", " ", text)
+    return (word for word in TRADE_WORDS if _SPOKEN[word].search(text))
+
+
+def told_words(text: str) -> str:
+    """One line that says what the words of a message mean; empty where it has none of them."""
+    found = [str(word) for word in trade_words(text)][:_MOST_TOLD]
+    return f"words: {'; '.join(found)}" if found else ""

@@ -39,6 +39,12 @@ def with_copies(train: Train, tree: Tree) -> Train:
     return _Unfolding(train, tree).train() if has_copies(train) else train
 
 
+def originals(train: Train) -> dict[str, str]:
+    """Of each link that `with_copies` has, the one that is declared."""
+    own = {link: link for link in train.links}
+    return own | {_named(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
+
+
 def as_one(train: Train) -> Train:
     """The train in which equal planets are one that is as heavy and as stiff as all, for they move alike."""
     if not has_copies(train):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
+from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
@@ -61,8 +62,8 @@ def make_scene(
     >>> scene.movement.kind
     'exact'
     """
-    if run is None:  # what was simulated moves equal planets as one
-        train = train.unfolded
+    moves = originals(train.declaration)  # what was simulated moves equal planets as one
+    train = train.unfolded
     declared = train.declaration
     state = train.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
@@ -99,13 +100,14 @@ def make_scene(
         back=moved.back,
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
-        run=None if run is None else _played(stage, run, moved, wheels, pairs, couplings),
+        run=None if run is None else _played(stage, run, moves, moved, wheels, pairs, couplings),
     )
 
 
 def _played(
     stage: SceneContext,
     run: TimeRun,
+    moves: Mapping[str, str],
     moved: MovementStart,
     wheels: Sequence[SceneWheel],
     pairs: Sequence[ScenePair],
@@ -113,7 +115,7 @@ def _played(
 ) -> SceneRun:
     from geartrain.scene.run_courses import find_run  # needs numpy
 
-    return find_run(stage, run, moved.movement, wheels, pairs, couplings)
+    return find_run(stage, run, moves, moved.movement, wheels, pairs, couplings)
 
 
 def _sources(train: GearTrain) -> dict[str, dict[str, str]]:

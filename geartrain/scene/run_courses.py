@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tau
@@ -88,12 +88,16 @@ class ShownSamples:
 def find_run(
     stage: SceneContext,
     run: TimeRun,
+    moves: Mapping[str, str],
     movement: Movement,
     wheels: Sequence[SceneWheel],
     pairs: Sequence[ScenePair],
     couplings: Sequence[SceneCoupling],
 ) -> SceneRun:
-    """What a page plays of a run: its counted part. Raises `QuestionError` if it is of another train or state."""
+    """What a page plays of a run: its counted part. Raises `QuestionError` if it is of another train or state.
+
+    moves   link -> the link of the run that moves as it does
+    """
     if (run.train, run.state) != (stage.train.name, stage.answer.state):
         what = f"a run of {run.train}{f', state {run.state}' if run.state else ''}"
         why = f"the scene is of {stage.train.name}{f', state {stage.answer.state}' if stage.answer.state else ''}"
@@ -126,11 +130,17 @@ def find_run(
         tolerance=TOLERANCE,
         torque=run.torque,
         complete=run.complete,
-        links=tuple(samples.link(run.angles[link] - stage.start(link), _tolerance(stage, link)) for link in links),
+        links=tuple(samples.link(_turned(stage, run, moves[link]), _tolerance(stage, link)) for link in links),
         contacts=contacts,
         leads=run.leads,
         notes=(*run.notes, *_left_out(run, movement)),
     )
+
+
+def _turned(stage: SceneContext, run: TimeRun, link: str) -> Floats:
+    """By how much a link has turned from where it is declared to start (rad)."""
+    found: Floats = run.angles[link] - stage.start(link)
+    return found
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:

@@ -160,3 +160,28 @@ def test_a_scene_without_a_run_says_nothing_of_one() -> None:
 def test_a_train_without_inertia_cannot_be_played() -> None:
     with pytest.raises(QuestionError, match="nothing says what inertia turns with"):
         shipped.train("freeth-2008").dynamics(rate="1 turn/s", turns=1)
+
+
+def test_equal_planets_all_move_as_the_one_that_was_simulated() -> None:
+    train = geartrain.load("""
+        links:
+          frame: {wheels: {r: {teeth: 60, internal: true}}}
+          sun: {wheels: {s: 24}, inertia: 1e-6 kg m2}
+          planet: {wheels: {p: 18}, copies: 3, inertia: 1e-7 kg m2, mass: 10 g}
+          carrier: {inertia: 1e-5 kg m2, bearing: 1 N mm}
+        revolutes: {main: [frame, sun, carrier], P: [carrier, planet]}
+        gears: [{pair: [s, p], tooth_form: involute}, {pair: [p, r], tooth_form: involute}]
+        inputs: {sun: 1}
+    """)
+    run = train.dynamics(rate="1 turn/s", turns=1, steps=400)
+    scene = make_scene(train, run=run)
+    assert scene.run is not None
+    names = [body.id for body in scene.bodies]
+    courses = dict(zip(names, scene.run.links, strict=True))
+    assert {"planet", "planet.2", "planet.3"} <= set(names)
+    for other in ("planet.2", "planet.3"):
+        assert courses[other].rate == courses["planet"].rate
+        assert (courses[other].angles == courses["planet"].angles).all()
+    places = [wheel.centre for wheel in scene.wheels if names[wheel.body].startswith("planet")]
+    angles = sorted(np.degrees(np.arctan2(y, x)) % 360 for x, y, _ in places)
+    assert np.diff(angles) == pytest.approx([120, 120])

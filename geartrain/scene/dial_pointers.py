@@ -20,6 +20,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that look
 _APART = 0.96  # of the distance of two neighbours: what their radii may fill together
 _NESTED = 0.74  # radius over that of the dial around it
 _INNER = 0.55  # innermost turn of a spiral over the outermost
+_OUT, _OVER, _BALL = 0.5, 0.04, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own
 _GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
 
 
@@ -46,9 +47,24 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             inner=0.0,
             turns=dial.turns,
             divisions=dial.divisions,
+            look=dial.look,
             note=dial.note or "",
         )
-    return _fitted(faces, _GAP * width)
+    scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
+    return {key: scales[key] if key in scales else _ball(stage, key, face, scales) for key, face in faces.items()}
+
+
+def _ball(stage: SceneContext, key: Key, face: DialFace, scales: Mapping[Key, DialFace]) -> DialFace:
+    """A ball in the middle of the pointer of the link that bears it; on its own axis where that has no pointer."""
+    _, bearer, axis = key
+    read = [dial_key(stage, name) for name, each in stage.case.outputs.items() if (each.of or name) == bearer]
+    under = next((scales[own] for own in read if own is not None and own in scales), None)
+    if under is None:
+        place = stage.layout.axes.get(axis)
+        foot, reach = (0.0, 0.0, 0.0) if place is None else place.point, face.radius
+    else:
+        foot, reach = plus(under.centre, under.normal, _OVER * under.radius), under.radius
+    return replace(face, centre=plus(foot, face.normal, _OUT * reach), radius=_BALL * reach)
 
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Literal
 
 from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
@@ -45,6 +45,9 @@ class DialFace:
         Of its outermost and of its innermost turn [mm].
     turns, divisions : int
         Turns of its spiral, and cells along all of them.
+    look : {"scale", "ball"}
+        A scale with a pointer, or a ball in the pointer of the link on which it stands: then `radius` is that of the
+        ball, `normal` the direction of the axis about which it turns, through its middle.
     note : str
         As declared.
 
@@ -63,6 +66,7 @@ class DialFace:
     inner: float
     turns: int
     divisions: int
+    look: Literal["scale", "ball"] = "scale"
     note: str = ""
 
 

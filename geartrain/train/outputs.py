@@ -249,6 +249,10 @@ class Dial(Declared):
     face: str | None = Field(None, description="The side it is read from, such as front or back")
     turns: Count = Field(1, description="Turns of a spiral")
     divisions: Count = Field(1, description="Cells along all turns")
+    look: Literal["scale", "ball"] = Field(
+        "scale",
+        description="What is drawn: a scale with a pointer, or a ball, half black, such as shows the Moon's phase",
+    )
     note: str | None = Field(None, description="A remark for the reader")
 
     @classmethod

@@ -10,6 +10,7 @@ from itertools import pairwise
 from math import cos, hypot, isclose, radians, sin
 from typing import Any
 
+import numpy as np
 import pytest
 import shipped
 from hypothesis import given, settings
@@ -295,3 +296,19 @@ def test_bodies_carried_by_thousands_of_others_are_posed_in_any_order() -> None:
     for at in (0, 1, 1500, 2998):
         angle = radians(count - 1 - at)
         assert found.turned[at][:2, 0] == pytest.approx([cos(angle), sin(angle)], abs=1e-9)
+
+
+def test_the_ball_of_the_moons_phase_stands_in_the_moons_pointer() -> None:
+    scene = shipped.scene("freeth-2021")
+    dials = {dial.id: dial for dial in scene.dials}
+    phase, zodiac = dials["phase"], dials["zodiac"]
+    assert (phase.look, zodiac.look) == ("ball", "scale")
+    assert scene.bodies[phase.body].id == "moon"
+    way = np.subtract(phase.centre, zodiac.centre)
+    assert way @ np.array(zodiac.zero) == pytest.approx(zodiac.radius / 2), (
+        "halfway out, where the pointer is at turn 0"
+    )
+    assert np.linalg.norm(np.cross(phase.normal, zodiac.zero)) == pytest.approx(0, abs=1e-9), (
+        "its axis is the pointer's"
+    )
+    assert 0 < way @ np.array(zodiac.normal) < phase.radius < zodiac.radius / 10

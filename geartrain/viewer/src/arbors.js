@@ -36,7 +36,7 @@ export function spans(scene) {
     places[slot].push(along(scene.bodies[slot], slot_at));
   }
   for (const { body, dial } of scene.pointers) {
-    if (dial !== null) places[body].push(along(scene.bodies[body], scene.dials[dial].centre));
+    if (dial !== null && scene.dials[dial].look !== "ball") places[body].push(along(scene.bodies[body], scene.dials[dial].centre));
   }
   return places.map((list) => (list.length ? [Math.min(...list), Math.max(...list)] : null));
 }

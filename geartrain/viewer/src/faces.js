@@ -2,7 +2,7 @@
 
 import { NEEDLES, PARTS } from "./colours.js";
 import { figure } from "./figures.js";
-import { band, plate, Shape, swept } from "./shape.js";
+import { band, halfBall, plate, Shape, swept } from "./shape.js";
 import { frameAt, vector } from "./space.js";
 
 const MOST_MARKS = 1200;
@@ -12,6 +12,7 @@ const ALONG = [0, 0, 0]; // ink is not brushed
 /** A dial's plate and what is engraved on it: [{body, colour, shape, matrix, at, dial}]. */
 export function dialParts(scene, index) {
   const dial = scene.dials[index];
+  if (dial.look === "ball") return [socket(scene, index)];
   const { inner, pitch } = scaleOf(dial);
   const matrix = frameAt(dial.centre, dial.normal, dial.zero);
   const hole = Math.max(0.05 * dial.radius, inner - pitch - 0.02 * dial.radius);
@@ -87,8 +88,29 @@ function turningSense(scene, index) {
   return pointer ? -pointer.sense : -1;
 }
 
-/** A needle from the middle of its dial to the rim: {body, colour, shape, matrix, at, dial}. */
-export function needlePart(scene, index, order) {
+/** The ring in which a ball turns. */
+function socket(scene, index) {
+  const { body, centre, normal, radius } = scene.dials[index];
+  const shape = swept(new Shape(), band(1.06 * radius, 1.25 * radius, -0.2 * radius, 0.2 * radius), 40);
+  const matrix = frameAt(centre, [0, 0, scene.front], normal);
+  return { body, colour: PARTS.bezel, gloss: 0.8, shape, matrix, at: vector(centre), dial: index };
+}
+
+/** What shows an output on its dial: a needle, or the two halves of a ball, black towards the reader at zero: [{colour, shape, matrix, at, dial}]. */
+export function pointerParts(scene, index, order) {
+  const { dial } = scene.pointers[index];
+  const { look, centre, normal, radius } = scene.dials[dial];
+  if (look !== "ball") return [needlePart(scene, index, order)];
+  const matrix = frameAt(centre, normal, [0, 0, scene.front]);
+  const common = { gloss: 0.3, matrix, at: vector(centre), dial };
+  return [
+    { ...common, colour: PARTS.mark, shape: halfBall(radius, -0.25) },
+    { ...common, colour: PARTS.silver, shape: halfBall(radius, 0.25) },
+  ];
+}
+
+/** A needle from the middle of its dial to the rim: {colour, shape, matrix, at, dial}. */
+function needlePart(scene, index, order) {
   const pointer = scene.pointers[index];
   const dial = scene.dials[pointer.dial];
   const length = dial.radius * (0.97 - 0.07 * (order % 4));
@@ -99,5 +121,5 @@ export function needlePart(scene, index, order) {
   const shape = plate(new Shape(), blade, low, high);
   swept(shape, band(0, 0.05 * dial.radius, low, high + 0.004 * dial.radius), 14);
   const at = vector(dial.centre);
-  return { body: pointer.body, colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, shape, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
+  return { colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, shape, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
 }

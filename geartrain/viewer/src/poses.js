@@ -7,11 +7,18 @@ import { isParallel, vector } from "./space.js";
 
 const APART = 3; // how far layers move when taken apart, over their distance
 
+/** Balls turn as bodies of scenes do, `as` which, but each about an axis through its own middle. */
+const balls = ({ bodies, dials, pointers }) =>
+  dials.flatMap(({ look, centre }, ball) => {
+    const as = pointers.find(({ dial }) => dial === ball)?.body;
+    return look === "ball" && as !== undefined ? [{ ...bodies[as], point: centre, as, ball }] : [];
+  });
+
 export class Poses {
   /** main   the direction along which layers move; `middle`, what stays */
   constructor(machine, main, middle) {
     Object.assign(this, { machine, main, middle, share: 0 });
-    this.bodies = machine.scene.bodies;
+    this.bodies = [...machine.scene.bodies, ...balls(machine.scene)];
     this.root = new Group();
     this.nodes = this.bodies.map(() => new Group());
     this.nodes.forEach((node) => (node.matrixAutoUpdate = false));
@@ -30,7 +37,7 @@ export class Poses {
   turn(array) {
     this.bodies.forEach((body, index) => {
       if (body.parent === null) return;
-      const joint = this.machine.moves ? this.machine.joint(index) : 0;
+      const joint = this.machine.moves ? this.machine.joint(body.as ?? index) : 0;
       const { matrix } = this.nodes[index];
       const point = vector(body.point);
       matrix.makeRotationAxis(vector(body.direction), joint);
@@ -47,6 +54,11 @@ export class Poses {
       const own = this.skewed[index] && !this.skewed[parent] ? this.height(this.anchor(index)) : 0;
       this.shifts[index].copy(this.main).multiplyScalar(share * own);
     });
+  }
+
+  /** The node of the ball of a dial. */
+  ball(dial) {
+    return this.bodies.findIndex((body) => body.ball === dial);
   }
 
   anchor(index) {

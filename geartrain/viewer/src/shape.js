@@ -27,22 +27,23 @@ export class Shape {
   }
 }
 
-/** A closed outline of [radius, z] points, counter-clockwise, swept round the z axis in `count` steps. */
-export function swept(shape, outline, count) {
+/** A closed outline of [radius, z] points, counter-clockwise, swept in `count` steps round the z axis, or part of it. */
+export function swept(shape, outline, count, first = 0, turns = 1) {
   const { points, normals, grains, indices } = shape;
   outline.forEach(([r, z], m) => {
     const [r1, z1] = outline[(m + 1) % outline.length];
     const length = Math.hypot(r1 - r, z1 - z);
     if (!length || (r < 1e-12 && r1 < 1e-12)) return;
     const [outward, upward] = [(z1 - z) / length, (r - r1) / length];
-    const first = shape.corners;
+    const corner = shape.corners;
     for (let n = 0; n <= count; n += 1) {
-      const [c, s] = [Math.cos((TURN * n) / count), Math.sin((TURN * n) / count)];
+      const angle = TURN * (first + (turns * n) / count);
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
       points.push(r * c, r * s, z, r1 * c, r1 * s, z1);
       normals.push(outward * c, outward * s, upward, outward * c, outward * s, upward);
       grains.push(-s, c, 0, -s, c, 0);
     }
-    for (let at = first; at < first + 2 * count; at += 2) indices.push(at, at + 1, at + 2, at + 1, at + 3, at + 2);
+    for (let at = corner; at < corner + 2 * count; at += 2) indices.push(at, at + 1, at + 2, at + 1, at + 3, at + 2);
   });
   return shape;
 }
@@ -57,14 +58,16 @@ export function band(inner, outer, low, high) {
 export const bar = (radius, low, high, count = 14) => swept(new Shape(), band(0, radius, low, high), count);
 
 /** A ball round the origin. */
-export function ball(radius, count = 16) {
-  const steps = count / 2;
-  const outline = Array.from({ length: steps + 1 }, (_, n) => {
+export const ball = (radius, count = 16) => swept(new Shape(), meridian(radius, count / 2), count);
+
+/** Half of a ball round the origin: half a turn about z from a part of one on, from x. */
+export const halfBall = (radius, first, count = 24) => swept(new Shape(), meridian(radius, count), count, first, 0.5);
+
+const meridian = (radius, steps) =>
+  Array.from({ length: steps + 1 }, (_, n) => {
     const angle = Math.PI * (n / steps - 0.5);
     return [radius * Math.max(0, Math.cos(angle)), radius * Math.sin(angle)];
   });
-  return swept(new Shape(), outline, count);
-}
 
 /**
  * A plate between two heights: `stations` are [x, half width], in order; brushed along x.

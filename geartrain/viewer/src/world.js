@@ -3,7 +3,7 @@
 import { hubs, spans, supports } from "./arbors.js";
 import { Casting } from "./casting.js";
 import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
-import { dialParts, needlePart } from "./faces.js";
+import { dialParts, pointerParts } from "./faces.js";
 import { couplingParts, crankOf } from "./joints.js";
 import { Looks } from "./looks.js";
 import { metals } from "./metal.js";
@@ -56,7 +56,8 @@ export class World {
       const { id } = scene.dials[dial];
       const order = orders.get(id) ?? 0;
       orders.set(id, order + 1);
-      this.put(needlePart(scene, index, order));
+      const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
+      pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body }));
     });
     this.crank = this.buildCrank(reach);
     this.crank?.parts.forEach((part) => this.put(part));

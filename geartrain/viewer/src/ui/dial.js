@@ -1,4 +1,5 @@
 // One dial as a drawing: scale, spiral, zero mark, hands. Clockwise on the page is clockwise as read.
+import { NEEDLES } from "../colours.js";
 import { svg } from "./element.js";
 
 const RIM = 84;
@@ -88,7 +89,7 @@ export class Dial {
 
   #hand(order, reading) {
     const tail = 12 + (order % 3) * 3;
-    const group = svg("g", { class: `hand hand-${order % 8}`, "data-output": reading.pointer.output });
+    const group = svg("g", { class: `hand hand-${order % NEEDLES.length}`, "data-output": reading.pointer.output });
     this.draw(group, tail, order);
     return group;
   }

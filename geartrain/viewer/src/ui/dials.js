@@ -1,4 +1,5 @@
 // The dials of a train beside its picture, each with what its hands read.
+import { NEEDLES } from "../colours.js";
 import { el } from "./element.js";
 import { Dial } from "./dial.js";
 import { Reading, told } from "./reading.js";
@@ -34,7 +35,7 @@ class Card {
             onclick: () => onChoose(hand.pointer.output),
             "aria-label": `highlight the path to ${hand.pointer.output}`,
           },
-          el("span", { class: `key hand-${order % 8}`, "aria-hidden": "true" }),
+          el("span", { class: `key hand-${order % NEEDLES.length}`, "aria-hidden": "true" }),
           hand.pointer.output,
         ),
         this.values[order],

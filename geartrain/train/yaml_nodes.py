@@ -90,10 +90,17 @@ def parse_yaml(text: str, name: str) -> YamlNode:
     return builder.finish()
 
 
+def _too_deep(place: str) -> Problem:
+    why = f"a declaration needs fewer than {MOST_DEPTH} levels"
+    return Problem("nested too deeply", why, "check the brackets", place)
+
+
 def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     mark = error.problem_mark or error.context_mark
     place = f"{name}:{mark.line + 1}" if mark else name
     why = " ".join(part for part in (error.context, error.problem) if part)
+    if "nesting depth" in why:  # libyaml 0.2.6 and newer look ahead, and refuse a thousand brackets themselves
+        return _too_deep(place)
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
         return Problem("a tab stands here", "YAML is indented with spaces only", "replace the tab by spaces", place)
@@ -135,14 +142,7 @@ class _Builder:
                 self._check_tag(event.tag, place)
                 node = YamlNode({} if isinstance(event, yaml.MappingStartEvent) else [], place)
                 if len(self.open) >= MOST_DEPTH:
-                    raise DeclarationError(
-                        Problem(
-                            "nested too deeply",
-                            f"a declaration needs fewer than {MOST_DEPTH} levels",
-                            "check the brackets",
-                            place,
-                        )
-                    )
+                    raise DeclarationError(_too_deep(place))
                 if event.anchor:
                     self.anchors[event.anchor] = node
                 self.unfinished.add(id(node))
@@ -247,8 +247,7 @@ def node_from_data(data: Any, loc: Loc = ()) -> YamlNode:
     """Plain data as nodes, whose places are their paths. Raises `DeclarationError` for data nested too deeply."""
     place = dotted(loc)
     if len(loc) > MOST_DEPTH:
-        why = f"a declaration needs fewer than {MOST_DEPTH} levels"
-        raise DeclarationError(Problem("nested too deeply", why, "check the brackets", place))
+        raise DeclarationError(_too_deep(place))
     if isinstance(data, Mapping):
         entries = {str(key): node_from_data(value, (*loc, str(key))) for key, value in data.items()}
         return YamlNode(entries, place, {key: node.place for key, node in entries.items()})

@@ -103,7 +103,7 @@ def _lead(scene: Scene) -> str:
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
     """The faces to be drawn. Raises `QuestionError`."""
-    known = {pointer.output: at for at, pointer in enumerate(scene.pointers)}
+    known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
             fix = f"choose from {', '.join(known)}" if known else "declare `outputs`"

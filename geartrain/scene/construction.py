@@ -100,6 +100,7 @@ def make_scene(
         back=moved.back,
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
+        asks=bool(stage.case.outputs),
         run=None if run is None else _played(stage, run, moves, moved, wheels, pairs, couplings),
     )
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
@@ -18,9 +19,10 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.scene.layout import Layout
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import StateCase
+    from geartrain.train import Output, StateCase
 
 _Z: Vector = (0.0, 0.0, 1.0)
+_MOST_LINKS = 100  # that stand for outputs
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,15 @@ class SceneContext:
     def case(self) -> StateCase:
         """What is prescribed in this state."""
         return self.train.declaration.case(self.answer.state)
+
+    @cached_property
+    def outputs(self) -> Mapping[str, Output]:
+        """What is asked for in this state; of a train that asks for nothing, the first of its links."""
+        from geartrain.train import Output
+
+        declared = self.train.declaration
+        links = (link for link in declared.links if link != declared.frame)
+        return self.case.outputs or {link: Output() for link in islice(links, _MOST_LINKS)}
 
     @cached_property
     def body(self) -> Mapping[str, int]:

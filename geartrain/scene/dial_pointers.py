@@ -29,7 +29,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
     width = _width(stage)
-    for name, output in stage.case.outputs.items():
+    for name, output in stage.outputs.items():
         dial = declared.dials.get(output.dial or "")
         key = dial_key(stage, name)
         if dial is None or key is None or key in faces:
@@ -57,7 +57,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
 def _ball(stage: SceneContext, key: Key, face: DialFace, scales: Mapping[Key, DialFace]) -> DialFace:
     """A ball in the middle of the pointer of the link that bears it; on its own axis where that has no pointer."""
     _, bearer, axis = key
-    read = [dial_key(stage, name) for name, each in stage.case.outputs.items() if (each.of or name) == bearer]
+    read = [dial_key(stage, name) for name, each in stage.outputs.items() if (each.of or name) == bearer]
     under = next((scales[own] for own in read if own is not None and own in scales), None)
     if under is None:
         place = stage.layout.axes.get(axis)
@@ -69,7 +69,7 @@ def _ball(stage: SceneContext, key: Key, face: DialFace, scales: Mapping[Key, Di
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:
     """The dial of an output; None where it names none."""
-    output = stage.case.outputs[name]
+    output = stage.outputs[name]
     if output.dial is None:
         return None
     of, base = output.links(name, stage.train.declaration.frame)
@@ -79,7 +79,7 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
 def facing(stage: SceneContext, name: str) -> Vector:
     """Unit vector towards one who reads an output: along its axis, on the side its dial looks to."""
     declared = stage.train.declaration
-    output = stage.case.outputs[name]
+    output = stage.outputs[name]
     along = stage.along(stage.train.tree.axis(output.of or name))
     side = dot(along, stage.near)
     # an axis across the view looks neither way but for rounding: it keeps its own
@@ -140,11 +140,11 @@ def _rounded(u: Vector) -> Vector:
 def find_pointers(stage: SceneContext, dials: Sequence[Key]) -> tuple[Pointer, ...]:
     """A pointer for every output of the state, in the order declared."""
     paths = find_dependence(stage)
-    return tuple(_pointer(stage, name, dials, paths.get(name, ())) for name in stage.case.outputs)
+    return tuple(_pointer(stage, name, dials, paths.get(name, ())) for name in stage.outputs)
 
 
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:
-    output = stage.case.outputs[name]
+    output = stage.outputs[name]
     of, base = output.links(name, stage.train.declaration.frame)
     signs = stage.train.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))

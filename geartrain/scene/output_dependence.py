@@ -33,16 +33,16 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
     system = stage.train.equations(stage.answer.state)
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     followers = [circuit for circuit in circuits.values() if circuit.kind == "pin_follower"]
-    ends = [_ends(stage, name) for name in stage.case.outputs]
+    ends = [_ends(stage, name) for name in stage.outputs]
     ends += [_seen(stage, circuit.j, circuit.carrier) for circuit in followers]
     try:
         weights = _weights(system, ends)
     except TooDenseError:
         return {}
-    swings = dict(zip((circuit.id for circuit in followers), weights[len(stage.case.outputs) :], strict=True))
+    swings = dict(zip((circuit.id for circuit in followers), weights[len(stage.outputs) :], strict=True))
     return {
         name: _ordered(stage, circuits, _with_swings(used, swings))
-        for name, used in zip(stage.case.outputs, weights, strict=False)
+        for name, used in zip(stage.outputs, weights, strict=False)
     }
 
 
@@ -57,7 +57,7 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 def _ends(stage: SceneContext, name: str) -> dict[str, int]:
     """An output as a sum of declared speeds."""
-    return _seen(stage, *stage.case.outputs[name].links(name, stage.train.declaration.frame))
+    return _seen(stage, *stage.outputs[name].links(name, stage.train.declaration.frame))
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:

@@ -151,7 +151,7 @@ class Scene:
     dials : sequence of DialFace
         Scales.
     pointers : sequence of Pointer
-        Outputs.
+        Outputs; of a train that declares none, its links, a hundred at most.
     movement : Movement
         How angles differ from exact ones, for positive turns.
     sources : mapping of str to mapping
@@ -164,6 +164,8 @@ class Scene:
         Length of the unit in days, exact, where it is a time; None elsewhere.
     elements : sequence of SceneShiftElement
         Brakes and clutches, in the order declared; which are closed.
+    asks : bool
+        False where no output is declared, and links stand for outputs.
     run : SceneRun or None
         The simulated motion through time, which is then played; None where the train is turned by its crank.
 
@@ -196,6 +198,7 @@ class Scene:
     back: Movement | None = None
     unit_days: str | None = None
     elements: Sequence[SceneShiftElement] = ()
+    asks: bool = True
     run: SceneRun | None = None
 
     def to_dict(self) -> dict[str, Any]:

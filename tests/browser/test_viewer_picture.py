@@ -19,7 +19,9 @@ SPREAD = """(scene) => {
     most[0] = Math.max(most[0], Math.abs(x));
     most[1] = Math.max(most[1], Math.abs(y));
   };
-  const round = (body, centre, normal, radius) => {
+  const round = (body, at, normal, radius) => {
+    const {main, poses} = stage.world; // taken apart, layers stand further along
+    const centre = new Vector(...at).addScaledVector(main, poses.share * poses.lift(body, new Vector(...at))).toArray();
     const n = new Vector(...normal);
     const a = new Vector(n.y - n.z, n.z - n.x, n.x - n.y).lengthSq() > 1e-6
       ? new Vector(n.y - n.z, n.z - n.x, n.x - n.y).normalize() : new Vector(1, -1, 0).normalize();
@@ -32,7 +34,7 @@ SPREAD = """(scene) => {
   const {wheels, dials} = geartrain.scenes[scene];
   for (const w of wheels) round(w.body, w.centre, w.direction, w.kind === 'ring' ? w.root : w.tip);
   for (const d of dials) round(d.body, d.centre, d.normal, d.radius);
-  if (crank) see(crank.body, crank.knob.clone());
+  if (crank && !stage.world.poses.share) see(crank.body, crank.knob.clone());
   return most;
 }"""
 
@@ -63,6 +65,27 @@ def test_the_whole_train_and_its_crank_fill_the_picture(show: Opening, names: tu
                 across, upwards = shown.run(SPREAD, scene)
                 assert max(across, upwards) <= 1, (names[scene], look, turn)
             assert max(across, upwards) > 0.5, (names[scene], look)
+
+
+@pytest.mark.parametrize("name", [ANTIKYTHERA, "bevel-differential"])
+def test_taken_apart_nothing_leaves_the_picture(show: Opening, name: str) -> None:
+    shown = show(name)
+    apart = shown.page.get_by_label("Apart")
+    for look in ("Front", "Back", "Side", "Free"):
+        shown.page.get_by_role("button", name=look, exact=True).click()
+        for share in ("0.4", "1", "0"):
+            apart.fill(share)
+            across, upwards = shown.run(SPREAD, 0)
+            assert max(across, upwards) < 1, (look, share)
+            assert max(across, upwards) > 0.7, (look, share)
+    shown.page.mouse.move(200, 300)
+    for _ in range(12):
+        shown.page.mouse.wheel(0, -400)  # nearer: what a reader looks at stays where it is and as near
+    wait(shown, f"({SPREAD})(0)[1] > 1.3")
+    near = shown.run(SPREAD, 0)
+    for share in ("1", "0"):
+        apart.fill(share)
+    assert shown.run(SPREAD, 0) == pytest.approx(near, rel=1e-3)
 
 
 def test_needles_in_the_picture_point_where_fractions_say(show: Opening) -> None:

@@ -54,6 +54,14 @@ def contrast(one: str, other: str) -> float:
     return (light + 0.05) / (dark + 0.05)
 
 
+# buttons that stay pressed, in the moment in which they are: [what, its colour, that behind it]
+PRESSED = """() => [...document.querySelectorAll('.group button, .wheels button')].map((button) => {
+  button.click();
+  const { color, backgroundColor } = getComputedStyle(button);
+  return [button.outerHTML.slice(0, 90), button.getAttribute('aria-pressed'), color, backgroundColor];
+})"""
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> None:
     shown = show(ANTIKYTHERA, color_scheme=scheme, reduced_motion="reduce")
@@ -112,3 +120,38 @@ def test_a_phone_shows_one_column_without_scrolling_sideways(show: Opening, comp
     shown.page.get_by_role("button", name="Close panels").click()
     assert shown.page.get_by_role("tab", name="Dials").is_hidden()
     assert shown.errors == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_pressed_button_can_be_read_at_once(show: Opening, scheme: str) -> None:
+    shown = show(SIMPLE, color_scheme=scheme)  # with all motion a page may have
+    shown.page.locator("[data-look='front']").hover()
+    tab(shown, "Wheels")
+    pressed = shown.run(PRESSED)
+    assert [state for _, state, _, _ in pressed] == ["true"] * (4 + 3)
+    for what, _, ink, ground in pressed:
+        assert contrast(ink, ground) >= 4.5, (what, ink, ground)
+
+
+@pytest.mark.parametrize("size", [(844, 390), (667, 375), (568, 320)])
+@pytest.mark.parametrize("name", [ANTIKYTHERA, "zf-8hp70"])
+def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
+    show: Opening, size: tuple[int, int], name: str
+) -> None:
+    width, height = size
+    shown = show(name, viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
+    for part in (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .dial"):
+        box = shown.page.locator(part).locator("visible=true").first.bounding_box()
+        assert box is not None
+        inside = 0 <= box["x"] and box["x"] + box["width"] <= width + 1 and 0 <= box["y"]
+        assert inside, (part, box)
+        assert box["y"] + (0 if part == ".page .dial" else box["height"]) <= height, (part, box)
+    canvas = shown.page.locator(".view canvas").bounding_box()
+    assert canvas is not None
+    assert canvas["width"] > 0.3 * width
+    assert canvas["height"] > 0.5 * height
+    assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [width, height]
+    shown.page.get_by_label("Go to turn").fill("5/2")
+    shown.page.keyboard.press("Enter")
+    assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
+    assert shown.run(SMALL) == []

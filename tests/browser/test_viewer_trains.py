@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import math
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
 import shipped
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab, turns
+from commands import call
+from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab, turns, wait
+
+from geartrain import load
 
 if TYPE_CHECKING:
     from playwright.sync_api import Dialog
@@ -36,14 +43,57 @@ def test_links_lead_only_to_the_web(show: Opening) -> None:
     assert "javascript:alert(1)" in shown.page.locator(".sources").inner_text()
 
 
-def test_without_webgl_all_but_the_picture_is_there(show: Opening) -> None:
-    shown = show(SIMPLE, before="HTMLCanvasElement.prototype.getContext = () => null")
-    assert shown.run("geartrain.stages[0] === null")
-    assert "no 3D picture" in shown.page.locator(".nothing").inner_text()
+BLIND = "HTMLCanvasElement.prototype.getContext = () => null"
+
+
+def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> None:
+    shown = show(SIMPLE, before=BLIND)
+    assert "shows no 3D picture" in shown.page.locator(".nothing").inner_text()
+    places = """Object.fromEntries([...document.querySelectorAll('.plan .wheel')].map((wheel) => {
+      const [x, y] = /M([^L]+)L/.exec(wheel.querySelector('.spoke').getAttribute('d'))[1].split(' ').map(Number);
+      const [u, v] = wheel.querySelector('.spoke').getAttribute('d').split('L')[1].split(' ').map(Number);
+      return [wheel.dataset.wheel, [x, -y, Math.atan2(y - v, u - x)]]; }))"""
+    before = shown.run(places)
+    shown.page.get_by_label("Go to turn").fill("1/7")
+    shown.page.keyboard.press("Enter")
+    wait(shown, f"JSON.stringify({places}) !== {json.dumps(json.dumps(before, separators=(',', ':')))}")
+    after = shown.run(places)
+    solved = shipped.train(SIMPLE).solve()
+    speeds = {"s": solved.speeds["sun"], "p": solved.speeds["planet"], "ring": 0}
+    for wheel, speed in speeds.items():
+        turned = (after[wheel][2] - before[wheel][2]) / (2 * math.pi) - float(Fraction(speed) / 7)
+        assert turned - round(turned) == pytest.approx(0, abs=1e-4), wheel
+    reach = math.hypot(before["p"][0] - before["s"][0], before["p"][1] - before["s"][1])
+    borne = math.atan2(before["p"][1], before["p"][0]) + 2 * math.pi * 2 / 7 / 7  # with the carrier, 2/7 of the sun
+    assert after["p"][:2] == pytest.approx([reach * math.cos(borne), reach * math.sin(borne)], abs=1e-2)
+    shown.page.locator(".plan [data-wheel='p'] .disc").click()
+    assert "Wheel p" in shown.page.locator(".detail").inner_text()
+    shown.page.get_by_label("Colours").select_option("speed")
+    assert len(set(shown.run("[...document.querySelectorAll('.plan .disc')].map((d) => d.getAttribute('fill'))"))) == 3
     tab(shown, "Outputs")
     shown.page.locator("tr[data-output='carrier'] th button").click()
-    shown.page.get_by_label("one unit of the input forward").click()
-    assert shown.page.locator("[data-angle='carrier']").inner_text() == f"{360 - 360 * 2 / 7:.2f}\u00b0"
+    assert shown.page.locator("[data-angle='carrier']").inner_text() == f"{360 - 360 * 2 / 49:.2f}\u00b0"
+    shown.page.keyboard.press("e")
+    assert all(error.startswith("no picture in three dimensions") for error in shown.errors)
+
+
+def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_path: Path) -> None:
+    path = tmp_path / "sphere.yaml"
+    assert call("sphere", "cuboctahedron", "--teeth", "4=20,3=13", "-o", path).exit_code in (0, 1)  # its teeth need not meet
+    train = load(str(path))
+    assert not train.declaration.outputs
+    shown = show(text=path.read_text(encoding="utf-8"))
+    panel = shown.page.get_by_role("tabpanel", name="Dials")
+    assert "declares no output: here are the first 12 of its 14 links" in panel.inner_text()
+    assert panel.locator(".dial").count() == 12
+    tab(shown, "Outputs")
+    rows = "[...document.querySelectorAll('.outputs tbody tr')]"
+    told = shown.run(f"{rows}.map((row) => [row.dataset.output, row.querySelector('.copy').textContent])")
+    solved = train.solve()
+    assert {link: text.replace("\u2212", "-") for link, text in told} == {link: str(speed) for link, speed in solved.speeds.items() if link != "frame"}
+    assert set(solved.speeds.values()) == {0, 1, Fraction(-20, 13)}
+    shown.page.locator("tr .plain").last.click()
+    assert shown.page.locator(".path [data-pair]").count() > 0
 
 
 def test_states_are_chosen_and_stand_beside_each_other(show: Opening) -> None:

@@ -2,6 +2,7 @@
 
 import { Fraction } from "./fraction.js";
 import { Machine } from "./motion.js";
+import { Plan } from "./plan.js";
 import { buildInterface } from "./ui/interface.js";
 import { Stage } from "./view.js";
 
@@ -14,7 +15,7 @@ const app = {
   scenes,
   machines,
   options,
-  /** The stages of the scenes shown; null for the others, and where the browser has no WebGL. */
+  /** The stages of the scenes shown, plans where the browser has no WebGL; null for the others. */
   stages: scenes.map(() => null),
   /** Turns of each scene's lead for one turn of the crank's. */
   gears: scenes.map(() => Fraction.of(1)),
@@ -29,12 +30,13 @@ const app = {
     app.stages.forEach((stage, index) => stage?.setTurns(machines[index].turns));
     app.onTurns?.(turns);
   },
-  /** A stage for a scene on a canvas of its own; null where the browser has no WebGL. */
+  /** A stage for a scene on a canvas of its own; where the browser has no WebGL, a plan. */
   open(index) {
     try {
       app.stages[index] = new Stage(document.createElement("canvas"), machines[index], options);
     } catch (error) {
       console.warn(`no picture in three dimensions: ${error.message}`);
+      app.stages[index] = new Plan(machines[index]);
     }
     return app.stages[index];
   },

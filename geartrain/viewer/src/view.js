@@ -64,8 +64,17 @@ export class Stage {
     this.change(() => this.world.looks.select(wheel));
   }
 
+  /** Layers apart; the camera goes back as far as the whole grows, and looks on where it looked. */
   explode(share) {
+    const before = this.framed();
     this.change(() => this.world.explode(Math.min(1, Math.max(0, share))));
+    if (!this.width) return;
+    const after = this.framed(before.towards);
+    const { position } = this.camera;
+    const off = position.clone().sub(this.controls.target).multiplyScalar(after.distance / before.distance);
+    this.controls.target.add(after.target).sub(before.target);
+    position.copy(this.controls.target).add(off);
+    this.controls.update();
   }
 
   hideFront(hidden) {
@@ -107,12 +116,17 @@ export class Stage {
 
   /** The camera to a side, as near as the whole allows. */
   fit(towards) {
-    const high = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
-    const { target, distance } = frame(this.world.outline(), towards, high * this.camera.aspect, high);
+    const { target, distance } = this.framed(towards);
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(towards, distance);
     this.controls.update();
     this.request();
+  }
+
+  /** Where the camera would stand, as near as the whole allows, on the side where it is, or on another. */
+  framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
+    const high = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
+    return { towards, ...frame(this.world.outline(), towards, high * this.camera.aspect, high) };
   }
 
   orbited() {

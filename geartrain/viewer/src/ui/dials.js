@@ -2,6 +2,7 @@
 import { NEEDLES } from "../colours.js";
 import { el } from "./element.js";
 import { Dial } from "./dial.js";
+import { linksInWords } from "./outputs.js";
 import { Reading, told } from "./reading.js";
 
 const PLAIN = 12; // faces of their own, where the train declares none
@@ -73,14 +74,13 @@ export class Dials {
       const cards = gathered(side.scene, side.machine).map((each) => new Card(each, onChoose));
       this.cards.push(...cards);
       if (sides.length > 1) this.node.append(el("h3", {}, side.label));
+      if (!side.scene.asks) this.node.append(el("p", { class: "quiet" }, linksInWords(side.scene, PLAIN)));
       this.node.append(
-        cards.length
-          ? el(
-              "div",
-              { class: "cards" },
-              cards.map((card) => card.node),
-            )
-          : el("p", { class: "quiet" }, "This train declares no output."),
+        el(
+          "div",
+          { class: "cards" },
+          cards.map((card) => card.node),
+        ),
       );
     }
   }

@@ -3,7 +3,7 @@
 // It builds its own page inside <body>. What it asks of `app`, beside scenes and machines (one of each per scene):
 //
 //   app.options       {compare: bool, teeth: bool}; with `compare` two scenes stand side by side, else one is shown
-//   app.open(index)   a stage for a scene, with its canvas, or null where there is no WebGL; app.close(index) ends it
+//   app.open(index)   a stage for a scene, with its canvas, or a plan where there is no WebGL; app.close(index) ends it
 //   app.gears         turns of each scene's lead for one turn of the crank's
 //   app.setTurns(t)   t a number, or exact text such as '235/19'; sets every machine and stage, then calls
 //                     app.onTurns(t) if it is there, so that scripts and dials stay together

@@ -20,6 +20,12 @@ function relative(part) {
   return `${part < 0 ? "\u2212" : "+"}${text}`;
 }
 
+/** What stands in place of outputs where a train declares none. */
+export function linksInWords({ bodies, pointers }, most = Infinity) {
+  const [shown, all] = [Math.min(pointers.length, most), bodies.length - 1];
+  return `This train declares no output: here are ${shown < all ? `the first ${shown} of its ${all} links` : "its links"}.`;
+}
+
 export class Outputs {
   constructor(sides, { onChoose, say }) {
     this.sides = sides;
@@ -46,9 +52,8 @@ export class Outputs {
       names.length > 12 && this.search,
       !one &&
         el("p", { class: "note" }, "The two trains count in different units, so their speeds are not subtracted."),
-      names.length
-        ? el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "outputs" }, this.#table())
-        : el("p", { class: "quiet" }, "This train declares no output."),
+      sides.map(({ scene }) => !scene.asks && el("p", { class: "quiet" }, linksInWords(scene))),
+      el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "outputs" }, this.#table()),
     );
   }
 

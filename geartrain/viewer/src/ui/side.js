@@ -3,7 +3,7 @@ import { Fraction } from "../fraction.js";
 import { el } from "./element.js";
 import { decimal } from "./number.js";
 
-const NO_PICTURE = "This browser shows no 3D picture (WebGL). All else on this page holds.";
+const NO_PICTURE = "A plan, for this browser shows no 3D picture (WebGL). All else on this page holds.";
 
 export class Side {
   constructor(app, index) {
@@ -16,22 +16,24 @@ export class Side {
     if (this.machine.run) this.label = [this.scene.state, this.machine.simulated ? "in time" : "teeth touching"].filter(Boolean).join(", ");
     this.legend = el("div", {});
     this.place = el("div", {});
-    const caption = el("figcaption", {}, el("span", { class: "caption" }, this.label), this.legend);
+    this.nothing = el("p", { class: "nothing", hidden: true }, NO_PICTURE);
+    const caption = el("figcaption", {}, el("span", { class: "caption" }, this.label), this.nothing, this.legend);
     this.figure = el("figure", { class: "view", hidden: true }, this.place, caption);
   }
 
   /** Makes its picture; true where there was none. */
   open() {
-    if (this.stage || this.blind) return false;
+    if (this.stage) return false;
     this.stage = this.app.open(this.index);
-    this.blind = !this.stage;
-    this.place.replaceChildren(this.stage?.canvas ?? el("p", { class: "nothing" }, NO_PICTURE));
-    if (this.stage) this.#name(this.stage.canvas);
-    return Boolean(this.stage);
+    const { canvas } = this.stage;
+    this.nothing.hidden = canvas instanceof HTMLCanvasElement;
+    this.place.replaceChildren(canvas);
+    this.#name(canvas);
+    return true;
   }
 
   #name(canvas) {
-    canvas.tabIndex = 0;
+    canvas.setAttribute("tabindex", "0");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${this.label}, a picture that turns; the wheels are listed under Wheels`);
   }

@@ -2,7 +2,7 @@
 import { MODES, legend } from "./colours.js";
 import { el, field } from "./element.js";
 
-const NARROW = "(max-width: 820px)"; // as in page.css
+const SMALL = "(max-width: 820px), (max-height: 520px)"; // as in page.css
 const LOOKS = { front: "Front", back: "Back", side: "Side", free: "Free" };
 
 export class Tools {
@@ -42,9 +42,9 @@ export class Tools {
       field("Teeth", this.teeth, { class: "field tick" }),
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), tools);
-    const narrow = matchMedia(NARROW);
-    const fold = () => (this.node.open = !narrow.matches); // where there is room the tools always stand open
-    narrow.addEventListener("change", fold);
+    const small = matchMedia(SMALL);
+    const fold = () => (this.node.open = !small.matches); // where there is room the tools always stand open
+    small.addEventListener("change", fold);
     fold();
   }
 

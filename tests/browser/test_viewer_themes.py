@@ -143,7 +143,7 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
     for part in (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .dial"):
         box = shown.page.locator(part).locator("visible=true").first.bounding_box()
         assert box is not None
-        inside = 0 <= box["x"] and box["x"] + box["width"] <= width + 1 and 0 <= box["y"]
+        inside = box["x"] >= 0 and box["x"] + box["width"] <= width + 1 and box["y"] >= 0
         assert inside, (part, box)
         assert box["y"] + (0 if part == ".page .dial" else box["height"]) <= height, (part, box)
     canvas = shown.page.locator(".view canvas").bounding_box()

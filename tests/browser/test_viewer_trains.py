@@ -79,7 +79,10 @@ def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> No
 
 def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_path: Path) -> None:
     path = tmp_path / "sphere.yaml"
-    assert call("sphere", "cuboctahedron", "--teeth", "4=20,3=13", "-o", path).exit_code in (0, 1)  # its teeth need not meet
+    assert call("sphere", "cuboctahedron", "--teeth", "4=20,3=13", "-o", path).exit_code in (
+        0,
+        1,
+    )  # its teeth need not meet
     train = load(str(path))
     assert not train.declaration.outputs
     shown = show(text=path.read_text(encoding="utf-8"))
@@ -90,7 +93,9 @@ def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_pat
     rows = "[...document.querySelectorAll('.outputs tbody tr')]"
     told = shown.run(f"{rows}.map((row) => [row.dataset.output, row.querySelector('.copy').textContent])")
     solved = train.solve()
-    assert {link: text.replace("\u2212", "-") for link, text in told} == {link: str(speed) for link, speed in solved.speeds.items() if link != "frame"}
+    assert {link: text.replace("\u2212", "-") for link, text in told} == {
+        link: str(speed) for link, speed in solved.speeds.items() if link != "frame"
+    }
     assert set(solved.speeds.values()) == {0, 1, Fraction(-20, 13)}
     shown.page.locator("tr .plain").last.click()
     assert shown.page.locator(".path [data-pair]").count() > 0

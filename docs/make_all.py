@@ -11,6 +11,7 @@ import make_architecture
 import make_best_radii
 import make_budgets
 import make_commands
+import make_diagrams
 import make_dynamics_accuracy
 import make_errata
 import make_extremes
@@ -52,6 +53,7 @@ def main() -> None:
         make_budgets,
         make_best_radii,
         make_commands,
+        make_diagrams,
         make_errata,
         make_extremes,
         make_gallery,

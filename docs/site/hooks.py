@@ -1,4 +1,4 @@
-"""What mkdocs does beside its work: gallery, viewer pages, notebooks, names over files, formulas without scripts."""
+"""What mkdocs does beside its work: gallery, viewers, diagrams, notebooks, names over files, formulas as MathML."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import diagrams
 import gallery
 import markup
 import notebooks
@@ -15,6 +16,7 @@ import try_page
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
+from mkdocs.utils import get_relative_url
 from pymdownx.slugs import slugify
 
 _log = logging.getLogger("mkdocs.hooks")
@@ -42,6 +44,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         files.append(File.generated(config, name, abs_src_path=str(path)))
     for name, path in _try_page().items():
         files.append(File.generated(config, name, abs_src_path=str(path)))
+    for name, path in diagrams.files().items():
+        files.append(File.generated(config, name, abs_src_path=str(path)))
     for name, text in notebooks.pages().items():
         files.append(File.generated(config, name, content=text))
     return files
@@ -54,6 +58,6 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
     return gallery.with_cards(markup.with_titles(markdown))
 
 
-def on_page_content(html: str, **_: Any) -> str:
-    """Formulas become MathML."""
-    return markup.with_mathml(html)
+def on_page_content(html: str, page: Page, **_: Any) -> str:
+    """Formulas become MathML, and marked pictures what a reader can drag."""
+    return diagrams.with_diagrams(markup.with_mathml(html), get_relative_url("", page.url))

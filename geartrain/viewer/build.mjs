@@ -16,3 +16,6 @@ await build({
   legalComments: "eof", // three.js asks that its licence stay with it
 });
 await build({ ...common, entryPoints: ["src/page.css"], outfile: join(out, "viewer.css"), target: "es2022" });
+// what pages of the documentation show; no part of the package
+await build({ ...common, entryPoints: ["src/diagrams/main.js"], outfile: join(out, "diagrams.js"), format: "iife", target: "es2022" });
+await build({ ...common, entryPoints: ["src/diagrams/diagrams.css"], outfile: join(out, "diagrams.css"), target: "es2022" });

@@ -221,7 +221,8 @@ def test_built_files_are_what_their_sources_build(tmp_path: Path) -> None:
     if got.returncode != 0:
         pytest.skip(f"npm cannot get its packages: the built viewer is not compared with its sources: {got.stderr}")
     subprocess.run([node, "build.mjs"], cwd=copy, check=True)
-    for name in ("viewer.js", "viewer.css"):
+    assert {path.name for path in (copy / "built").iterdir()} == {path.name for path in (VIEWER / "built").iterdir()}
+    for name in ("viewer.js", "viewer.css", "diagrams.js", "diagrams.css"):
         built = (copy / "built" / name).read_bytes()
         assert built == (VIEWER / "built" / name).read_bytes(), f"{name} is stale: npm ci && node build.mjs"
 

@@ -1,0 +1,71 @@
+// What a reader drags: by mouse, finger or arrow keys, in steps that are exact fractions.
+
+import { Fraction } from "../fraction.js";
+
+const TURN = 2 * Math.PI;
+const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
+
+/**
+ * Makes a part of a picture a slider.
+ *
+ * plane    the group in whose coordinates the reader's pointer is given to `moved`
+ * label    what it is called
+ * value    the Fraction it stands for now; `set` takes a new one, a whole number of `parts` of a unit
+ * moved    units from one point [x, y] to another
+ * text     its value in words
+ * page     steps of the keys for pages; `key`, of the arrows; `least`, `most` where it ends
+ */
+export function handle(sheet, part, { plane, label, value, set, moved, text, parts = 360, key = 1, page = 15, least = null, most = null }) {
+  part.classList.add("gd-handle");
+  for (const [name, said] of [["tabindex", 0], ["role", "slider"], ["aria-label", label]]) part.setAttribute(name, said);
+  const to = (units) => {
+    const low = least === null ? -Infinity : Math.ceil(least * parts - 1e-9);
+    const high = most === null ? Infinity : Math.floor(most * parts + 1e-9);
+    const steps = Math.min(high, Math.max(low, Math.round(units * parts)));
+    set(new Fraction(BigInt(steps), BigInt(parts)));
+  };
+  const own = { refresh };
+  sheet.handles.push(own);
+
+  function refresh() {
+    part.setAttribute("aria-valuenow", String(Number(value())));
+    if (least !== null) part.setAttribute("aria-valuemin", String(least));
+    if (most !== null) part.setAttribute("aria-valuemax", String(most));
+    part.setAttribute("aria-valuetext", text());
+  }
+
+  const at = ({ clientX, clientY }) => {
+    const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(plane.getScreenCTM().inverse());
+    return [x, y];
+  };
+  let held = null;
+  part.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    part.setPointerCapture(event.pointerId);
+    held = { from: at(event), units: Number(value()) };
+    part.focus({ preventScroll: true });
+    event.preventDefault();
+  });
+  part.addEventListener("pointermove", (event) => {
+    if (!held) return;
+    const now = at(event);
+    held.units += moved(held.from, now);
+    held.from = now;
+    to(held.units);
+  });
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) part.addEventListener(end, () => (held = null));
+  part.addEventListener("keydown", (event) => {
+    const steps = { PageUp: page, PageDown: -page }[event.key] ?? (KEYS[event.key] ?? 0) * key;
+    if (steps) to(Number(value()) + steps / parts);
+    else if (event.key === "Home") to(0);
+    else return;
+    event.preventDefault();
+  });
+}
+
+/** `moved` of what turns about a centre: turns, the shorter way. */
+export const round = (centre) => ([x, y], [u, v]) => {
+  const [a, b] = centre();
+  const turn = (Math.atan2(v - b, u - a) - Math.atan2(y - b, x - a)) / TURN;
+  return turn - Math.round(turn);
+};

@@ -1,0 +1,16 @@
+// Diagrams within the pages of the documentation: `<gear-diagram kind="...">` with its data and a still in it.
+
+import { willis } from "./willis.js";
+
+const KINDS = { willis };
+
+class GearDiagram extends HTMLElement {
+  connectedCallback() {
+    if (this.classList.contains("gd-alive")) return;
+    const data = JSON.parse(this.querySelector("script[type='application/json']").textContent);
+    KINDS[this.getAttribute("kind")](this, data);
+    this.classList.add("gd-alive"); // the still goes
+  }
+}
+
+customElements.define("gear-diagram", GearDiagram);

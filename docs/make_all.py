@@ -22,6 +22,7 @@ import make_mesh_accuracy
 import make_missing
 import make_motion_accuracy
 import make_outputs
+import make_palette
 import make_ready_to_cut
 import make_shapes_accuracy
 import make_sources
@@ -60,6 +61,7 @@ def main() -> None:
         make_images,
         make_left_out,
         make_missing,
+        make_palette,
         make_outputs,
         make_ready_to_cut,
         make_sources,

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import (
-    PICTURES,
     File,
     FirstState,
     Force,
@@ -17,10 +16,12 @@ from geartrain.cli.common import (
     Names,
     Out,
     Seed,
+    Theme,
     Without,
     check_distinct_outputs,
     draw,
     give,
+    picture_sink,
     sink,
 )
 from geartrain.cli.long_runs import progress
@@ -53,6 +54,7 @@ def run(
     ] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the ranked causes to this file.")] = None,
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -62,7 +64,7 @@ def run(
     from geartrain.uncertainty.budget.train_budget import STAGES, BudgetQuestion, find_budget
 
     to = sink(out, force, (".md", ".html", ".json"))
-    picture = sink(plot, force, PICTURES, "--plot")
+    picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
     question = BudgetQuestion(
         tuple(output or ()),

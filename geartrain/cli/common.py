@@ -6,7 +6,7 @@ import json
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.errors import GearTrainError, Problem, printable
+from geartrain.scene.palette import ThemeName
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -29,6 +30,7 @@ Out = Annotated[
     typer.Option("--output-file", "-o", help="Write to this file instead of the terminal; - is standard output."),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
+Theme = Annotated[ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print without colour.")]
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
 Fast = Annotated[
     bool | None,
@@ -84,11 +86,13 @@ class Sink:
     path    None: standard output
     force   an existing file is written over
     plain   standard output was asked for by name, `-`: what goes there is what would go into a file
+    theme   colours of a picture that goes there
     """
 
     path: Path | None = None
     force: bool = False
     plain: bool = False
+    theme: ThemeName = "light"
 
     @property
     def suffix(self) -> str:
@@ -130,6 +134,11 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
         check_pages()
     destination(out, force)
     return Sink(out, force)
+
+
+def picture_sink(out: Path | None, force: bool, theme: ThemeName, option: str = "--plot") -> Sink:
+    """Where a picture goes, and its colours; made sure of before it is worked out. Raises `GearTrainError`."""
+    return replace(sink(out, force, PICTURES, option), theme=theme)
 
 
 def check_distinct_outputs(*sinks: Sink) -> None:
@@ -181,7 +190,7 @@ def draw(figure: Any, out: Sink) -> None:
     """A figure to a file, whole or not at all; as .svg where nothing says otherwise."""
     from geartrain.drawing import render
 
-    out.write(render(figure, out.suffix or ".svg"))
+    out.write(render(figure, out.suffix or ".svg", theme=out.theme))
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:

@@ -13,9 +13,10 @@ from geartrain.cli.common import (
     VERDICT,
     File,
     Force,
+    Theme,
     file_name,
     is_sound,
-    sink,
+    picture_sink,
     suffix_of,
     tell,
 )
@@ -34,6 +35,7 @@ def run(
     ] = None,
     state: Annotated[str | None, typer.Option("--state", help="The state; default the first, of lever all.")] = None,
     turns: Annotated[str, typer.Option("--turns", help="Turns of the input, such as 3, -1/4, 2.5.")] = "0",
+    theme: Theme = "light",
     force: Force = False,
     labels: Annotated[bool, typer.Option("--labels/--no-labels", help="Names and numbers.")] = True,
     output: Annotated[list[str] | None, typer.Option("--output", help="Of dials: only this; may be repeated.")] = None,
@@ -48,7 +50,7 @@ def run(
         out = file_name(f"{train.name}-{kind}", ".svg")
     elif not out.suffix and out != STANDARD_NAME:
         out = out.with_name(f"{out.name}.svg")
-    to = sink(out, force, PICTURES)
+    to = picture_sink(out, force, theme, "-o")
     from geartrain.drawing import picture
 
     figure = picture(train, kind, state, turned, labels, tuple(output or ()))

@@ -10,7 +10,6 @@ import typer
 
 from geartrain.cli.common import (
     INTERRUPTED,
-    PICTURES,
     VERDICT,
     Fast,
     File,
@@ -19,11 +18,13 @@ from geartrain.cli.common import (
     Json,
     Names,
     Out,
+    Theme,
     Without,
     check_distinct_outputs,
     draw,
     emit,
     give,
+    picture_sink,
     sink,
     tell,
 )
@@ -64,6 +65,7 @@ def run(
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Draw gaps, outputs ahead and behind, and spectrum to this file.")
     ] = None,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -72,7 +74,7 @@ def run(
     from geartrain.report.time_report import collect_time_report, describe_time_run
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
-    picture = sink(plot, force, PICTURES, "--plot")
+    picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
     if csv and to.path is not None:
         raise typer.BadParameter("the course is printed, or written: give --csv, or -o x.csv", param_hint="--csv")

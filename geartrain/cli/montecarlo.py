@@ -20,6 +20,7 @@ from geartrain.cli.common import (
     Seed,
     Sink,
     StateName,
+    Theme,
     Without,
     check_distinct_outputs,
     give,
@@ -62,6 +63,7 @@ def run(
     plot: Plot = None,
     picture: Picture = "errors",
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -76,7 +78,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
     check_trials(trials)
-    drawing = check_plot(plot, force, picture)
+    drawing = check_plot(plot, force, theme, picture)
     check_distinct_outputs(to, drawing)
     sweep = read_clearances(clearance) if clearance else []
     studies = TrialStudies(sweep, bool(output), sobol, tolerance, float(read_share(jam, "--jam")))

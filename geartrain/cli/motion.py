@@ -11,7 +11,6 @@ import typer
 
 from geartrain.cli.common import (
     INTERRUPTED,
-    PICTURES,
     STANDARD,
     Fast,
     File,
@@ -21,11 +20,13 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
+    Theme,
     Without,
     check_distinct_outputs,
     draw,
     emit,
     give,
+    picture_sink,
     sink,
     tell,
 )
@@ -60,6 +61,7 @@ def run(
     csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw errors and speeds to this file.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted -o x.csv.")] = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -68,7 +70,7 @@ def run(
     from geartrain.dynamics import MotionRun
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
-    picture = sink(plot, force, PICTURES, "--plot")
+    picture = picture_sink(plot, force, theme)
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if csv and to.path is not None:

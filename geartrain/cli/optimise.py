@@ -11,7 +11,6 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     File,
     FirstState,
@@ -19,10 +18,12 @@ from geartrain.cli.common import (
     Json,
     Out,
     Sink,
+    Theme,
     check_distinct_outputs,
     draw,
     emit,
     give,
+    picture_sink,
     sink,
 )
 from geartrain.cli.long_runs import progress
@@ -51,6 +52,7 @@ def run(
     state: FirstState = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw what each pair gains to this file.")] = None,
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -60,7 +62,7 @@ def run(
     from geartrain.synthesis import find_train_sizes
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
-    picture = sink(plot, force, PICTURES, "--plot")
+    picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
     ranges, limits = read_free(free or ()), read_limits(within or ())
     train = load(file)

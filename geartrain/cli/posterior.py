@@ -18,6 +18,7 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
+    Theme,
     as_json,
     check_distinct_outputs,
     emit,
@@ -69,6 +70,7 @@ def run(
     resume: Resume = False,
     plot: Plot = None,
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -77,7 +79,7 @@ def run(
     from geartrain.train.declaration_files import read_declaration
     from geartrain.uncertainty import infer_counts
 
-    to, drawing = sink(out, force, FORMS), check_plot(plot, force)
+    to, drawing = sink(out, force, FORMS), check_plot(plot, force, theme)
     check_distinct_outputs(to, drawing)
     if to.suffix == ".parquet" and to.path is not None:
         ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it

@@ -9,16 +9,17 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
     Sink,
+    Theme,
     check_distinct_outputs,
     draw,
     emit,
     give,
+    picture_sink,
     sink,
 )
 from geartrain.cli.long_runs import progress
@@ -52,6 +53,7 @@ def run(
     survey: Annotated[bool, typer.Option("--survey", help="The table of solids.")] = False,
     json: Json = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the sphere and its gears to this file.")] = None,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -60,7 +62,7 @@ def run(
     from geartrain.spherical.gear_sphere import GearSphere
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
-    picture = sink(plot, force, PICTURES, "--plot")
+    picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
     if survey or suggest:
         _check_listed(to, picture)

@@ -11,7 +11,6 @@ import typer
 from geartrain.cli.common import (
     GOOD,
     INTERRUPTED,
-    PICTURES,
     VERDICT,
     Fast,
     File,
@@ -21,10 +20,12 @@ from geartrain.cli.common import (
     Seed,
     Sink,
     StateName,
+    Theme,
     check_distinct_outputs,
     draw,
     emit,
     give,
+    picture_sink,
     sink,
     tell,
 )
@@ -66,6 +67,7 @@ def run(
         Path | None,
         typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
     ] = None,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -75,7 +77,7 @@ def run(
     from geartrain.report.torque_report import describe_torques
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
-    picture = sink(plot, force, PICTURES, "--plot")
+    picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
     tabled = csv or to.suffix == ".csv"
     if turns is None and (tabled or input_ is not None or trials is not None):

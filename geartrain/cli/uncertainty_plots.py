@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import PICTURES, Sink, draw, sink
+from geartrain.cli.common import Sink, draw, picture_sink
+from geartrain.scene.palette import ThemeName
 
 if TYPE_CHECKING:
     from geartrain.uncertainty import ToothCountPosterior
@@ -20,14 +21,14 @@ Picture = Annotated[
 ]
 
 
-def check_plot(plot: Path | None, force: bool, picture: str = "errors") -> Sink:
+def check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
     """Where a picture goes; one that there is not, or that may not be written, is refused before the work."""
     if plot is not None:
         from geartrain.drawing.monte_carlo_plots import PICTURES as ALL
 
         if picture not in ALL:
             raise typer.BadParameter(f"'{picture}' is no picture; use {', '.join(ALL)}", param_hint="--picture")
-    return sink(plot, force, PICTURES, "--plot")
+    return picture_sink(plot, force, theme)
 
 
 def draw_findings(findings: MonteCarloResult, picture: str, to: Sink) -> None:

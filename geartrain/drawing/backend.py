@@ -11,6 +11,7 @@ from io import BytesIO
 from threading import Lock
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
+from geartrain.scene.palette import ThemeName
 
 try:
     from matplotlib import rc_context
@@ -24,6 +25,8 @@ try:
     from matplotlib.path import Path
     from matplotlib.patheffects import Stroke, withStroke
     from matplotlib.text import Text
+
+    from geartrain.drawing.theme_colours import themed
 except ImportError:
     raise MissingExtraError("matplotlib", "plot", "a plot") from None
 
@@ -70,7 +73,7 @@ class ShownFigure(_Figure):
 Figure = ShownFigure
 
 
-def render(figure: _Figure, suffix: str, dots: float = 100.0) -> bytes:
+def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName = "light") -> bytes:
     """A figure as the bytes of an image file; the same figure gives the same bytes with one release of matplotlib.
 
     Parameters
@@ -81,6 +84,8 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0) -> bytes:
         The format.
     dots : float
         Resolution of a .png [dots per inch], above 0.
+    theme : {"light", "dark", "print"}
+        Colours: on white, on a dark ground, or black and greys for a printer without colours.
 
     Returns
     -------
@@ -106,7 +111,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0) -> bytes:
         if (shown := printable(text.get_text())) != text.get_text():
             text.set_text(shown)
     buffer = BytesIO()
-    with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}):
+    with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}), themed(figure, theme):
         figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
     data = buffer.getvalue()
     if kind != ".svg":

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.backend import Axes, Figure, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SMALL, TEXT, plain, short, write
+from geartrain.drawing.style import BLACK, SMALL, TEXT, plain, short, write
 from geartrain.errors import Problem, QuestionError
+from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from geartrain.uncertainty import PointerBudget, TrainBudget
 
-COLOURS = {"ratio": BLUE, "theory": PURPLE, "teeth": GREEN, "lost motion": ORANGE, "cutting": RED}
+COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
 MOST = 8
 """Pointers in a picture: the worst, by the sum of their causes."""
 _ROOM = 0.055  # share of a bar below which its size is not written in it

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Circle, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SMALL, sheet, title_of, write
+from geartrain.drawing.style import BLACK, GREY, SMALL, sheet, title_of, write
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene
 from geartrain.scene.dial_scale import DialScale, clock_point
+from geartrain.scene.palette import series_colour
 from geartrain.scene.pose import body_errors, turns_of
 
 if TYPE_CHECKING:
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
 _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
-_COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE)
 _INNER = 0.42  # radius of the innermost turn of a spiral over the outermost
 _TICK = 0.07  # inches: a border of a cell
 _FINE = 8.0  # points
@@ -153,7 +153,7 @@ def _draw_face(
     outer = _FACE / 2 - 0.35
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
-        color = _COLOURS[order % len(_COLOURS)]
+        color = series_colour(order)
         share = 1.0 if face.turns > 1 else 0.97 - 0.09 * (order % 8)
         _draw_pointer(axes, face, readings[at], centre, outer * share, color)
         if labels:

@@ -9,35 +9,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import BLACK, GREY, SMALL, TEXT, WIDTH, plain
 from geartrain.errors import Problem, QuestionError
+from geartrain.scene.palette import Dash, series_colour, series_dash
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-Dashes = tuple[float, tuple[float, ...]]
-Styles = Mapping[str, tuple[str, Dashes]]
+Styles = Mapping[str, tuple[str, Dash]]
 
 _SAMPLES = 301  # of each side
 _BESIDE = 1e-6  # of a side: nearer to the pitch point costs may be 0/0
 _MOST = 3.0  # of the greatest value of a middling form: what exceeds it leaves its panel
 _FLAT = 0.8  # of the greatest value: where the least is above it, a panel does not begin at 0
 _AWAY = 0.1  # of a pitch: infinite costs are followed up to what they are this far from the pitch point
-# colour and dashes both tell the forms apart, for print without colour
-_STYLES: tuple[tuple[str, Dashes], ...] = (
-    (BLACK, (0, ())),
-    (BLUE, (0, (6, 2))),
-    (RED, (0, (2, 1.5))),
-    (GREEN, (0, (8, 2, 1.5, 2))),
-    (PURPLE, (0, (4, 1.5, 1, 1.5, 1, 1.5))),
-    (ORANGE, (0, (1, 1))),
-    (SKY, (0, (10, 3))),
-    (GREY, (0, (3, 3))),
-    (BLACK, (0, (1, 2))),
-    (BLUE, (0, ())),
-)
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
@@ -73,7 +60,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
         plain(axes)
     pitch = next(iter(paths.values())).pitch
     unit = pitch.p / pi
-    styles = {name: _STYLES[at % len(_STYLES)] for at, name in enumerate(paths)}
+    styles = {name: (series_colour(at), series_dash(at)) for at, name in enumerate(paths)}
     for name, path in paths.items():
         X = _places(path)
         _line(panels[0, 0], name, styles, _flat(path.flank1(X)) / unit)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D
-from geartrain.drawing.style import BLACK, SMALL, TEXT, WIDTH
+from geartrain.drawing.style import BLACK, ORANGE, SMALL, TEXT, WIDTH
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: An
 
 def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
     """Below this line the bound alone says that a jam is rare."""
-    color = "#ff9e1b"
+    color = ORANGE
     # a bound of 0 has no logarithm; one that is far rarer than the line is as good
     rare = np.log10(np.clip(np.ma.masked_invalid(limit.T), 1e-9, 1.0))
     contour = axes.contour(x, y, rare, levels=[np.log10(_BOUND)], colors=color, linewidths=2.0)

@@ -11,17 +11,15 @@ import numpy as np
 from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.jam_map import jam_map_figure
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import GREY, SMALL, TEXT, WIDTH, plain, series_look
 from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
 from geartrain.errors import Problem, QuestionError
+from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.uncertainty import ClearanceCase, PointerErrorCourse, ProbabilityEstimate, SobolIndices, TrialResults
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-
-
-_LOOKS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (PURPLE, ":"), (ORANGE, "-"), (BLACK, "--"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,12 +53,11 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
         plain(axes)
         axes.set_xscale("log")
     for at, (name, each) in enumerate(estimates.items()):
-        color, dashes = _LOOKS[at % len(_LOOKS)]
-        look = {"color": color, "linestyle": dashes, "linewidth": 1.6, "marker": "o", "markersize": 3.5}
-        above.fill_between(each.trials, each.low, each.high, color=color, alpha=0.15, linewidth=0)
+        look = {**series_look(at), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
+        above.fill_between(each.trials, each.low, each.high, color=series_colour(at), alpha=0.15, linewidth=0)
         above.plot(each.trials, each.value, label=name, gid=name, **look)
         if each.truth is not None:
-            above.axhline(each.truth, color=color, linewidth=1.0, linestyle=":", gid=f"truth of {name}")
+            above.axhline(each.truth, color=series_colour(at), linewidth=1.0, linestyle=":", gid=f"truth of {name}")
         width = (each.high - each.low) / 2
         seen = width > 0
         below.plot(each.trials[seen], width[seen], gid=f"width of {name}", **look)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,21 +11,16 @@ import numpy as np
 from geartrain.drawing.backend import Axes, Figure, Patch
 from geartrain.drawing.style import (
     BLACK,
-    BLUE,
-    GREEN,
     GREY,
     HALO,
-    ORANGE,
     PALE,
-    PURPLE,
-    RED,
-    SKY,
     SMALL,
     TEXT,
     WIDTH,
     plain,
 )
 from geartrain.errors import Problem, QuestionError
+from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -49,8 +45,7 @@ _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "none": "",
 }
 _STANDS = "standstill"  # a fault with which the pair still turns
-_KNOWN = {"approach": BLUE, "recess": RED, "astride": GREEN, "approach+recess": PURPLE}
-_OTHERS = (SKY, ORANGE, GREEN, PURPLE, BLUE, RED)
+_KNOWN = ("approach", "recess", "astride", "approach+recess")  # ways of running that have a colour of their own
 _FEW = 60  # samples that are marked each
 _MANY = 2500  # cells of a map from which it is drawn as pixels in a vector file
 _REGION = 0.01  # of a map: a lesser region is not named
@@ -165,13 +160,13 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
     """The look of each verdict's band: coloured where the pair runs, grey and hatched where not."""
-    others = iter(_OTHERS * len(verdicts))
+    others = count(len(_KNOWN))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):
         if kind in _FAULTS:
             styles[kind] = {"facecolor": (PALE, 0.35), "edgecolor": (GREY, 0.6), "hatch": _FAULTS[kind], "linewidth": 0}
         else:
-            color = _KNOWN[kind] if kind in _KNOWN else next(others)
+            color = series_colour(_KNOWN.index(kind) if kind in _KNOWN else next(others))
             styles[kind] = {"facecolor": (color, 0.2), "edgecolor": "none", "linewidth": 0}
     return styles
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.drawing.backend import Figure, Polygon
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PALE, PURPLE, RED, SKY, SMALL
+from geartrain.drawing.style import BLACK, GREY, PALE, SMALL
+from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -19,7 +20,6 @@ _SIZE = 7.5  # inches
 _VIEW = (0.32, -0.43, 0.84)  # towards the reader
 _TOOTH = np.array([-0.30, -0.17, 0.17, 0.30])  # foot, tip, tip, foot, in pitches from the middle of a tooth
 _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
-_COLOURS = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
 
 
 def sphere_figure(
@@ -63,7 +63,7 @@ def sphere_figure(
     _draw_sphere(axes)
     for i in np.argsort(towards * np.cos(cones)):
         near = towards[i] > 0
-        colour = _COLOURS[kinds.index(configuration.kinds[i]) % len(_COLOURS)] if near else PALE
+        colour = series_colour(kinds.index(configuration.kinds[i])) if near else PALE
         ring = _outline(configuration, int(i), float(cones[i]), float(phases[i])) @ screen.T
         axes.add_patch(Polygon(ring[:, :2], facecolor=colour, edgecolor=BLACK, linewidth=0.5, alpha=1 if near else 0.5))
         if near:
@@ -107,6 +107,6 @@ def _legend(axes: Any, configuration: Configuration, kinds: list[str]) -> None:
     for at, kind in enumerate(kinds):
         number = configuration.kinds.count(kind)
         text = f"{kind}: {number} of {configuration.teeth[kind]} teeth"
-        axes.plot([], [], marker="o", linestyle="", color=_COLOURS[at % len(_COLOURS)], label=text)
+        axes.plot([], [], marker="o", linestyle="", color=series_colour(at), label=text)
     axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
     axes.set_title(configuration.title)

@@ -12,6 +12,7 @@ import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Stroke, withStroke
 from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.scene.palette import THEMES, series_colour, series_dash
 from geartrain.teeth.triangular.real_path import STANDSTILL
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -24,12 +25,19 @@ if TYPE_CHECKING:
 WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
 TEXT, SMALL = 11.0, 10.0  # points
 
-# colours that remain distinct to the colour-blind (Okabe and Ito)
-BLACK, GREY, PALE = "#222222", "#6e6e6e", "#bdbdbd"
-BLUE, SKY, GREEN, ORANGE, RED, PURPLE = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"
-HALO = (withStroke(linewidth=3.0, foreground="white"),)  # keeps text readable over lines
+_LIGHT = THEMES["light"]
+BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.fault
+FILL, SHADE, SKY = _LIGHT.fill, _LIGHT.shade, _LIGHT.band
+BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
+"""Of wheels, of carriers, of couplings, and of what else stands beside them."""
+HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
 LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
 PHASES = {APPROACH: BLUE, RECESS: RED, STANDSTILL: BLACK}
+
+
+def series_look(at: int) -> dict[str, Any]:
+    """Colour and dashes of the series at a place from 0 on, as lines take them."""
+    return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
 def pair_text(law: TriangularTransmission, friction: float | None = None) -> str:
@@ -97,7 +105,7 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
     """Words as they are, and a halo behind them: words with a halo of their own are mere outlines in a vector file."""
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
-    axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground="white"),), **behind)
+    axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground=WHITE),), **behind)
     axes.text(x, y, text, **how)
 
 

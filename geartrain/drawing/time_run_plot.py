@@ -12,10 +12,7 @@ from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
-    GREEN,
-    ORANGE,
     PALE,
-    PURPLE,
     RED,
     SMALL,
     TEXT,
@@ -23,6 +20,7 @@ from geartrain.drawing.style import (
     kept_extremes,
     legend_above,
     plain,
+    series_look,
     short,
     write,
 )
@@ -36,8 +34,8 @@ if TYPE_CHECKING:
 _PAIRS = 6  # whose gaps are drawn: those most apart
 _STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair
 _MOST = 4000  # points drawn of a course: of each stretch the first, its least and its greatest
-_COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
-"""Of outputs; others are left out of the picture, the least moved first."""
+_OUTPUTS = 4
+"""Outputs drawn; others are left out of the picture, the least moved first."""
 _OPEN = 1e-7  # rad: less is contact
 _SEEN = 1e-8  # rad: less is no motion of an output
 _SMALL = 0.1  # of the play: lesser gaps are drawn larger
@@ -138,7 +136,7 @@ def _moving(run: TimeRun) -> list[str]:
     lead = {each.output: max(each.ahead, each.behind) for each in run.leads}
     swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in lead}
     names = [name for name in lead if max(lead[name], swing[name]) > _SEEN]
-    return sorted(names, key=lambda name: (lead[name], swing[name]), reverse=True)[: len(_COLOURS)]
+    return sorted(names, key=lambda name: (lead[name], swing[name]), reverse=True)[:_OUTPUTS]
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
@@ -201,10 +199,10 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
 def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     first = int(np.searchsorted(run.time, run.skip))
     across = _across(run)
-    for name, colour in zip(moving, _COLOURS, strict=False):
+    for place, name in enumerate(moving):
         angle = np.degrees(run.ahead[name][first:])
         kept = kept_extremes(angle, _MOST)
-        panel.plot(across[first:][kept], angle[kept], color=colour, linewidth=0.8, label=short(name))
+        panel.plot(across[first:][kept], angle[kept], linewidth=0.8, **series_look(place), label=short(name))
     if first < len(across):
         panel.set_xlim(across[first], across[-1])
     legend_above(panel, 4)
@@ -215,9 +213,9 @@ def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
 def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     first = int(np.searchsorted(run.time, run.skip))
     top = 0.0
-    for name, colour in zip(moving, _COLOURS, strict=False):
+    for place, name in enumerate(moving):
         frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
-        panel.plot(frequency[1:], np.degrees(size[1:]), color=colour, linewidth=0.8, label=short(name))
+        panel.plot(frequency[1:], np.degrees(size[1:]), linewidth=0.8, **series_look(place), label=short(name))
         top = max(top, float(np.degrees(size[1:]).max(initial=0.0)))
     if top:
         panel.legend(loc="upper right", frameon=False, fontsize=SMALL)

@@ -14,9 +14,7 @@ from geartrain.drawing.style import (
     GREY,
     ORANGE,
     PALE,
-    PURPLE,
     RED,
-    SKY,
     SMALL,
     TEXT,
     WIDTH,
@@ -26,6 +24,7 @@ from geartrain.drawing.style import (
     short,
 )
 from geartrain.errors import Problem, QuestionError
+from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from geartrain.dynamics import TorqueCycle, TorqueExtreme
@@ -36,7 +35,7 @@ _MOST = 6000  # positions drawn of the torque: of each stretch the first, its le
 _BINS = 900  # pixels: stretches of the run over which losses are averaged where there are more positions
 _LEAST = 1e-9  # of all that is lost: less is rounding
 _CUT = 1.5  # times the torque that is exceeded in a fiftieth of the run: near a lock it has no bound
-_COLOURS = (ORANGE, SKY, GREEN, PURPLE, BLUE, RED)
+_MOST_LOSSES = 6
 """Of the parts that lose most; all others are drawn as one, in grey."""
 
 
@@ -178,8 +177,8 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
     losing = [name for name in names if found.parts[name].loss > _LEAST * lost]
     ranked = sorted(losing, key=lambda name: -found.parts[name].loss)
     rows = {name: values[names.index(name)] for name in names}
-    shown = ranked[: len(_COLOURS)] if len(ranked) <= len(_COLOURS) else ranked[: len(_COLOURS) - 1]
-    losses = [_Loss(short(name, 24), rows[name], colour) for name, colour in zip(shown, _COLOURS, strict=False)]
+    shown = ranked[:_MOST_LOSSES] if len(ranked) <= _MOST_LOSSES else ranked[: _MOST_LOSSES - 1]
+    losses = [_Loss(short(name, 24), rows[name], series_colour(at)) for at, name in enumerate(shown)]
     if rest := ranked[len(shown) :]:
         losses.append(_Loss(f"{len(rest)} others", np.sum([rows[name] for name in rest], axis=0), GREY))
     return losses

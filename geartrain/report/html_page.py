@@ -15,6 +15,7 @@ from urllib.parse import urlsplit
 
 from geartrain.errors import MissingExtraError
 from geartrain.report.document import CitedText, Document
+from geartrain.scene.palette import THEMES
 
 WORDS = {"viewer": "The train turning", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")
@@ -73,7 +74,7 @@ def to_html(documents: Sequence[Document]) -> str:
             for page in documents
         ],
         words=WORDS,
-        style=Markup(_shipped("page.css")),
+        style=Markup(_colours() + _shipped("page.css")),
         script=Markup(script),
         policy=_policy(script, framed=any(document.aside.viewer for document in documents)),
     )
@@ -167,6 +168,12 @@ def _policy(script: str, framed: bool) -> str:
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"
+
+
+def _colours() -> str:
+    """The palette, light and dark as the reader's system is."""
+    light, dark = THEMES["light"].css, THEMES["dark"].css
+    return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n"
 
 
 def _shipped(name: str) -> str:

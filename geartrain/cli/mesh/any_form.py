@@ -11,15 +11,15 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
-    Sink,
+    Theme,
     check_distinct_outputs,
     draw,
     give,
+    picture_sink,
     sink,
 )
 from geartrain.cli.mesh.form_options import (
@@ -101,13 +101,16 @@ def _run(
         ),
     ] = None,
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
     **own: Any,
 ) -> None:
     from geartrain.report.pair_page import collect_pair, describe_pair
 
-    to, picture, outlined = _sinks(out, plot, profile, force)
+    to, picture = sink(out, force, (".md", ".html", ".json")), picture_sink(plot, force, theme)
+    outlined = profile_sink(profile, force)
+    check_distinct_outputs(to, outlined, picture)
     angle, size = read_shaft_angle(internal, bevel), read_module(module, backlash)
     rub = read_pair_friction(friction)
     wheels = two_wheels(teeth, rub.coefficient, size, internal or model.ringed, angle, read_helix(helix, angle))
@@ -131,11 +134,3 @@ def _figure(mesh: GearMesh) -> Figure:
     if mesh.path is not None:
         return shapes_figure({mesh.form: mesh.path})
     return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {mesh.name}")
-
-
-def _sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:
-    """Where the page, the picture and the outline of a pair go; what cannot be written is refused before the work."""
-    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    outlined = profile_sink(profile, force)
-    check_distinct_outputs(to, outlined, picture)
-    return to, picture, outlined

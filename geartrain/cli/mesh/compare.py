@@ -9,14 +9,15 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
+    Theme,
     check_distinct_outputs,
     draw,
     give,
+    picture_sink,
     sink,
 )
 from geartrain.cli.mesh.form_options import read_wheels
@@ -43,13 +44,14 @@ def run(
         Path | None, typer.Option("--plot", help="Draw flanks, paths of contact and costs of all forms to this file.")
     ] = None,
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
     """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
     from geartrain.report.tooth_form_comparison import describe_form_comparison
 
-    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    to, picture = sink(out, force, (".md", ".html", ".json")), picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
     wheels = read_wheels(teeth, internal, bevel)
     names = list(dict.fromkeys(part.strip() for part in forms.split(",") if part.strip()))

@@ -14,17 +14,18 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
     Sink,
+    Theme,
     as_json,
     check_distinct_outputs,
     draw,
     emit,
     give,
+    picture_sink,
     sink,
     tell,
 )
@@ -233,6 +234,7 @@ def _run(
     bore: Bore = None,
     tolerance: Tolerance = FINE,
     json: Json = False,
+    theme: Theme = "light",
     out: Out = None,
     force: Force = False,
     **own: Any,
@@ -240,8 +242,8 @@ def _run(
     from geartrain.report.pair_page import collect_pair, describe_pair
 
     to = sink(out, force, (".csv", ".json") if vary else (".md", ".html", ".json"))
-    picture = sink(plot, force, PICTURES, "--plot")
-    drawing = sink(teeth_plot, force, PICTURES, "--teeth-plot")
+    picture = picture_sink(plot, force, theme)
+    drawing = picture_sink(teeth_plot, force, theme, "--teeth-plot")
     outlined = profile_sink(profile, force)
     check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")

@@ -1,11 +1,12 @@
 // What things are painted with where nobody says otherwise.
 
+// the hands of one dial in order, as in palette.css
+export { SERIES as NEEDLES } from "./series.js";
+
 export const BROKEN = "#c2281d";
 export const CHOSEN = "#1f6feb";
 export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
 export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };
-// the hands of one dial in order, as in page.css
-export const NEEDLES = ["#1b1813", "#9a5b00", "#0d568a", "#a3271c", "#3d6b2c", "#6a4fa3", "#11706f", "#97306f", "#7d7a1e", "#5a3a22"];
 export const STATUS = { surviving: "#4f8a6d", reconstructed: "#c9973f", hypothetical: "#8f7fb8", "": "#9aa3ad" };
 
 const mix = (one, other, share) =>

@@ -1,0 +1,117 @@
+"""A figure in the colours of another theme than the light one, in which all are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import Collection
+from matplotlib.colors import to_hex, to_rgba
+from matplotlib.figure import Figure
+
+from geartrain.scene.palette import THEMES, Theme, ThemeName
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+Rgba = tuple[float, float, float, float]
+_COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
+# linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
+# space for image processing (Oklab)
+_CONES = np.array([[0.4122214708, 0.5363325363, 0.0514459929],
+                   [0.2119034982, 0.6806995451, 0.1073969566],
+                   [0.0883024619, 0.2817188376, 0.6299787005]])  # fmt: skip
+_OPPONENTS = np.array([[0.2104542553, 0.7936177850, -0.0040720468],
+                       [1.9779984951, -2.4285922050, 0.4505937099],
+                       [0.0259040371, 0.7827717662, -0.8086757660]])  # fmt: skip
+
+
+@contextmanager
+def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
+    """The figure in the theme's colours, and afterwards as it was."""
+    if name == "light":
+        yield
+        return
+    figure.draw_without_rendering()  # ticks and their words are made when they are first drawn
+    undo: list[tuple[Callable[[Any], object], Any]] = []
+    try:
+        for artist in _all(figure):
+            _paint(artist, name, undo)
+        yield
+    finally:
+        for put, old in reversed(undo):
+            put(old)
+
+
+def _all(artist: Artist) -> Iterator[Artist]:
+    yield artist
+    for child in artist.get_children():
+        yield from _all(child)
+
+
+def _paint(artist: Artist, name: ThemeName, undo: list[tuple[Callable[[Any], object], Any]]) -> None:
+    """Every colour of one artist but for those that a scale gives to values."""
+    if isinstance(artist, (Figure, Axes)) or (isinstance(artist, Collection) and artist.get_array() is not None):
+        kinds: Sequence[str] = ()  # theirs are those of their patches
+    else:
+        kinds = [kind for kind in _COLOURS if hasattr(artist, f"get_{kind}") and hasattr(artist, f"set_{kind}")]
+    olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # before any is set: a marker follows its line
+    for kind, old in zip(kinds, olds, strict=True):
+        put = getattr(artist, f"set_{kind}")
+        undo.append((put, old))
+        put(_themed_all(old, name))
+    for effect in artist.get_path_effects() or ():
+        gc = getattr(effect, "_gc", {})  # matplotlib has no public way to ask a stroke for its colour
+        if "foreground" in gc:
+            undo.append((partial(gc.__setitem__, "foreground"), gc["foreground"]))
+            gc["foreground"] = to_hex(themed_colour(to_rgba(gc["foreground"]), name))
+
+
+def _themed_all(colours: Any, name: ThemeName) -> Any:
+    """One colour, or the rows of a collection's."""
+    if isinstance(colours, np.ndarray) and colours.ndim == 2:
+        return [themed_colour(tuple(map(float, row)), name) for row in colours]  # type: ignore[arg-type]
+    return themed_colour(to_rgba(colours), name) if not _none(colours) else colours
+
+
+def _none(colour: Any) -> bool:
+    return isinstance(colour, str) and colour in ("none", "auto")
+
+
+def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
+    """What stands for a colour of the light theme: the palette's own, or what is as far between paper and ink."""
+    light, theme = THEMES["light"], THEMES[name]
+    known = dict(zip(_named(light), _named(theme), strict=True))
+    found = known.get(to_hex(colour[:3]))
+    rgb = np.array(to_rgba(found)[:3]) if found else _between(np.array(colour[:3]), theme)
+    red, green, blue = map(float, rgb)
+    return red, green, blue, colour[3]
+
+
+def _named(theme: Theme) -> Sequence[str]:
+    own = (theme.paper, theme.ink, theme.quiet, theme.line, theme.fault, theme.fill, theme.shade, theme.band)
+    return (*theme.series, *own)
+
+
+def _between(rgb: Floats, theme: Theme) -> Floats:
+    """As light against the theme's paper and ink as against white and black; of the same hue, in print of none."""
+    paper, ink = (_oklab(np.array(to_rgba(each)[:3])) for each in (theme.paper, theme.ink))
+    light, *hue = _oklab(rgb)
+    lightness = ink[0] + light * (paper[0] - ink[0])
+    strong = 0.0 if theme is THEMES["print"] else 1.0
+    return _rgb(np.array([lightness, *(strong * np.array(hue))]))
+
+
+def _oklab(rgb: Floats) -> Floats:
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return np.asarray(_OPPONENTS @ np.cbrt(_CONES @ linear))
+
+
+def _rgb(lab: Floats) -> Floats:
+    linear = np.linalg.solve(_CONES, np.linalg.solve(_OPPONENTS, lab) ** 3).clip(0.0, 1.0)
+    return np.asarray(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))

@@ -1,0 +1,120 @@
+"""The one palette: of drawings and plots, of reports, and of the page that turns; light, dark and for print.
+
+Series are told apart by colour, and by dashes too, so that the two never repeat together. Any two of the ten colours,
+and each from the ink, stay apart for readers who see no red or no green (tests/scene/test_palette.py measures it by
+CIEDE2000 under the simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for simulation of
+color vision deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291); all can be read as words on their paper.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+ThemeName = Literal["light", "dark", "print"]
+Dash = Literal["-"] | tuple[int, tuple[float, ...]]
+
+_DASHES: tuple[Dash, ...] = ("-", (0, (6, 2)), (0, (1.2, 1.4)), (0, (6, 1.6, 1.2, 1.6)), (0, (3, 1.2)))
+
+
+@dataclass(frozen=True, slots=True)
+class Theme:
+    """Colours as #rrggbb by what they are for.
+
+    desk     behind papers: the ground of a page
+    paper    what is drawn and written on
+    ink      lines and words
+    quiet    words that step back
+    line     lines that step back: grids, borders
+    accent   headings and links of a page
+    fault    what is wrong
+    fill     faces of what a picture is of; `shade` where they turn away; `band`, of what flows or is marked
+    series   ten, in order
+    """
+
+    desk: str
+    paper: str
+    ink: str
+    quiet: str
+    line: str
+    accent: str
+    fault: str
+    fill: str
+    shade: str
+    band: str
+    series: tuple[str, ...]
+
+    @property
+    def css(self) -> str:
+        """Custom properties of pages, `hand-N` for the series."""
+        named = {
+            "ink": self.ink,
+            "quiet": self.quiet,
+            "paper": self.desk,
+            "card": self.paper,
+            "line": self.line,
+            "accent": self.accent,
+            "bad": self.fault,
+            **{f"hand-{at}": colour for at, colour in enumerate(self.series)},
+        }
+        return " ".join(f"--{name}: {colour};" for name, colour in named.items())
+
+
+THEMES: dict[ThemeName, Theme] = {
+    "light": Theme(
+        desk="#fbfaf6",
+        paper="#ffffff",
+        ink="#211e18",
+        quiet="#655f52",
+        line="#c9c3b4",
+        accent="#7a4a12",
+        fault="#b3261e",
+        fill="#edf3f9",
+        shade="#6f97bd",
+        band="#7fbce6",
+        series=(
+            "#0072b2", "#a05a00", "#bb2288", "#227755", "#440088",
+            "#772200", "#0000ee", "#dd2266", "#005544", "#442244",
+        ),
+    ),
+    "dark": Theme(
+        desk="#17150f",
+        paper="#201d16",
+        ink="#ece6d8",
+        quiet="#b0a894",
+        line="#4a4436",
+        accent="#e5b06a",
+        fault="#ff9a8f",
+        fill="#43566a",
+        shade="#253341",
+        band="#2f6690",
+        series=(
+            "#6ab7ff", "#ffb000", "#dd5577", "#bbbb88", "#6677ff",
+            "#998800", "#aaeeff", "#cc99aa", "#eeffaa", "#aa77aa",
+        ),
+    ),
+    "print": Theme(
+        desk="#ffffff",
+        paper="#ffffff",
+        ink="#000000",
+        quiet="#555555",
+        line="#bbbbbb",
+        accent="#000000",
+        fault="#000000",
+        fill="#ffffff",
+        shade="#d0d0d0",
+        band="#d8d8d8",
+        series=("#000000", "#737373") * 5,
+    ),
+}  # fmt: skip
+
+
+def series_colour(at: int, theme: ThemeName = "light") -> str:
+    """The colour of the series at a place from 0 on."""
+    series = THEMES[theme].series
+    return series[at % len(series)]
+
+
+def series_dash(at: int) -> Dash:
+    """Its dashes [line widths]: with the colour they repeat after fifty; in print, of two greys, after ten."""
+    return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

@@ -1,0 +1,56 @@
+"""Every picture in its themes: nothing of the light one is left, and the figure stays as it was."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import call
+from shipped import train as load
+
+pytest.importorskip("matplotlib")
+
+from PIL import Image
+
+from geartrain.drawing import picture, render
+from geartrain.drawing.train_pictures import KINDS
+from geartrain.scene.palette import THEMES
+
+_COLOUR = re.compile(rb"#[0-9a-f]{6}")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_dark_picture_holds_none_of_the_colours_of_the_light_one(kind: str) -> None:
+    figure = picture(load("planetary"), kind, load("planetary").states[0])  # type: ignore[arg-type]
+    dark = {found.decode() for found in _COLOUR.findall(render(figure, ".svg", theme="dark"))}
+    light = THEMES["light"]
+    assert not dark & {light.paper, light.ink, light.quiet, light.line, light.fault, *light.series, "#000000"}
+    assert THEMES["dark"].paper in dark
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_picture_for_print_is_grey(kind: str) -> None:
+    figure = picture(load("planetary"), kind, load("planetary").states[0])  # type: ignore[arg-type]
+    for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
+        red, green, blue = (int(found[at : at + 2], 16) for at in (1, 3, 5))
+        assert max(red, green, blue) - min(red, green, blue) <= 2, found
+
+
+def test_a_figure_is_as_it_was_after_a_theme() -> None:
+    figure = picture(load("al-biruni-box-of-the-moon"), "plan", None, Fraction(1, 3))
+    before = render(figure, ".svg")
+    assert render(figure, ".svg", theme="dark") != before
+    assert render(figure, ".svg", theme="print") != before
+    assert render(figure, ".svg") == before
+
+
+@pytest.mark.parametrize(
+    ("theme", "paper"), [("light", (255, 255, 255)), ("dark", (32, 29, 22)), ("print", (255,) * 3)]
+)
+def test_the_command_draws_on_the_paper_of_its_theme(theme: str, paper: tuple[int, int, int], tmp_path: Path) -> None:
+    target = tmp_path / "worm.png"
+    assert call("draw", "worm", "-o", target, "--theme", theme).exit_code == 0
+    assert tuple(np.asarray(Image.open(target).convert("RGB"))[0, 0]) == paper

@@ -6,7 +6,7 @@ import csv
 import io
 from collections.abc import Iterator
 from itertools import combinations, pairwise
-from math import hypot
+from math import dist, hypot
 from typing import Any
 
 import numpy as np
@@ -83,6 +83,7 @@ CLEAR = [
     "moon-triangular",
     "norton-planetary",
     "byzantine-sundial-calendar",
+    "nrel-grc-750",
 ]
 
 
@@ -213,6 +214,17 @@ def test_pillars_keep_clear_of_wheels_and_pivots_and_hold_all_axes() -> None:
                 assert hypot(at[0] - axis.point[0], at[1] - axis.point[1]) - 4 >= 4
     ring = shapely.Polygon(workpiece("watch-going-train").frame.pillars).convex_hull  # type: ignore[union-attr]
     assert all(ring.contains(shapely.Point(*axis.point[:2])) for axis in work.layout.axes.values())
+
+
+@pytest.mark.parametrize("name", ["nrel-grc-750", "planetary-24-18-60", "wolfrom-175"])
+def test_no_hole_of_a_plate_runs_into_another_and_posts_keep_clear_of_axes(name: str) -> None:
+    """An axis 52.5 mm from that of a ring, whose rim is as far out: a post of the ring stood in its hole."""
+    frame = workpiece(name).frame
+    assert frame is not None
+    assert frame.posts
+    for plate in frame.plates():
+        for one, other in combinations(plate.holes, 2):
+            assert dist(one.at, other.at) > (one.diameter + other.diameter) / 2, (plate.name, one, other)
 
 
 # ------------------------------------------------------------------------------------------------------ list, README

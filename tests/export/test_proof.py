@@ -283,6 +283,34 @@ def test_the_readme_begins_with_the_verdict_and_has_a_row_for_every_mesh() -> No
     assert all(0.1 <= float(row[1]) <= 0.105 for row in rows)
 
 
+def test_what_check_says_stands_in_the_verdict_with_its_rule() -> None:
+    """Seven planets stand in two layers where no tips meet; what the declaration says is told all the same."""
+    model = declared("""
+links:
+  frame: {wheels: {ring: {teeth: 60, internal: true}}}
+  sun: {wheels: {s: 24, spare: 33}}
+  planet: {wheels: {p: 18}, copies: 7}
+  carrier: {}
+revolutes: {main: [frame, sun, carrier], planet: [carrier, planet]}
+gears: [s ~ p, p ~ ring]
+inputs: {sun: 1}
+""")
+    found = prove_train(model)
+    assert {each.rule for each in model.sized.build_findings} == {"A3", "W1"}
+    assert set(model.sized.build_findings) <= set(found.findings)
+    assert found.verdict.startswith("not ready to cut: the tips of 7 planets 'p' overlap")
+    text = export_files(model, ["svg"])[-1].make().decode()
+    way, noted = text.index("In the way:"), text.index("Noted:")
+    assert way < text.index("[A3]") < noted < text.index("[W1]")
+    assert text.count("the tips of 7 planets") == 1
+
+
+def test_what_is_made_by_hand_is_listed_apart() -> None:
+    text = export_files(work("lantern-mill"), ["svg"])[-1].make().decode()
+    listed = text.split("to be made by hand:\n\n")[1].split("\n\n")[0].splitlines()
+    assert [re.findall(r"'(\w+)'", line)[0] for line in listed] == ["pit72", "water"]
+
+
 def test_a_readme_that_proves_nothing_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("geartrain.export.file_set.proof_is_installed", lambda: False)
     text = export_files(work("planetary-24-18-60", module=2.0), ["svg"])[-1].make().decode()

@@ -99,7 +99,8 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     names = {pair: (wheels[0].wheel, wheels[1].wheel) for pair, (_, wheels, _) in paired.items()}
     freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
     watch()
-    findings = [*_uncut(work), *_frame(work), *cut.findings, *(found for mesh in meshes for found in mesh.findings)]
+    findings = [*work.sized.build_findings, *_uncut(work), *_frame(work), *cut.findings]
+    findings += [found for mesh in meshes for found in mesh.findings]
     findings += [*freedom.findings, *prove_solids(work, watch)]
     ranked = sorted(findings, key=lambda found: not found.is_error)
     return TrainProof(tuple(meshes), freedom.links, tuple(ranked))

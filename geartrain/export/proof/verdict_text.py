@@ -11,16 +11,25 @@ from geartrain.export.proof.train_proof import TrainProof
 from geartrain.export.proof.turned_pair import NOTHING
 from geartrain.kinematics.buildability import BuildFinding
 
+_GROUPS = "In the way:", "Not among the files, to be made by hand:", "Noted:"
+_BY_HAND = "W3", "S1"  # notes that a wheel has no drawing, or an axis no bearing
 _HEADER = "| mesh | play declared | least play | overlap mm2 | contact ratio | clearance | tip width | verdict |"
 
 
 def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
     """The verdict and what is in the way; `cell` makes a text safe in Markdown."""
     lines = [f"**{'Ready to cut.' if proof.is_ready else 'Not ready to cut.'}**", ""]
-    errors, notes = ([each for each in proof.findings if each.is_error is grave] for grave in (True, False))
-    for title, found in (("In the way:", errors), ("Noted:", notes)):
-        lines += [title, "", *_items(found, cell), ""] if found else []
+    groups: dict[str, list[BuildFinding]] = {}
+    for found in proof.findings:
+        groups.setdefault(_group(found), []).append(found)
+    for title in _GROUPS:
+        lines += [title, "", *_items(groups[title], cell), ""] if title in groups else []
     return lines
+
+
+def _group(found: BuildFinding) -> str:
+    """Which of the lists a finding stands in."""
+    return _GROUPS[0 if found.is_error else 1 if found.rule in _BY_HAND else 2]
 
 
 def _items(findings: list[BuildFinding], cell: Callable[[str], str]) -> list[str]:

@@ -139,18 +139,24 @@ class FramePlates:
         names = ("back", "front") if outside > 0 else ("front", "back")
         return dict(zip(names, (places.back, places.front), strict=True))
 
-    def _frame_holes(self, faces: tuple[float, float]) -> Iterator[Hole]:
+    def _frame_holes(self, faces: tuple[float, float]) -> list[Hole]:
+        own = self._tenon_holes(faces)
+        return [*own, *self._apart(self._bearings(faces), own)]
+
+    def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
+        """Holes of pillars and posts."""
         press = self.plan.process.press
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
             pillars = [*pillars, *self.bridge_pillars]
-        for at in pillars:
-            yield Hole("pillar", at, 2 * _TENON * PILLAR + press)
-        for post in self.posts:
-            if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]:
-                yield Hole("post", post.at, 2 * post.bands[0].radius + press)
-        bearings = (self._bearing(column, faces) for column in self.plan.columns)
-        yield from self._apart((hole for hole in bearings if hole), ())
+        reaching = [post for post in self.posts if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]]
+        return [
+            *(Hole("pillar", at, 2 * _TENON * PILLAR + press) for at in pillars),
+            *(Hole("post", post.at, 2 * post.bands[0].radius + press) for post in reaching),
+        ]
+
+    def _bearings(self, faces: tuple[float, float]) -> list[Hole]:
+        return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
         """The hole in which an axis is borne, or through which it passes."""
@@ -256,18 +262,19 @@ class FramePlates:
             )
 
     def _spots(self, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-        """Three places on a rim that nothing between it and the plate comes near to, evenly where that is free."""
+        """Three places on a rim that no axis, and nothing between it and the plate, comes near to; evenly if free."""
         low, high = sorted((sum(plate) / 2, ring.middle))
         between = [disc for disc in self.plan.discs if low < disc.middle < high and disc.name != ring.name]
         circles = [_swept(disc) for disc in between]
+        reach = min(plate[0], ring.low), max(plate[1], ring.high)
+        circles += [(column.at, column.radius(*reach)) for column in self.plan.columns]
         tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
         return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
     def problems(self) -> Iterator[Problem]:
         """Holes that run into each other, and posts in the way of wheels."""
         for side, faces in self.sides.items():
-            bearings = [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
-            yield from self._lost(f"the {side} plate", bearings, [])
+            yield from self._lost(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:
             yield from self._lost(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
         yield from self._blocked_posts()

@@ -45,8 +45,10 @@ _WEAR = (
     "of shape and of load on the way are not in it."
 )
 _ARBOR = (
-    "The forces of all meshes as if they pulled one way in the middle of the span, and the whole of it on one pivot: "
-    "where wheels stand is not looked at, so that this is an upper bound. Pivots: force over diameter times length."
+    "The forces of all meshes as if they pulled one way, where that bends most between two bearings; with them the "
+    "couples of what pushes along the axis at the radii of the wheels, and the whole on one pivot: where wheels stand "
+    "is not looked at, so that this is an upper bound. Pivots: force over diameter times length; shoulder: the thrust "
+    "on the ring that an arbor has round its pivot."
 )
 
 
@@ -280,10 +282,14 @@ def _range(found: WearRange) -> str:
 def _arbors(arbors: Sequence[ArborStrength]) -> Table:
     rows = [
         (
-            *(each.link, each.material, figure(each.force, 4), figure(each.bending, 4), figure(each.torsion, 4)),
-            *(figure(each.stress, 4), figure(each.pivot_pressure, 4), figure(each.safety, 3)),
+            *(each.link, each.material, figure(each.force, 4), figure(each.thrust, 4), figure(each.bending, 4)),
+            *(figure(each.torsion, 4), figure(each.stress, 4), figure(each.pivot_pressure, 4)),
+            *(figure(each.shoulder_pressure, 4), figure(each.safety, 3)),
         )
         for each in arbors
     ]
-    header = ("arbor", "material", "force (N)", "bending", "torsion", "both (MPa)", "pivot (MPa)", "safety")
+    header = (
+        *("arbor", "material", "force (N)", "thrust (N)", "bending", "torsion", "both (MPa)", "pivot (MPa)"),
+        *("shoulder (MPa)", "safety"),
+    )
     return Table(header, rows)

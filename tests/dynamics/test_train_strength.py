@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
-from math import cos, pi, radians, sqrt
+from math import cos, pi, radians, sqrt, tan
 
+import numpy as np
 import pytest
 from commands import ended
 from hypothesis import given
 from hypothesis import strategies as st
 
 import geartrain
+from geartrain.dynamics.strength.arbor_strength import greatest_moment
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report, collect_strength_report, describe_strength
 
@@ -89,6 +91,66 @@ def test_an_arbor_is_a_round_bar_bent_in_its_middle() -> None:
     assert (arbor.force, arbor.bending, arbor.torsion) == pytest.approx((force, bending, torsion), rel=1e-6)
     assert arbor.stress == pytest.approx(sqrt(bending**2 + 3 * torsion**2), rel=1e-6)
     assert arbor.pivot_pressure == pytest.approx(force / 80, rel=1e-6)
+
+
+def bent(loads: list[tuple[float, float, float]], span: float) -> float:
+    """The greatest moment of a beam on two bearings under (place, force, couple), by equilibrium at each section."""
+    right = sum(force * at + couple for at, force, couple in loads) / span
+    left = sum(force for _, force, _ in loads) - right
+    ends = [at + side * 1e-9 for at, _, _ in loads for side in (-1, 1)]
+    return max(abs(left * x - sum(force * (x - at) - couple for at, force, couple in loads if at < x)) for x in ends)
+
+
+@given(st.lists(st.tuples(st.floats(0.02, 0.98), st.floats(-9, 9), st.floats(-200, 200)), min_size=1, max_size=4))
+def test_no_place_of_wheels_bends_an_arbor_more_than_its_bound(loads: list[tuple[float, float, float]]) -> None:
+    span = 40.0
+    placed = [(at * span, force, couple) for at, force, couple in loads]
+    force, couple = (sum(abs(each[k]) for each in placed) for k in (1, 2))
+    assert bent(placed, span) <= greatest_moment(force, couple, span) * (1 + 1e-9) + 1e-6
+
+
+@pytest.mark.parametrize("couple", [0.0, 100.0, 300.0, 399.0, 500.0])
+def test_one_wheel_bends_as_much_as_the_bound_at_its_worst_place(couple: float) -> None:
+    found = max(bent([(at, 10.0, couple)], 40.0) for at in np.linspace(1e-6, 40 - 1e-6, 4001))
+    assert found == pytest.approx(greatest_moment(10.0, couple, 40.0), rel=1e-3)
+
+
+CROSSED_ARBOR = """
+axes:
+  A: {direction: [0, 0, 1], position: [0 mm, 0 mm, 0 mm]}
+  B: {direction: [0, 1, 0], position: [42.426406871 mm, 0 mm, 0 mm]}
+material: steel
+face_width: 12 mm
+links:
+  frame: {}
+  a:
+    arbor: {diameter: 8 mm, span: 60 mm, pivot: 5 mm, pivot_length: 6 mm, material: steel}
+    wheels: {p: {teeth: 20, helix_angle: 45 deg, hand: right, module: 1.5 mm}}
+  b: {wheels: {w: {teeth: 20, helix_angle: 45 deg, hand: right, module: 1.5 mm}}}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [{pair: [p, w]}]
+inputs: {a: 1}
+loads: {a: 1 N m}
+solve_for: b
+"""
+
+
+def test_what_pushes_along_an_arbor_bends_it_and_presses_on_its_shoulder() -> None:
+    """45 degrees without friction: as much along as round, 1 N m at 21.213 mm; apart, tan 20 over cos 45 of it."""
+    (arbor,) = geartrain.load(CROSSED_ARBOR).strength().arbors
+    radius = 30 / sqrt(2)
+    round_it, across = 1000 / radius, 1000 / radius * sqrt(1 + (tan(radians(20)) * sqrt(2)) ** 2)
+    assert (arbor.force, arbor.thrust) == pytest.approx((across, round_it))
+    moment = (across * 60 + round_it * radius) ** 2 / (4 * across * 60)
+    assert arbor.bending == pytest.approx(32 * moment / (pi * 8**3) + 4 * round_it / (pi * 8**2))
+    assert arbor.pivot_pressure == pytest.approx((across + 1000 / 60) / 30)
+    assert arbor.shoulder_pressure == pytest.approx(round_it / (pi / 4 * (64 - 25)))
+
+
+def test_an_arbor_of_which_a_force_is_not_known_is_left_out() -> None:
+    found = changed(", module: 2 mm", "").strength()
+    assert found.arbors == ()
+    assert [each.where for each in found.left_out] == [("p~w",), ("arbor a",)]
 
 
 def test_worn_volume_is_coefficient_times_force_times_way_over_hardness() -> None:

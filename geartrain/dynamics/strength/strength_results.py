@@ -157,20 +157,24 @@ class PairStrength(Result):
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
-    """An arbor between its two bearings: docs/strength.md (16) and (17).
+    """An arbor between its two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26).
 
     Attributes
     ----------
     link, material : str
         The link, and the material of its arbor.
     force : float
-        Of all its meshes, as if they pulled one way [N].
+        Across it, of all its meshes, as if they pulled one way [N].
+    thrust : float
+        Along it: what all its meshes together leave for a shoulder [N].
     bending, torsion : float
-        Greatest stresses, the force in the middle of the span [MPa].
+        Greatest stresses [MPa]; with bending counts what is pressed or drawn along it.
     stress : float
         Both together, by von Mises [MPa].
     pivot_pressure : float
         The whole force on one pivot, over its diameter times length [MPa].
+    shoulder_pressure : float or None
+        The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor.
     strength : float or None
         Of the material [MPa].
 
@@ -179,15 +183,20 @@ class ArborStrength(Result):
     TrainStrength : holds it
     """
 
-    KEYS = ("link", "material", "force", "bending", "torsion", "stress", "pivot_pressure", "strength", "safety")
+    KEYS = (
+        *("link", "material", "force", "thrust", "bending", "torsion", "stress", "pivot_pressure"),
+        *("shoulder_pressure", "strength", "safety"),
+    )
 
     link: str
     material: str
     force: float
+    thrust: float
     bending: float
     torsion: float
     stress: float
     pivot_pressure: float
+    shoulder_pressure: float | None
     strength: float | None
 
     @property

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
-from geartrain.dynamics.strength.arbor_strength import arbor_strength
+from geartrain.dynamics.strength.arbor_strength import ArborLoad, arbor_strength
 from geartrain.dynamics.strength.contact_results import WheelForce
 from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
 from geartrain.dynamics.strength.skew_pair import SkewPair
@@ -87,7 +87,7 @@ class StrengthQuestion:
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
                 found[gear.name] = pair.strength()
-        arbors = tuple(self._arbors(found))
+        arbors = tuple(self._arbors(told, found))
         return TrainStrength(
             self.torques.state,
             self.torques.verdict,
@@ -95,9 +95,16 @@ class StrengthQuestion:
             arbors,
             self.turns,
             self.wear,
-            tuple(self.left_out[gear.name] for gear in self.declared.gears if gear.name in self.left_out),
+            self._all_left_out(),
             told,
             points,
+        )
+
+    def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
+        """Pairs in the order of the declaration, then arbors."""
+        order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
+        return tuple(
+            self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
         )
 
     def _skew_pairs(self, forces: ToothForces, told: Sequence[WheelForce]) -> Iterator[SkewPair]:
@@ -210,16 +217,32 @@ class StrengthQuestion:
 
     # ------------------------------------------------------------------------------------------------------ arbors
 
-    def _arbors(self, pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
+    def _arbors(self, forces: Sequence[WheelForce], pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
+        """Arbors all of whose forces are known."""
+        straight = {each.pair for each in forces if not each.axial}
+        steepest = {
+            name: max((each.force for each in pair.contact if each.couples == 1), default=0.0)
+            for name, pair in pairs.items()
+            if name in straight
+        }
         for link, part in self.declared.links.items():
             if part.arbor is None:
                 continue
-            force = torque = 0.0
-            for gear in self.declared.gears:
-                for at, name in enumerate(gear.pair):
-                    if name in part.wheels and gear.name in pairs:
-                        found = pairs[gear.name]
-                        steepest = max((each.force for each in found.contact if each.couples == 1), default=0.0)
-                        force += max(steepest, found.tangential)
-                        torque = max(torque, 1e3 * abs(found.wheels[at].torque))
-            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), force, torque)
+            if unknown := self._without_force(part.wheels, forces):
+                why = f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate"
+                self.left_out[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
+                continue
+            own = [each for each in forces if each.wheel in part.wheels]
+            load = ArborLoad.of(own, steepest)
+            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
+
+    def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
+        """Pairs of some wheels that carry a torque and whose forces are not told."""
+        told = {each.pair for each in forces}
+        loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
+        torques = self.torques.pairs
+        return [
+            gear.name
+            for gear in loaded
+            if gear.name not in told and (torques[gear.name].multiplier or torques[gear.name].loose)
+        ]

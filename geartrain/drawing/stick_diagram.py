@@ -31,6 +31,7 @@ _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _FINE, _NAME = 6.8, 8.0  # points
 _HEAD, _FOOT = 0.7, 0.5
+_ENTRY = 1.35  # inches of a legend in one row
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
@@ -65,7 +66,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
         right = max(max(shaft.xs) for shaft in skeleton.shafts.values()) + 0.9
         draw_elements(axes, train, train.state_or_first(state), right, skeleton.height / 2)
     entries = list(_legend(train))
-    columns = 5 if len(entries) < 6 else 3
+    columns = 5 if len(entries) < 6 and width > 5 * _ENTRY else 3
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
     return figure
 
@@ -122,10 +123,12 @@ class _Drawing:
         return (left - 0.04, middle, "right") if middle == y else (x, middle, "left")
 
     def draw_mesh(self, mesh: StickMesh) -> None:
-        """Two wheels up to where they touch, or a pin in its slot."""
+        """Two wheels up to where they touch, a pin in its slot or hole, or two links that stay parallel."""
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
+        elif mesh.kind == "parallel":
+            self._draw_parallel(mesh, low, high)
         elif mesh.kind.startswith("pin"):
             self._draw_pin(mesh, low, high)
         else:
@@ -163,6 +166,15 @@ class _Drawing:
                 box = Rectangle((mesh.x - 0.05, mesh.meet - 0.1), 0.1, 0.2, zorder=4)
                 box.set(facecolor="white", edgecolor=PURPLE, linewidth=1.4)
                 self.axes.add_artist(box)
+        if self.labels:
+            self._write_beside(mesh.x, mesh.meet, mesh.name, PURPLE)
+
+    def _draw_parallel(self, mesh: StickMesh, low: float, high: float) -> None:
+        """Whatever keeps two links parallel: two strokes between them, with a gap."""
+        for foot, side in ((low, -1), (high, 1)):
+            level = mesh.meet + 0.03 * side
+            self._line([mesh.x, mesh.x], [foot, level], PURPLE, 2.0, zorder=3, gid=f"coupling {mesh.name}")
+            self._line([mesh.x - _TICK, mesh.x + _TICK], [level, level], PURPLE, 2.0, zorder=4)
         if self.labels:
             self._write_beside(mesh.x, mesh.meet, mesh.name, PURPLE)
 
@@ -221,8 +233,12 @@ def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
     yield Patch(facecolor="white", edgecolor=GREY, hatch="//////", label="frame")
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):
         yield Line2D([], [], color=ORANGE, linewidth=3.2, label="carriers")
-    if train.declaration.couplings:
-        yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="o", label="pins in slots")
+    kinds = {coupling.kind for coupling in train.declaration.couplings}
+    if kinds - {"parallel"}:
+        holes = "pins in holes" if kinds - {"parallel"} == {"pins_in_holes"} else "pins in slots"
+        yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="o", label=holes)
+    if "parallel" in kinds:
+        yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="|", markersize=8, markeredgewidth=2.0, label="kept parallel")
     if train.declaration.clutches:
         yield Line2D([], [], color=PURPLE, linewidth=2.6, label="closed brakes and clutches")
         yield Line2D([], [], color=GREY, linewidth=2.6, label="open ones")

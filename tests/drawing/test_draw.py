@@ -107,7 +107,7 @@ def draw_all(name: str) -> None:
         assert ET.fromstring(render(drawn(name, kind, state=state), ".svg")).tag == f"{SVG}svg"
 
 
-@pytest.mark.parametrize("name", ["ferguson-paradox", "humpage", "worm"])
+@pytest.mark.parametrize("name", ["ferguson-paradox", "humpage", "worm", "rv-reducer"])
 def test_a_train_is_drawn_in_every_kind_that_fits(name: str) -> None:
     draw_all(name)
 
@@ -297,6 +297,31 @@ def test_a_stick_diagram_shows_which_brakes_and_clutches_are_closed(state: str) 
     for clutch in train.declaration.clutches.values():
         for link in clutch.locks or (clutch.fixes,):
             assert words.count(link) >= 2, "on its shaft, and at its brake or clutch"
+
+
+@pytest.mark.parametrize("name", ["rv-reducer", "strain-wave"])
+def test_what_keeps_two_links_parallel_stands_between_their_shafts(name: str) -> None:
+    """Two strokes that do not touch, the one from the one link's shaft, the other from the other's."""
+    figure = drawn(name, "stick")
+    coupling = next(each for each in load(name).declaration.couplings if each.kind == "parallel")
+    marks = [line for line in figure.axes[0].lines if line.get_gid() == f"coupling {coupling.name}"]
+    (lower, upper) = sorted(sorted(float(y) for y in np.asarray(line.get_ydata())) for line in marks)
+    shafts = [float(np.asarray(line.get_ydata())[0]) for line in figure.axes[0].lines
+              if line.get_gid() in (f"link {coupling.pin}", f"link {coupling.slot}")]  # fmt: skip
+    assert [lower[0], upper[1]] == sorted(shafts)
+    assert lower[1] < upper[0]
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "kept parallel" in words
+    assert ("pins in holes" in words) == (name == "rv-reducer")
+
+
+@pytest.mark.parametrize("name", ["strain-wave", "rv-reducer", "worm", "zf-8hp70", "humpage"])
+def test_a_legend_stays_on_its_page(name: str) -> None:
+    figure = drawn(name, "stick")
+    figure.draw_without_rendering()
+    box, page = figure.legends[0].get_window_extent(), figure.bbox
+    assert page.x0 <= box.x0
+    assert box.x1 <= page.x1
 
 
 def test_a_stick_diagram_without_clutches_is_as_it_was() -> None:

@@ -238,7 +238,8 @@ def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
         holes = "pins in holes" if kinds - {"parallel"} == {"pins_in_holes"} else "pins in slots"
         yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="o", label=holes)
     if "parallel" in kinds:
-        yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="|", markersize=8, markeredgewidth=2.0, label="kept parallel")
+        ends = {"marker": "|", "markersize": 8, "markeredgewidth": 2.0}
+        yield Line2D([], [], color=PURPLE, linewidth=2.0, label="kept parallel", **ends)  # type: ignore[arg-type]
     if train.declaration.clutches:
         yield Line2D([], [], color=PURPLE, linewidth=2.6, label="closed brakes and clutches")
         yield Line2D([], [], color=GREY, linewidth=2.6, label="open ones")

@@ -92,6 +92,30 @@ def test_two_inputs_and_equal_loads_are_decided_by_statics(inputs: str) -> None:
     assert sum(found.powers.values()) == 0
 
 
+def test_naming_the_link_that_is_asked_for_anyway_changes_nothing() -> None:
+    loads = "left: -10 N m, right: -10 N m"
+    found = axle("case: 1, left: 1", loads, "solve_for: case").torques()
+    assert found == axle("case: 1, left: 1", loads).torques()
+    assert found.verdict.kind == "determined"
+    assert found.external["case"] == 20
+
+
+@pytest.mark.parametrize("number", [2, 3, 4])
+def test_spiders_all_round_a_differential_share_its_load(number: int) -> None:
+    """Also where the axes of two of them point away from each other."""
+    text = AXLE.format(inputs="case: 1", loads="left: -60 N m, right: -60 N m", rest="", pair="")
+    found = load(text.replace("spider: {", f"spider: {{copies: {number}, ")).torques()
+    assert found.verdict.kind == "determined"
+    assert found.external["case"] == 120
+    assert len(found.pairs) == 2 * number
+    for name, pair in found.pairs.items():
+        side, spider = pair.torques[:2] if name.startswith("L") else pair.torques[1::-1]
+        assert side == Fraction(60, number)
+        assert abs(spider) == side * Fraction(12, 20)
+        assert not pair.loose
+    assert sum(pair.torques[2] for pair in found.pairs.values()) == -120
+
+
 def test_where_no_torque_is_named_that_could_hold_the_loads_the_one_that_could_is() -> None:
     found = axle("left: 3, right: -1", "left: -10 N m, right: -10 N m").torques()
     assert found.verdict.kind == "undecided"

@@ -51,9 +51,10 @@ def find_ties(
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels
         ways = (mesh.forward, mesh.backward)
+        at_first, at_second, _ = mesh.torques(0)
         for planet, own, mate, other, losses in (
-            (circuit.i, mesh.a, second, mesh.b, ways),
-            (circuit.j, mesh.b, first, mesh.a, ways[::-1]),
+            (circuit.i, at_first, second, at_second, ways),
+            (circuit.j, at_second, first, at_first, ways[::-1]),
         ):
             if planet not in apart:
                 by_planet.setdefault(planet, []).append(((circuit.carrier, mate, own, other, losses), circuit.id))

@@ -96,7 +96,8 @@ def _asked(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | No
     else:
         links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
         certain, candidates = free, tuple(link for link in links if link not in loads and link not in free)
-    candidates = (solve_for,) if solve_for else candidates
+    if solve_for:
+        candidates = () if solve_for in certain else (solve_for,)
     lacking = needed - len(certain)
     if len(candidates) == lacking:
         return UnknownLinks(certain + candidates, enough=not setting.forms)
@@ -213,7 +214,8 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
     relative = setting.relative(i, k) or Fraction(0)
     forward, backward = means.given(0, driving=False) if means else (Fraction(1), Fraction(1))
     a, b = circuit.a, circuit.b
-    if min(a, b, key=abs) < 0:  # the sign of a row is free: one for both orders of a planet and its ring
+    # the sign of a row is free: one for both orders of a planet and its ring, and for planets whose axes point apart
+    if min(a * senses[0], b * senses[1], key=abs) < 0:
         a, b = -a, -b
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 

@@ -26,8 +26,9 @@ _CONTACT = (
 )
 _POINT = (
     "Teeth of crossed axes touch at a point: Hertz's ellipse, the load shared evenly among the couples that touch at "
-    "once, addenda of one module. The pressure is the greatest where fewest touch; safety is 1.6 times the strength "
-    "over it."
+    "once. The pressure is the greatest where fewest touch; safety of a flank is 1.6 times the strength over it. At "
+    "the root one couple bears all at the tip, on teeth as they are seen along them, and bends twice as much of a "
+    "tooth as its lever is long, without the stress concentration of the round."
 )
 _ROOT = (
     "Bending by Lewis on the outline that is cut, without the stress concentration of its round: at the tip one couple "
@@ -205,11 +206,15 @@ def _points(points: Sequence[PointContact]) -> Iterator[Table]:
     header = ("pair", "contact ratio", "force (N)", "half axes (mm)", "", "pressure (MPa)")
     yield Table(header, rows)
     wheels = [
-        (wheel.wheel, wheel.material, _strength(wheel.strength, wheel.spread), figure(wheel.safety, 3))
+        (
+            *(wheel.wheel, wheel.material, figure(wheel.tip_stress, 4), _strength(wheel.strength, wheel.spread)),
+            *(figure(wheel.root_safety, 3), figure(wheel.safety, 3)),
+        )
         for each in points
         for wheel in each.wheels
     ]
-    yield Table(("wheel", "material", "strength (MPa)", "safety of flank"), wheels)
+    header = ("wheel", "material", "at the tip (MPa)", "strength (MPa)", "safety of root", "safety of flank")
+    yield Table(header, wheels)
 
 
 def _teeth(pairs: Sequence[PairStrength]) -> Table:

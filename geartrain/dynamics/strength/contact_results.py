@@ -49,17 +49,27 @@ class FlankStrength(Result):
         Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
     safety : float or None
         Pressure at which yielding begins below the flank over that of the contact.
+    tip_stress : float or None
+        Bending at the root [MPa], one couple bearing all at the tip of a tooth; None where no such teeth are cut.
 
     See Also
     --------
     PointContact : holds it
     """
 
+    KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
+
     wheel: str
     material: str
     strength: float | None
     spread: float | None
     safety: float | None
+    tip_stress: float | None = None
+
+    @property
+    def root_safety(self) -> float | None:
+        """Strength over the stress at the root."""
+        return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
 
 @dataclass(frozen=True)

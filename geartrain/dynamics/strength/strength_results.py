@@ -301,10 +301,11 @@ class TrainStrength(FrozenFields, Result):
             if safety is not None
         ]
         found += [
-            WeakestPart(wheel.wheel, "contact", wheel.safety)
+            WeakestPart(wheel.wheel, what, safety)
             for pair in self.points.values()
             for wheel in pair.wheels
-            if wheel.safety is not None
+            for what, safety in (("root", wheel.root_safety), ("contact", wheel.safety))
+            if safety is not None
         ]
         found += [WeakestPart(each.link, "arbor", each.safety) for each in self.arbors if each.safety is not None]
         return min(found, key=lambda each: each.safety, default=None)

@@ -16,6 +16,7 @@ from geartrain.errors import RangeError
 from geartrain.kinematics.circuits import Axes
 from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.involute import Involute
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
 from geartrain.teeth.strength.pitch_force import bevel_force, friction_angle, helical_force
 from geartrain.teeth.strength.point_contact import CrossedWheels
@@ -89,8 +90,18 @@ class ToothForces:
             (wheels[0].helix, wheels[1].helix),
             _MM * self.modules[circuit.wheels[0]] / wheels[0].slant,
             self._angle(circuit),
-            widths=(first, second),
+            self._addenda(circuit),
+            (first, second),
         )
+
+    def involute_of(self, circuit: Circuit) -> Involute:
+        """The teeth of wheels on crossed axes: as declared, else standard ones."""
+        form = self.setting.train.form_of(self.setting.gears[circuit.id])
+        return form if isinstance(form, Involute) else Involute(form="involute")
+
+    def _addenda(self, circuit: Circuit) -> tuple[float, float]:
+        first, second = self.involute_of(circuit).addendum
+        return float(first.value), float(second.value)
 
     def _is_parallel(self, circuit: Circuit) -> bool:
         return self._axes.are_parallel(

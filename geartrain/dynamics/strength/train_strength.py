@@ -82,7 +82,7 @@ class StrengthQuestion:
         points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
         found: dict[str, PairStrength] = {}
         for gear in self.declared.gears:
-            if gear.name in self.left_out:
+            if gear.name in self.left_out or gear.name in points:
                 continue
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
@@ -120,11 +120,11 @@ class StrengthQuestion:
             ]:
                 self._leave_out(circuit.id, "; ".join(lacking))
                 continue
-            self._leave_out(circuit.id, "bending of teeth that touch at a point is not worked out")
             first, second = ((name, material_named(self.declared, name)) for name in names)
             both = [each for each in told if each.pair == circuit.id]
             is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
-            yield SkewPair(forces.crossed_wheels(circuit), (both[0], both[1]), (first, second), is_worm)
+            wheels_there = forces.crossed_wheels(circuit)
+            yield SkewPair(wheels_there, (both[0], both[1]), (first, second), is_worm, forces.involute_of(circuit))
 
     @staticmethod
     def _lacking_of_skew(wheels: Mapping[str, Wheel]) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""Tredgold's spur wheels: those that stand for straight bevels in the middle of their width."""
+"""Spur wheels that stand for others: Tredgold's for straight bevels, and those across the teeth of crossed wheels."""
 
 from __future__ import annotations
 
@@ -8,16 +8,21 @@ from math import cos, sin
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.wheel_teeth import CHORD
+from geartrain.errors import GearTrainError
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
+from geartrain.teeth.strength.point_contact import CrossedWheels
+from geartrain.teeth.strength.root_section import ToothSide
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.involute import Involute
     from geartrain.teeth.outlines.wheel_requirement import CutTooth
 
+_MM = 1e3
 _FLATTEST = 0.01  # cosine of a cone that still rolls on a spur wheel, not on a rack
 _WIDEST = 1 / 3  # of the cone's length: what makers allow
 
@@ -101,3 +106,43 @@ class VirtualSpurs:
         free = self.form.bottom_clearance(self.wheels, gear)
         clearance = CLEARANCE if free is None else max(free, 0.0)
         return ToothRequirement(self.pair, gear, CHORD, clearance, self.form.lantern_pins(self.wheels)).cut([])
+
+
+_SPREAD = 2.0  # of its lever: how wide a force at a point is spread where it bends
+
+
+@dataclass(frozen=True)
+class NormalSpurs:
+    """The spur pair whose teeth are those of crossed helical wheels seen along them: docs/strength.md (27)."""
+
+    crossed: CrossedWheels
+    form: Involute
+
+    @cached_property
+    def _pair(self) -> ConjugatePair | None:
+        counts = self.crossed.normal_count(0), self.crossed.normal_count(1)
+        try:
+            return self.form.pair(WheelPair(*counts, module=self.crossed.module / _MM))
+        except GearTrainError:
+            return None
+
+    def root_stress(self, at: int, force: float) -> float | None:
+        """Bending at the root of a tooth [MPa] that bears a force [N] across itself at its tip; None without teeth.
+
+        The force spreads over twice its lever, but no farther than the tooth is long.
+        """
+        if self._pair is None:
+            return None
+        form, module = self.form, self.crossed.module
+        free = form.bottom_clearance(WheelPair(self._pair.path.pitch.z1, self._pair.path.pitch.z2), at + 1)
+        clearance = CLEARANCE if free is None else max(free, 0.0)
+        try:
+            tooth = ToothRequirement(self._pair, at + 1, CHORD, clearance).cut([])
+        except GearTrainError:
+            return None
+        side = ToothSide.of(tooth.tooth)
+        arm = self.crossed.normal_count(at) / 2 * cos(self.crossed.pressure_angle)
+        load = side.load_at(tooth.tip, arm)
+        section = side.weakest_section(load)
+        width = min(self.crossed.tooth_length(at), _SPREAD * (load.apex - section.x) * module)
+        return section.stress(force * arm * module, width, module)

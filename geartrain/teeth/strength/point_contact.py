@@ -75,7 +75,7 @@ class CrossedWheels:
     helix            helix angles (rad), of right hands above 0; they add up to the shaft angle
     module           across the teeth
     pressure_angle   across the teeth (rad)
-    addendum         of both wheels, in modules
+    addenda          of both, in modules
     widths           of both, infinite where they are not known
     """
 
@@ -83,7 +83,7 @@ class CrossedWheels:
     helix: tuple[float, float]
     module: float
     pressure_angle: float
-    addendum: float = 1.0
+    addenda: tuple[float, float] = (1.0, 1.0)
     widths: tuple[float, float] = (float("inf"), float("inf"))
 
     @property
@@ -99,6 +99,14 @@ class CrossedWheels:
     def _base_helix(self, at: int) -> float:
         return asin(sin(self.helix[at]) * cos(self.pressure_angle))
 
+    def normal_count(self, at: int) -> float:
+        """Teeth of the spur wheel whose teeth are those of a wheel seen along them; not whole."""
+        return 2 * self.radii[at] / self.module / cos(self._base_helix(at)) ** 2
+
+    def tooth_length(self, at: int) -> float:
+        """Of a tooth, along its pitch helix."""
+        return self.widths[at] / cos(self.helix[at])
+
     @cached_property
     def crossing(self) -> float:
         """Angle between the straight lines of both flanks where they touch (rad)."""
@@ -111,7 +119,7 @@ class CrossedWheels:
     def _bounds(self, at: int) -> dict[str, float]:
         """How far past the pitch point, towards the tip of one wheel, each thing lets them touch."""
         alpha, lean = self.pressure_angle, self.helix[at]
-        tip = self.radii[at] + self.addendum * self.module
+        tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2
         square, half = sin(alpha) ** 2 + (cos(alpha) * cos(lean)) ** 2, self.radii[at] * sin(alpha)
         reach = (sqrt(half**2 + square * (tip**2 - self.radii[at] ** 2)) - half) / square

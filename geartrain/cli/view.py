@@ -75,7 +75,7 @@ def run(
     to = sink(path, force)
     shown = [(train, each) for train in trains for each in _states(train, state, first=dynamics or other is not None)]
     runs = [_played(train, each, request) if dynamics else None for train, each in shown]
-    scenes = [make_scene(train, each, run=run) for (train, each), run in zip(shown, runs, strict=True)]
+    scenes = [make_scene(train, each, run=run, formulas=True) for (train, each), run in zip(shown, runs, strict=True)]
     text = page(scenes, compare=other is not None, teeth=teeth)
     data = text.encode("utf-8")
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")

@@ -20,6 +20,9 @@ from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.scene.construction import make_scene as make_scene
+    from geartrain.scene.count_formulas import CountCondition as CountCondition
+    from geartrain.scene.count_formulas import CountFormula as CountFormula
+    from geartrain.scene.count_formulas import SceneFormulas as SceneFormulas
     from geartrain.scene.elements import SceneBody as SceneBody
     from geartrain.scene.elements import SceneCoupling as SceneCoupling
     from geartrain.scene.elements import ScenePair as ScenePair
@@ -41,10 +44,14 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_part import SolidPart as SolidPart
     from geartrain.scene.train_scene import DialFace as DialFace
     from geartrain.scene.train_scene import Pointer as Pointer
+    from geartrain.scene.train_scene import PointerTarget as PointerTarget
     from geartrain.scene.train_scene import Scene as Scene
+    from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
 
 __all__ = [
     "AxisPlace",
+    "CountCondition",
+    "CountFormula",
     "DialFace",
     "ErrorLawTable",
     "ErrorSource",
@@ -54,10 +61,13 @@ __all__ = [
     "ManufacturingSizes",
     "Movement",
     "Pointer",
+    "PointerTarget",
     "Scene",
     "SceneBody",
     "SceneContact",
     "SceneCoupling",
+    "SceneEpoch",
+    "SceneFormulas",
     "ScenePair",
     "SceneRun",
     "SceneWheel",
@@ -71,6 +81,8 @@ __all__ = [
 
 _PLACES = {
     "AxisPlace": "layout.train_layout",
+    "CountCondition": "count_formulas",
+    "CountFormula": "count_formulas",
     "DialFace": "train_scene",
     "ErrorLawTable": "error_steps",
     "ErrorSource": "error_steps",
@@ -80,10 +92,13 @@ _PLACES = {
     "ManufacturingSizes": "solids.manufacturing_sizes",
     "Movement": "error_steps",
     "Pointer": "train_scene",
+    "PointerTarget": "train_scene",
     "Scene": "train_scene",
     "SceneBody": "elements",
     "SceneContact": "scene_run",
     "SceneCoupling": "elements",
+    "SceneEpoch": "train_scene",
+    "SceneFormulas": "count_formulas",
     "ScenePair": "elements",
     "SceneRun": "scene_run",
     "SceneWheel": "elements",

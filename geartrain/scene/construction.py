@@ -11,10 +11,12 @@ from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
+from geartrain.scene.count_formulas import find_count_formulas
 from geartrain.scene.dial_pointers import find_dials, find_pointers
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.movement import find_movement
+from geartrain.scene.sky import find_epoch
 from geartrain.scene.train_scene import Scene
 from geartrain.scene.wheel_phases import phase_wheels
 
@@ -26,7 +28,11 @@ if TYPE_CHECKING:
 
 
 def make_scene(
-    train: GearTrain, state: str | None = None, layout: Layout | None = None, run: TimeRun | None = None
+    train: GearTrain,
+    state: str | None = None,
+    layout: Layout | None = None,
+    run: TimeRun | None = None,
+    formulas: bool = False,
 ) -> Scene:
     """The scene of a train in one state: where all stands, what it looks like and how it moves, as plain data.
 
@@ -40,6 +46,8 @@ def make_scene(
         Where it stands; by default `lay_out(train)`.
     run : TimeRun, optional
         What `train.dynamics(...)` gave in that state: then this is what moves.
+    formulas : bool
+        True: with speeds as functions of tooth counts, which a page needs on which counts are changed.
 
     Returns
     -------
@@ -63,7 +71,7 @@ def make_scene(
     'exact'
     """
     moves = originals(train.declaration)  # what was simulated moves equal planets as one
-    train = train.unfolded
+    folded, train = train, train.unfolded
     declared = train.declaration
     state = train.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
@@ -74,6 +82,7 @@ def make_scene(
     wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
     dials = find_dials(stage)
     notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
+    bodies, pointers = find_bodies(stage), find_pointers(stage, tuple(dials))
     pairs, couplings = find_pairs(stage, drawn.forms, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -87,19 +96,21 @@ def make_scene(
         crank=None if stage.crank is None else stage.body[stage.crank],
         step=fraction_text(stage.step),
         verdict=verdict,
-        bodies=find_bodies(stage),
+        bodies=bodies,
         wheels=wheels,
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
         dials=tuple(dials.values()),
-        pointers=find_pointers(stage, tuple(dials)),
+        pointers=pointers,
         movement=moved.movement,
         sources=_sources(train),
         notices=tuple(_plain(notice) for notice in notices),
         back=moved.back,
         unit_days=exact(declared.unit_days),
         elements=find_elements(stage, state),
+        epoch=find_epoch(stage),
+        formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),
         run=None if run is None else _played(stage, run, moves, moved, wheels, pairs, couplings),
     )

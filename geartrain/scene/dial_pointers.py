@@ -11,6 +11,7 @@ from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.output_dependence import find_dependence
+from geartrain.scene.sky import find_targets
 from geartrain.scene.train_scene import DialFace, Pointer
 
 Key = tuple[str, str, str]
@@ -170,6 +171,7 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
         bodies=tuple(bodies),
         wheels=tuple(wheels),
         note=output.note or "",
+        targets=find_targets(stage, output, speed),
     )
 
 

@@ -18,6 +18,7 @@ from typing import Any, Literal
 
 from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
+from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneShiftElement, SceneWheel, ToothProfile
 from geartrain.scene.error_steps import Movement
 from geartrain.scene.scene_run import SceneRun
@@ -71,6 +72,59 @@ class DialFace:
 
 
 @dataclass(frozen=True, slots=True)
+class PointerTarget:
+    """What an output should show.
+
+    Attributes
+    ----------
+    label : str
+        The target in words.
+    speed : str
+        Over the lead's, exact; of a target without a sense, in that of the output.
+    source : str
+        Key of its source; empty where it names none.
+
+    See Also
+    --------
+    make_scene : gives it, in `Pointer.targets`.
+    """
+
+    label: str
+    speed: str
+    source: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SceneEpoch:
+    """The date at which the lead has made some turns, and what a turn lasts.
+
+    Attributes
+    ----------
+    julian_day : str
+        Of that date, exact [d].
+    turns : str
+        That the lead has made by then, exact.
+    days : str
+        That one turn of the lead lasts, exact; negative where the lead turns against its positive sense.
+    calendar : str or None
+        In which dates are told; None for Julian before 1582-10-15 and Gregorian from then on.
+    source, note : str
+        As declared.
+
+    See Also
+    --------
+    make_scene : gives it, in `Scene.epoch`.
+    """
+
+    julian_day: str
+    turns: str
+    days: str
+    calendar: str | None
+    source: str
+    note: str
+
+
+@dataclass(frozen=True, slots=True)
 class Pointer:
     """An output as a pointer.
 
@@ -96,6 +150,8 @@ class Pointer:
         The same as indices of bodies and of wheels.
     note : str
         As declared.
+    targets : sequence of PointerTarget
+        What it should show, in the order declared; none where nothing is driven, or it is not determined.
 
     See Also
     --------
@@ -115,6 +171,7 @@ class Pointer:
     bodies: Sequence[int]
     wheels: Sequence[int]
     note: str = ""
+    targets: Sequence[PointerTarget] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +221,10 @@ class Scene:
         Length of the unit in days, exact, where it is a time; None elsewhere.
     elements : sequence of SceneShiftElement
         Brakes and clutches, in the order declared; which are closed.
+    epoch : SceneEpoch or None
+        A date for turns of the lead, where one is declared.
+    formulas : SceneFormulas or None
+        Speeds as functions of tooth counts, where they were asked for and there are any.
     asks : bool
         False where no output is declared, and links stand for outputs.
     run : SceneRun or None
@@ -198,6 +259,8 @@ class Scene:
     back: Movement | None = None
     unit_days: str | None = None
     elements: Sequence[SceneShiftElement] = ()
+    epoch: SceneEpoch | None = None
+    formulas: SceneFormulas | None = None
     asks: bool = True
     run: SceneRun | None = None
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 from geartrain.train.bearing_friction import BearingFriction
 from geartrain.train.declaration import Train
 from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
+from geartrain.train.epoch import Epoch
 from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, Material, material_table
@@ -33,6 +34,7 @@ __all__ = [
     "Clutch",
     "Dial",
     "Drive",
+    "Epoch",
     "Escapement",
     "Expect",
     "FrictionInForce",

@@ -16,6 +16,7 @@ from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.drives import Drive, Escapement
+from geartrain.train.epoch import DeclaredEpoch
 from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, ExpectedVerdict, Id, Nothing
 from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
@@ -54,6 +55,7 @@ class Train(Declared):
     errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
     frame: Id = Field("frame", description="The link whose speed is 0")
     unit: SpeedUnit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
+    epoch: DeclaredEpoch | None = Field(None, description="When its pointers stood where; for a unit of time")
     view: View = Field(View(), description="From where the train is seen, and which sense is positive")
     links: ByName[Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
     axes: ByName[Axis] = Field(
@@ -91,7 +93,7 @@ class Train(Declared):
     inputs: ByName[Speed] = Field(
         {},
         validate_default=True,
-        description="Prescribed speeds by link, shown in `unit`, else in the unit of the first that turns",
+        description="Prescribed speeds by link, in `unit`, else in that of the first that turns",
     )
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")

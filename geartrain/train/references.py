@@ -290,9 +290,9 @@ def _sources(train: Train) -> Iterator[Problem]:
             yield from _source(train, gear.source, "gears", at)
         if gear.fitting is not None:
             yield from _source(train, gear.fitting.source, "gears", at, "fitting")
-    for key, errors in (("cutting", train.cutting), ("fitting", train.fitting)):
-        if errors is not None:
-            yield from _source(train, errors.source, key)
+    for key, stated in (("epoch", train.epoch), ("cutting", train.cutting), ("fitting", train.fitting)):
+        if stated is not None:
+            yield from _source(train, stated.source, key)
     for at, coupling in enumerate(train.couplings):
         yield from _source(train, coupling.source, "couplings", at)
     for name, output in train.outputs.items():

@@ -114,8 +114,20 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
         )
 
 
+def _epoch_units(train: Train) -> Iterator[Problem]:
+    """A date that nothing leads away from: the train's unit is no time."""
+    if train.epoch is not None and train.unit_days is None:
+        yield Problem(
+            "an epoch without a unit of time",
+            f"turns become days by `unit`, and {f'{train.unit.per} is no time' if train.unit else 'there is none'}",
+            "declare `unit: {per: ...}` as a time, such as year_tropical_J2000",
+            train.place("epoch"),
+        )
+
+
 def declared_units(train: Train) -> Iterator[Problem]:
-    """A unit of the train that is none, and lengths with and without units side by side."""
+    """A unit of the train that is none, a date without one, and lengths with and without units side by side."""
+    yield from _epoch_units(train)
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(
             f"'{train.unit.per}' is no unit",

@@ -98,7 +98,12 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
     >>> "sun fixed" in train_page(geartrain.load("planetary"))
     True
     """
-    return page([make_scene(train, each) for each in ((state,) if state is not None else train.states or (None,))])
+    return page(
+        [
+            make_scene(train, each, formulas=True)
+            for each in ((state,) if state is not None else train.states or (None,))
+        ]
+    )
 
 
 @dataclass(frozen=True)

@@ -18,20 +18,34 @@ const NO_LOOK = { slot: () => 0, paint: () => {} }; // `Looks` paints parts in a
 
 export class Plan {
   constructor(machine) {
+    Object.assign(this, { onPick: () => {}, onCrank: () => {}, onOrbit: () => {} });
+    this.#build(machine);
+    this.paint("plain");
+    this.look("free");
+  }
+
+  /** Another machine of the same train, in the same picture. */
+  rebuild(machine) {
+    const { share } = this.poses;
+    this.#build(machine);
+    this.paint("plain");
+    this.explode(share);
+  }
+
+  #build(machine) {
     const { scene } = machine;
-    Object.assign(this, { machine, scene, onPick: () => {}, onCrank: () => {}, onOrbit: () => {} });
+    Object.assign(this, { machine, scene });
     this.main = mainDirection(scene);
     this.circles = circlesOf(scene);
     this.poses = new Poses(machine, this.main, ballOf(scene, this.circles).center);
     const along = scene.wheels.filter(({ direction }) => isParallel(direction, this.main.toArray()));
     this.flat = along.length > MOSTLY * scene.wheels.length;
-    this.canvas = svg("svg", { class: "plan" });
+    this.canvas ??= svg("svg", { class: "plan" });
+    this.canvas.replaceChildren();
     this.wheels = scene.wheels.map((wheel, index) => new PlanWheel(this, wheel, index));
     this.hands = scene.pointers.filter(({ dial }) => dial !== null).map((pointer) => new PlanHand(this, pointer));
     this.faces = scene.dials.map((dial) => new PlanFace(this, dial));
     this.looks = new Looks(scene, NO_LOOK, this.wheels, []);
-    this.paint("plain");
-    this.look("free");
   }
 
   setTurns(turns) {

@@ -106,6 +106,23 @@ export class Stage {
     this.request();
   }
 
+  /** Another machine of the same train, in the same picture. */
+  rebuild(machine) {
+    if (this.disposed) return;
+    const { share } = this.world.poses;
+    const { chosen, selected } = this.world.looks;
+    this.setting.remove(this.world.root);
+    this.world.dispose();
+    this.machine = machine;
+    this.world = new World(machine);
+    this.setting.add(this.world.root);
+    this.world.explode(share);
+    this.showTeeth(this.toothed);
+    Object.assign(this.world.looks, { chosen, selected });
+    this.turned = true;
+    this.request();
+  }
+
   /** The camera to the front, the back, a side, or slantwise; the whole train in the picture. */
   look(from) {
     const [x, y, z] = LOOKS[from] ?? LOOKS.free;

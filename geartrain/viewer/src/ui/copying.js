@@ -2,7 +2,8 @@
 import { el } from "./element.js";
 import { shown } from "./number.js";
 
-async function copy(text) {
+/** Text to the clipboard; false where the browser does not let this page. */
+export async function copy(text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;

@@ -1,8 +1,10 @@
 // The crank: a wheel to drag, and the buttons, speed and place beside it.
+import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { el, field, icon, svg } from "./element.js";
 import { turns, typed } from "./number.js";
 
+const WORDS = 100; // ms between two dates of a moving crank
 export const PLAY = "M7 4.5v15l12.5-7.5z";
 export const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
 
@@ -20,6 +22,8 @@ export class Crank {
     this.drive = drive;
     this.gearing = gearing(scene);
     this.lead = scene.lead === null ? "the input" : scene.bodies[scene.lead].id;
+    this.epoch = scene.epoch ? new Epoch(scene.epoch) : null;
+    this.date = this.epoch && el("output", { class: "date", "aria-live": "off" });
     this.wheel = this.#wheel();
     this.playing = el("button", { type: "button", class: "round", onclick: () => drive.play() });
     this.turns = el("output", { class: "turns", "aria-live": "off" });
@@ -28,7 +32,7 @@ export class Crank {
       "section",
       { class: "crank", "aria-label": "crank" },
       this.wheel,
-      el("div", { class: "where" }, this.turns, el("span", { class: "quiet" }, `turns of ${this.lead}`), beside && el("span", { class: "quiet beside-it" }, beside)),
+      el("div", { class: "where" }, this.turns, el("span", { class: "quiet" }, `turns of ${this.lead}`), this.date, beside && el("span", { class: "quiet beside-it" }, beside)),
       el(
         "div",
         { class: "buttons" },
@@ -43,9 +47,11 @@ export class Crank {
           { type: "button", onclick: () => drive.unit(1), "aria-label": "one unit of the input forward" },
           icon("M18 5v14M5 5l9 7-9 7z"),
         ),
+        this.#back(),
       ),
       this.#speed(),
       this.#goTo(),
+      this.epoch && this.#goToDate(),
       this.fault,
     );
     if (!drive.movable) for (const each of this.node.querySelectorAll("button, input")) each.disabled = true;
@@ -137,10 +143,75 @@ export class Crank {
   #go(event) {
     event.preventDefault();
     const wanted = typed(this.place.value);
-    this.fault.hidden = Boolean(wanted);
-    this.place.setAttribute("aria-invalid", String(!wanted));
-    this.fault.textContent = wanted ? "" : "That is no number of turns: write 12, 2.5, 235/19 or 1e6.";
+    this.#tell(this.place, wanted, "That is no number of turns: write 12, 2.5, 235/19 or 1e6.");
     if (wanted) this.drive.goTo(wanted);
+  }
+
+  /** Says what is wrong with what was typed, or that nothing is. */
+  #tell(input, wanted, fault) {
+    this.fault.hidden = Boolean(wanted);
+    input.setAttribute("aria-invalid", String(!wanted));
+    this.fault.textContent = wanted ? "" : fault;
+  }
+
+  /** Turned back while it plays. */
+  #back() {
+    const button = el(
+      "button",
+      {
+        type: "button",
+        "aria-pressed": String(this.drive.sense < 0),
+        "aria-label": "play backwards",
+        title: "Play backwards",
+        onclick: () => {
+          this.drive.sense *= -1;
+          button.setAttribute("aria-pressed", String(this.drive.sense < 0));
+        },
+      },
+      icon("M4 5v5h5M4.5 10a8 8 0 1 1-.5 5"),
+    );
+    button.firstChild.classList.add("line");
+    return button;
+  }
+
+  #goToDate() {
+    const day = el("input", {
+      type: "text",
+      placeholder: "-204-05-12",
+      autocomplete: "off",
+      spellcheck: "false",
+      maxlength: 40,
+      "aria-describedby": "go-fault",
+    });
+    const turnsOf = () => {
+      const date = this.epoch.read(day.value);
+      this.#tell(day, date, "That is no date: write -204-05-12 or 12 May 205 BC, with 18:30 behind it or not.");
+      return date && this.epoch.turnsAt(date);
+    };
+    const go = (event) => {
+      event.preventDefault();
+      const wanted = turnsOf();
+      if (wanted) this.drive.play(false);
+      if (wanted) this.drive.goTo(wanted);
+    };
+    const run = () => {
+      const wanted = turnsOf();
+      if (wanted) this.drive.runTo(wanted);
+    };
+    return el(
+      "form",
+      { class: "go day", onsubmit: go },
+      field("Go to date", day),
+      el("button", { type: "submit" }, "Go"),
+      el("button", { type: "button", onclick: run, title: "Turn there in eight seconds" }, "Run"),
+    );
+  }
+
+  #tellDate(at) {
+    const date = this.epoch.dateAt(at);
+    this.dated = performance.now();
+    this.date.textContent = inWords(date);
+    this.date.title = `${date.calendar === "julian" ? "Julian" : "Gregorian"} calendar`;
   }
 
   /** Puts the reader's hands on the number of turns. */
@@ -149,11 +220,19 @@ export class Crank {
     this.place.select();
   }
 
+  /** The same crank on a train whose counts are changed. */
+  use(scene) {
+    this.scene = scene;
+    this.gearing = gearing(scene);
+    for (const each of this.node.querySelectorAll("button, input")) each.disabled = !this.drive.movable;
+  }
+
   set(drive, settled) {
     const { part } = drive.at;
     const made = Number(drive.at.floor % 1000000n); // the wheel is a likeness: a float will do
     this.hand.setAttribute("transform", `rotate(${(((made + part) * this.gearing * 360) % 360).toFixed(3)})`);
     this.turns.textContent = turns(drive.at);
+    if (this.date && (settled || performance.now() - (this.dated ?? 0) > WORDS)) this.#tellDate(drive.at);
     if (settled || !drive.playing) {
       this.wheel.setAttribute("aria-valuenow", String(Number(drive.at)));
       this.wheel.setAttribute("aria-valuetext", `${turns(drive.at)} turns`);

@@ -1,6 +1,7 @@
 // One dial as a drawing: scale, spiral, zero mark, hands. Clockwise on the page is clockwise as read.
 import { NEEDLES } from "../colours.js";
 import { svg } from "./element.js";
+import { skyOf } from "./sky.js";
 
 const RIM = 84;
 const place = (turn, radius, zero) => {
@@ -34,12 +35,13 @@ export class Dial {
     this.zero = dial ? zeroOf(dial) : 0;
     const inner = dial && dial.radius > 0 ? dial.inner / dial.radius : 1;
     this.inner = this.turns > 1 ? RIM * Math.min(0.75, Math.max(0.4, inner)) : RIM;
-    this.hands = hands.map((hand, order) => ({ reading: hand, node: this.#hand(order, hand) }));
+    this.hands = hands.map((hand, order) => ({ reading: hand, node: this.#hand(order, hand), sky: this.#sky(order, hand) }));
     this.node = svg(
       "svg",
       { viewBox: "-100 -100 200 200", class: "dial", role: "img", "aria-label": `dial ${name}` },
       svg("circle", { r: 97, class: "face" }),
       ...this.#scale(),
+      ...this.hands.flatMap((hand) => hand.sky ?? []),
       ...this.hands.map((hand) => hand.node),
       svg("circle", { r: 3.2, class: "boss" }),
     );
@@ -94,6 +96,14 @@ export class Dial {
     return group;
   }
 
+  /** Where the first target of a pointer stands: an open circle on its scale. */
+  #sky(order, { pointer }) {
+    const [target] = pointer.targets;
+    if (!target) return null;
+    const title = svg("title", {}, `${pointer.output} by ${target.label}, mean motion`);
+    return svg("circle", { class: `target hand-${order % NEEDLES.length}`, r: 4, "data-output": pointer.output }, title);
+  }
+
   draw(group, tail, order) {
     const reach = RIM - 4 - (this.turns === 1 ? (order % 4) * 6 : 0);
     group.append(
@@ -105,10 +115,18 @@ export class Dial {
     if (this.turns > 1) group.append(svg("circle", { class: "follower", r: 3.4 }));
   }
 
+  #place(mark, turns) {
+    const [x, y] = place(turns, this.#radius(turns) + (this.turns > 1 ? 0 : 1), this.zero);
+    mark.setAttribute("cx", x.toFixed(3));
+    mark.setAttribute("cy", y.toFixed(3));
+    mark.setAttribute("data-turns", turns.toFixed(12));
+  }
+
   /** Stands every hand where it is now. */
   set() {
-    for (const { reading, node } of this.hands) {
+    for (const { reading, node, sky } of this.hands) {
       const value = reading.now;
+      if (sky) this.#place(sky, skyOf(reading, reading.pointer.targets[0], reading.machine.made()));
       node.classList.toggle("unknown", !value);
       if (!value) continue;
       const turn = (value.degrees + (this.zero * 180) / Math.PI) % 360;

@@ -12,6 +12,7 @@ export class Drive {
     this.at = Fraction.parse(app.turns) ?? Fraction.of(0);
     this.rate = 0.1;
     this.playing = false;
+    this.sense = 1; // -1: play turns back
     this.movable = true;
     this.run = null; // a simulated run, which begins and ends; units and nudges are then of time
     this.loop = true;
@@ -70,21 +71,42 @@ export class Drive {
   }
 
   play(on = !this.playing) {
+    if (on && this.movable && this.run && this.at.equals(this.#end)) this.goTo(Fraction.of(0), false);
+    // one jump a second where motion is not wanted; a tab that slept does not leap
+    this.#moving(on, (passed) => {
+      if (this.calm.matches && passed < 1000) return false;
+      this.advance((this.sense * this.rate * Math.min(passed, this.calm.matches ? 2000 : 100)) / 1000);
+      if (this.run && this.at.equals(this.#end)) this.#ended();
+      return true;
+    });
+  }
+
+  /** Turns to a place in some seconds, and stops there exactly; at once where motion is not wanted. */
+  runTo(fraction, seconds = 8) {
+    if (this.calm.matches) return this.goTo(fraction);
+    const from = this.at;
+    const gap = fraction.minus(from);
+    let share = 0;
+    this.#moving(true, (passed) => {
+      share += Math.min(passed, 100) / 1000 / seconds;
+      if (share >= 1) this.#moving(false);
+      this.goTo(share < 1 ? from.plus(gap.times(Fraction.near(share))) : fraction, share >= 1);
+      return true;
+    });
+  }
+
+  /** Moves by steps, which are told the milliseconds since the last that was taken, until something else is done. */
+  #moving(on, step) {
     this.playing = on && this.movable;
-    if (this.playing && this.run && this.at.equals(this.#end)) this.goTo(Fraction.of(0), false);
     this.#tell(!this.playing);
+    const own = (this.frames = {});
     let before = performance.now();
     const frame = (now) => {
-      if (!this.playing) return;
-      // one jump a second where motion is not wanted; a tab that slept does not leap
-      if (!this.calm.matches || now - before >= 1000) {
-        this.advance((this.rate * Math.min(now - before, this.calm.matches ? 2000 : 100)) / 1000);
-        before = now;
-        if (this.run && this.at.equals(this.#end)) this.#ended();
-      }
+      if (!this.playing || this.frames !== own) return;
+      if (step(now - before)) before = now;
       requestAnimationFrame(frame);
     };
-    requestAnimationFrame(frame);
+    if (this.playing) requestAnimationFrame(frame);
   }
 
   #ended() {

@@ -3,11 +3,12 @@ import { el, field } from "./element.js";
 import { loopParts, verdict } from "./verdict.js";
 
 export class Head {
-  constructor(all, { compare, theme, onKeys, onShow, onLoop, onElement }) {
+  constructor(all, { compare, theme, onKeys, onShow, onLoop, onElement, onChanged }) {
     this.all = all;
     this.onShow = onShow;
     this.onLoop = onLoop;
     this.onElement = onElement;
+    this.onChanged = onChanged;
     this.title = el("h1", {});
     this.names = el("p", { class: "quiet names" });
     this.verdicts = el("div", { class: "verdicts" });
@@ -29,7 +30,7 @@ export class Head {
         el("button", { type: "button", onclick: onKeys, "aria-haspopup": "dialog" }, "Keys"),
       ),
     );
-    this.#write();
+    this.write();
   }
 
   #choice(value, none) {
@@ -44,7 +45,7 @@ export class Head {
   }
 
   #changed() {
-    this.#write();
+    this.write();
     this.onShow(this.sides);
   }
 
@@ -54,12 +55,23 @@ export class Head {
     return [...new Set(chosen)].map((index) => this.all[index]);
   }
 
-  #write() {
+  /** That counts are changed, and what of the meshes that leaves; a click shows all of it. */
+  #told(side) {
+    const off = side.meshes.filter(({ off: by }) => by === null || by.numerator !== 0n).length;
+    const counts = side.steps.map(({ wheel, declared, count }) => `${wheel} ${declared} \u2192 ${count}`);
+    const fits = off ? `${off} ${off === 1 ? "mesh no longer fits its axes" : "meshes no longer fit their axes"}` : "all meshes still fit their axes";
+    const button = el("button", { type: "button", class: "plain", onclick: () => this.onChanged() }, counts.slice(0, 6).join(", ") + (counts.length > 6 ? ", ..." : ""));
+    return el("span", { class: "changed" }, " changed: ", button, `; ${fits}`);
+  }
+
+  /** What is shown, as it is now. */
+  write() {
     const { sides } = this;
     const many = sides.length > 1;
     const titles = [...new Set(sides.map(({ scene }) => scene.title || scene.name))];
     this.title.textContent = titles.join(" beside ");
-    this.names.textContent = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
+    const names = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
+    this.names.replaceChildren(names, ...sides.filter(({ steps }) => steps.length).slice(0, 1).map((side) => this.#told(side)));
     this.verdicts.replaceChildren(
       ...sides.map((side) =>
         verdict(side, many, (of, loop) => this.onLoop(of, loopParts(of.scene, loop)), this.onElement),

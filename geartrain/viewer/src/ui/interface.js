@@ -47,6 +47,7 @@ class Interface {
       compare: Boolean(app.options?.compare),
       theme: this.theme.select,
       onKeys: () => this.keys.open(),
+      onChanged: () => this.panel.showChange(),
       onShow: (sides) => this.show(sides),
       onLoop: (side, loop) => this.loop(side, loop),
       onElement: (side, each) => this.element(side, each),
@@ -137,6 +138,29 @@ class Interface {
     for (const each of this.sides) each.stage?.select(each === side ? wheel : null);
     this.panel.wheel(side, wheel);
     if (wheel !== null) this.live.say(`wheel ${side.scene.wheels[wheel].id}, ${side.scene.wheels[wheel].teeth} teeth`);
+  }
+
+  /** Other counts for a train, in all its states: numbers at once, and then the pictures. */
+  count(side, counts) {
+    const { name, formulas } = side.declared;
+    const same = (each) => each.formulas && each.declared.name === name && String(each.formulas.given.wheels) === String(formulas.wheels);
+    const key = document.activeElement?.dataset?.key;
+    const chosen = this.panel.chosen;
+    for (const each of this.all.filter(same)) {
+      each.change(counts);
+      each.redraw((stage) => this.tools.dress(each, stage));
+    }
+    this.drive.movable = this.sides.some(({ movable }) => movable);
+    if (!this.drive.movable) this.drive.play(false);
+    this.head.write();
+    this.panel.use(this.sides);
+    this.live.use(this.sides);
+    this.crank.use?.(this.sides[0].scene);
+    if (chosen) this.panel.wheel(...chosen);
+    if (key) document.querySelector(`[data-key="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
+    this.drive.goTo(this.drive.at);
+    this.panel.set(true);
+    this.live.say(side.steps.map(({ wheel, count }) => `${wheel} ${count} teeth`).join(", ") || "all as declared");
   }
 
   /** Highlights what an output hangs on, in every side that has it. */

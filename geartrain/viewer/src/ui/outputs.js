@@ -13,7 +13,8 @@ export function difference(a, b) {
   return { gap: gap.toString(), part: from.numerator === 0n ? null : Number(gap.over(from)) };
 }
 
-function relative(part) {
+/** A part as it is told: in ppm where it is small. */
+export function relative(part) {
   if (part === null || part === 0) return "";
   const size = Math.abs(part);
   const text = size < 0.001 ? `${(size * 1e6).toPrecision(3)} ppm` : `${(size * 100).toPrecision(3)} %`;

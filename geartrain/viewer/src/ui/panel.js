@@ -1,17 +1,21 @@
 // The panels at the side; on a narrow page, a sheet at the bottom.
 import { about } from "./about.js";
+import { Change } from "./change.js";
 import { Contacts } from "./contacts.js";
 import { Dials } from "./dials.js";
 import { el } from "./element.js";
 import { Outputs } from "./outputs.js";
 import { Path } from "./path.js";
+import { Sky, hasTargets } from "./sky.js";
 import { Tabs } from "./tabs.js";
 import { Wheels } from "./wheels.js";
 
 export class Panel {
   constructor(owner) {
     this.owner = owner;
-    const names = ["Dials", "Outputs", "Wheels", "About"];
+    const aims = owner.all.some(({ scene }) => hasTargets(scene));
+    const changes = owner.all.some(({ formulas }) => formulas);
+    const names = ["Dials", "Outputs", aims && "Sky", "Wheels", changes && "Change", "About"].filter(Boolean);
     if (owner.all.some(({ machine }) => machine.run)) names.unshift("Contacts");
     this.places = Object.fromEntries(names.map((name) => [name, el("div", {})]));
     this.way = new Path({ onPair: (side, wheel) => owner.select(side, wheel), onClose: () => owner.letGo() });
@@ -53,23 +57,38 @@ export class Panel {
     const onChoose = (output) => this.owner.choose(output);
     this.dials = new Dials(sides, onChoose);
     this.outputs = new Outputs(sides, { onChoose, say });
-    this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), say });
+    const onCounts = (side, counts) => this.owner.count(side, counts);
+    this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), onCounts, say });
+    this.change = new Change(sides, { onCounts, say });
+    this.chosen = null;
+    this.sky = new Sky(sides, say);
     this.contacts = new Contacts(sides, (side, contact) => this.owner.contact(side, contact));
     this.places.Contacts?.replaceChildren(this.contacts.node);
     this.places.Dials.replaceChildren(this.dials.node);
     this.places.Outputs.replaceChildren(this.outputs.node);
+    this.places.Sky?.replaceChildren(this.sky.node);
     this.places.Wheels.replaceChildren(this.wheels.node);
+    this.places.Change?.replaceChildren(this.change.node);
     this.places.About.replaceChildren(...sides.map((side) => about(side, sides.length > 1)));
   }
 
   set(words) {
     this.dials.set(words);
     this.outputs.set(words);
+    this.sky.set(words);
     this.contacts.set(words);
+  }
+
+  /** What is changed. */
+  showChange() {
+    this.tabs.show("Change");
   }
 
   wheel(side, index) {
     this.wheels.show(side, index);
+    const again = this.chosen?.[1] === index;
+    this.chosen = index === null ? null : [side, index];
+    if (again) return;
     if (index !== null) this.tabs.show("Wheels");
     if (index !== null) this.wheels.detail.scrollIntoView({ block: "nearest" });
   }

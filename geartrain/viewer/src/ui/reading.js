@@ -1,6 +1,6 @@
 // What a pointer reads: its angle from the zero mark, clockwise as read, on a scale of one or several turns.
 
-const within = (value, size) => ((value % size) + size) % size;
+export const within = (value, size) => ((value % size) + size) % size;
 
 export class Reading {
   constructor(scene, machine, index) {
@@ -9,6 +9,8 @@ export class Reading {
     this.pointer = scene.pointers[index];
     this.dial = this.pointer.dial === null ? null : scene.dials[this.pointer.dial];
     this.turns = this.dial?.turns || 1;
+    // turns from the start of the scale at which it starts
+    this.start = (this.pointer.sense * (scene.bodies[this.pointer.body].start - scene.bodies[this.pointer.base].start)) / (2 * Math.PI);
     this.known = this.pointer.speed !== null && Boolean(machine);
   }
 

@@ -1,5 +1,7 @@
 // A side: a train, or a state of it, that can be shown, and its picture while it is.
+import { CountFormulas } from "../formulas.js";
 import { Fraction } from "../fraction.js";
+import { Machine } from "../motion.js";
 import { el } from "./element.js";
 import { decimal } from "./number.js";
 
@@ -11,6 +13,10 @@ export class Side {
     this.index = index;
     this.scene = app.scenes[index];
     this.machine = app.machines[index];
+    this.declared = this.scene; // as it came, whatever is changed here
+    this.declaredMachine = this.machine;
+    this.formulas = this.scene.formulas ? new CountFormulas(this.scene) : null;
+    this.counts = this.formulas?.declared ?? [];
     this.stage = null;
     this.label = app.options?.compare ? this.scene.name : (this.scene.state ?? this.scene.name);
     if (this.machine.run) this.label = [this.scene.state, this.machine.simulated ? "in time" : "teeth touching"].filter(Boolean).join(", ");
@@ -43,6 +49,44 @@ export class Side {
     this.app.close(this.index);
     this.stage = null;
     this.place.replaceChildren();
+  }
+
+  /** Other counts, in the order of the formulas: all numbers at once, the picture by `redraw`. */
+  change(counts) {
+    this.counts = counts;
+    const { turns } = this.machine;
+    const same = this.steps.length === 0;
+    this.scene = same ? this.declared : this.formulas.changed(counts);
+    this.machine = same ? this.declaredMachine : new Machine(this.scene);
+    this.machine.turns = turns;
+    this.app.scenes[this.index] = this.scene;
+    this.app.machines[this.index] = this.machine;
+  }
+
+  /** The picture of what is now there, soon: many steps in a row are drawn once. */
+  redraw(dress) {
+    clearTimeout(this.drawing);
+    this.drawing = setTimeout(() => {
+      if (!this.stage) return;
+      this.stage.rebuild(this.machine);
+      dress(this.stage);
+    }, 150);
+  }
+
+  /** Counts that are not those declared: {wheel, link, declared, count}. */
+  get steps() {
+    if (!this.formulas) return [];
+    const { given, declared } = this.formulas;
+    return given.wheels.flatMap((wheel, at) => {
+      if (this.counts[at] === declared[at]) return [];
+      const { body } = this.declared.wheels[given.count.indexOf(at)];
+      return [{ wheel, link: this.declared.bodies[body].id, declared: declared[at], count: this.counts[at] }];
+    });
+  }
+
+  /** How the meshes stand on their axes with the counts there are. */
+  get meshes() {
+    return this.formulas.meshes(this.counts);
   }
 
   get movable() {

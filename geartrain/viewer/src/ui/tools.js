@@ -61,6 +61,15 @@ export class Tools {
     this.paint(this.mode);
   }
 
+  /** A picture that was made anew, as the controls say; from where it is looked at stays. */
+  dress(side, stage) {
+    stage.hideFront(this.front.checked);
+    stage.showTeeth(this.teeth.checked);
+    stage.explode(Number(this.apart.value));
+    stage.paint(this.mode);
+    side.legend.replaceChildren(legend(side.scene, this.mode));
+  }
+
   /** Shows which button says from where one looks; none does once a hand has turned the picture. */
   #press(look) {
     for (const each of this.looks) each.setAttribute("aria-pressed", String(each.dataset.look === look));

@@ -1,4 +1,5 @@
 // The list of wheels with a search, and what is known of the one that is chosen.
+import { stepper } from "./change.js";
 import { copyable } from "./copying.js";
 import { el, link } from "./element.js";
 import { shown } from "./number.js";
@@ -7,7 +8,7 @@ const STATUS = { surviving: "surviving", reconstructed: "reconstructed", hypothe
 const percent = (part) => `${(part * 100).toPrecision(3)} % of the power put in`;
 
 /** Rows of what is known: [term, words or an element]. */
-export function facts(scene, wheel, say) {
+export function facts(scene, wheel, say, teeth = null) {
   const body = scene.bodies[wheel.body];
   const source = scene.sources[wheel.source];
   const pairs = scene.pairs.filter((pair) => wheel.circuits.includes(pair.id));
@@ -19,7 +20,7 @@ export function facts(scene, wheel, say) {
           ["Speed, decimal", `${shown(body.decimal)}${scene.unit ? ` ${scene.unit}` : ""}`],
         ];
   return [
-    ["Teeth", copyable(String(wheel.teeth), say)],
+    ["Teeth", teeth ?? copyable(String(wheel.teeth), say)],
     ["In doubt", wheel.doubt],
     ["Kind", wheel.kind],
     ["On", `${body.id}${body.role === "arbor" ? "" : ` (${body.role})`}`],
@@ -54,8 +55,9 @@ export function facts(scene, wheel, say) {
 
 export class Wheels {
   /** `onSelect(side, wheel index or null)` */
-  constructor(sides, { onSelect, say }) {
+  constructor(sides, { onSelect, onCounts, say }) {
     this.sides = sides;
+    this.onCounts = onCounts;
     this.onSelect = onSelect;
     this.say = say;
     this.items = [];
@@ -85,12 +87,13 @@ export class Wheels {
         el("span", {}, wheel.id),
         el("span", { class: "quiet" }, `${wheel.teeth}${wheel.doubt ? " ?" : ""}`),
       );
-      const item = el("li", {}, button);
+      const steps = stepper(side, index, this.onCounts, "list");
+      const item = el("li", { class: side.steps.some((step) => step.wheel === wheel.id) && "stepped" }, button, steps);
       const text = `${wheel.id} ${wheel.teeth} ${side.scene.bodies[wheel.body].id} ${wheel.status}`.toLowerCase();
       this.items.push({ side, index, item, button, text });
       return item;
     });
-    return [this.sides.length > 1 && el("h3", {}, side.label), el("ul", { class: "wheels" }, items)];
+    return [this.sides.length > 1 && el("h3", {}, side.label), el("ul", { class: side.formulas ? "wheels stepped" : "wheels" }, items)];
   }
 
   #filter() {
@@ -120,7 +123,7 @@ export class Wheels {
       el(
         "dl",
         {},
-        facts(side.scene, wheel, this.say).map(([term, value]) => [el("dt", {}, term), el("dd", {}, value)]),
+        facts(side.scene, wheel, this.say, stepper(side, index, this.onCounts, "one", true)).map(([term, value]) => [el("dt", {}, term), el("dd", {}, value)]),
       ),
     );
   }

@@ -1,0 +1,206 @@
+// Speeds as exact functions of tooth counts, which come with the scene, and the scene of the same train with other counts.
+
+import { Fraction } from "./fraction.js";
+import { isParallel, vector } from "./space.js";
+
+const MOST = 10n ** 12n; // teeth of a wheel, as in a declaration
+const PLAIN = { kind: "exact", why: "", laws: [], sources: [], steps: [], offsets: {}, period: null };
+
+export class CountFormulas {
+  /** scene   as declared; `scene.formulas` is that of `SceneFormulas.to_dict()` */
+  constructor(scene) {
+    this.scene = scene;
+    this.given = scene.formulas;
+    this.declared = this.given.wheels.map((_, at) => BigInt(scene.wheels[this.given.count.indexOf(at)].teeth));
+    this.driven = Fraction.of(this.given.input);
+  }
+
+  /** The count that a wheel of the scene has, by index; null where it cannot be changed. */
+  at(wheel) {
+    return this.given.count[wheel];
+  }
+
+  /** Exact speeds at some counts: of bodies and pointers in the train's unit, null where there are none; what is broken. */
+  solve(counts) {
+    const broken = this.given.conditions.filter(({ formula, zero }) => isZero(formula, counts) !== zero);
+    const values = this.given.formulas.map((formula) => (broken.length ? null : quotient(formula, counts)));
+    const of = (index) => (index === null ? null : values[index]);
+    return { bodies: this.given.bodies.map(of), pointers: this.given.pointers.map(of), broken };
+  }
+
+  /** The scene with other counts: speeds by the formulas, wheels of their declared modules, mean motion. */
+  changed(counts) {
+    const { scene } = this;
+    const { bodies, pointers, broken } = this.solve(counts);
+    const [profiles, wheels] = this.#wheels(counts);
+    const stands = broken.length > 0 || scene.movement.kind === "still";
+    return {
+      ...scene,
+      bodies: scene.bodies.map((body, at) => (body.parent === null ? body : { ...body, ...this.#told(bodies[at]) })),
+      pointers: scene.pointers.map((pointer, at) => ({ ...pointer, ...this.#told(pointers[at]), text: asRead(pointer.sense, pointers[at]) })),
+      wheels: phased(scene, wheels),
+      profiles,
+      pairs: scene.pairs.map((pair) => ({ ...pair, text: restated(pair, scene.wheels, wheels) })),
+      movement: { ...PLAIN, kind: stands ? "still" : "mean", why: stands ? "" : MEAN },
+      back: null,
+      verdict: broken.length ? verdictOf(scene, broken) : scene.verdict,
+      changed: true,
+    };
+  }
+
+  #told(speed) {
+    if (speed === null) return { speed: null, shown: null, decimal: "" };
+    const text = decimals(speed);
+    return { speed: speed.over(this.driven).toString(), shown: this.given.exact ? speed.toString() : text, decimal: text };
+  }
+
+  /** Profiles and wheels of the scene with other counts, all modules as they are. */
+  #wheels(counts) {
+    const profiles = [...this.scene.profiles];
+    const wheels = this.scene.wheels.map((wheel, index) => {
+      const at = this.at(index);
+      const teeth = at === null ? wheel.teeth : Number(counts[at]);
+      if (teeth === wheel.teeth) return wheel;
+      if (wheel.kind === "worm") return { ...wheel, teeth };
+      const factor = teeth / wheel.teeth;
+      const { points, ...profile } = profiles[wheel.profile];
+      // a tooth keeps its size, so that it takes another part of its circle
+      profiles.push({ ...profile, points: points.map(([radius, angle]) => [1 + (radius - 1) / factor, angle / factor]) });
+      const [radius, tip, root] = [factor * wheel.radius, wheel.tip, wheel.root];
+      const off = radius - wheel.radius;
+      return { ...wheel, teeth, radius, tip: tip + off, root: root + off, profile: profiles.length - 1 };
+    });
+    return [profiles, wheels];
+  }
+
+  /**
+   * How each pair of wheels stands on the axes it has: {pair, off, module}. `off`, in modules and exact, is how much
+   * further apart its axes ought to be; null where no distance follows from counts: cones are then cut anew.
+   */
+  meshes(counts) {
+    const { scene } = this;
+    const now = (wheel) => (this.at(wheel) === null ? BigInt(scene.wheels[wheel].teeth) : counts[this.at(wheel)]);
+    return scene.pairs.map((pair) => {
+      const [one, other] = pair.wheels.map((index) => scene.wheels[index]);
+      const grown = pair.wheels.map((index) => now(index) - BigInt(scene.wheels[index].teeth));
+      const module = (2 * one.radius) / one.teeth;
+      if (!grown[0] && !grown[1]) return { pair, off: Fraction.of(0), module };
+      const worm = [one, other].findIndex(({ kind }) => kind === "worm");
+      if (worm >= 0) return { pair, off: new Fraction(grown[1 - worm], 2n), module: (2 * [other, one][worm].radius) / [other, one][worm].teeth };
+      if (!isParallel(one.direction, other.direction)) return { pair, off: null, module };
+      const ring = [one, other].findIndex(({ kind }) => kind === "ring");
+      const sum = ring < 0 ? grown[0] + grown[1] : grown[ring] - grown[1 - ring];
+      return { pair, off: new Fraction(sum, 2n), module };
+    });
+  }
+}
+
+const MEAN = "Teeth and pins ripple as they were computed for the declared counts only, so that this is mean motion.";
+
+/** A count that a wheel can have, of a number or of text; null for others. */
+export function countOf(value) {
+  const text = String(value).trim();
+  const count = /^\d{1,13}$/.test(text) ? BigInt(text) : 0n;
+  return count > 0n && count <= MOST ? count : null;
+}
+
+function total(terms, wheels, counts) {
+  let sum = 0n;
+  for (const [coefficient, powers] of terms) {
+    let product = BigInt(coefficient);
+    powers.forEach((power, k) => (product *= counts[wheels[k]] ** BigInt(power)));
+    sum += product;
+  }
+  return sum;
+}
+
+function quotient({ wheels, numerator, denominator }, counts) {
+  const below = total(denominator, wheels, counts);
+  return below === 0n ? null : new Fraction(total(numerator, wheels, counts), below);
+}
+
+const isZero = ({ wheels, numerator }, counts) => total(numerator, wheels, counts) === 0n;
+
+/** Ten significant digits, without zeros at the end. */
+export function decimals(value) {
+  const [digits, power] = Number(value).toPrecision(10).split("e");
+  const short = digits.includes(".") ? digits.replace(/\.?0+$/, "") : digits;
+  return power ? `${short}e${power}` : short;
+}
+
+function asRead(sense, speed) {
+  if (speed === null) return "";
+  if (speed.numerator === 0n) return "stands still";
+  return `${speed.numerator > 0n === sense > 0 ? "clockwise" : "counter-clockwise"} as read`;
+}
+
+/** Why the formulas do not hold; of a loop that no longer closes, what it holds. */
+function verdictOf(scene, broken) {
+  const said = broken.map(({ text, zero, carrier }) => {
+    if (!zero) return `no longer so: ${text}`;
+    const held = carrier === null || scene.bodies[carrier].parent === null ? "hold each other still" : `can only turn with ${scene.bodies[carrier].id} as one body`;
+    return text.startsWith("loop ") ? `${text.replace(/ closes$/, "")} no longer closes: its wheels ${held}` : `no longer so: ${text}`;
+  });
+  const kind = broken.every(({ zero }) => !zero) ? "free" : broken.some(({ text }) => text.startsWith("loop ")) ? "locked" : "contradictory";
+  return { kind, text: `${said.join("; ")}. What then turns, \`geartrain solve\` tells of the saved train.`, links: [], loops: [], advice: [] };
+}
+
+/** A circuit in words with other counts, where its words are its counts. */
+function restated({ text, wheels }, before, after) {
+  let at = 0;
+  return text.replace(/(?<= [+-] |^)(\d+) \(/g, (whole, count) => {
+    const index = wheels[at++];
+    return index !== undefined && Number(count) === before[index].teeth ? `${after[index].teeth} (` : whole;
+  });
+}
+
+/** Wheels turned on their arbors so that teeth meet gaps, along the pairs of all trains of wheels in which one changed. */
+function phased(scene, wheels) {
+  const turned = [...wheels];
+  const near = wheels.map(() => []);
+  scene.pairs.forEach(({ wheels: [one, other] }) => {
+    near[one].push(other);
+    near[other].push(one);
+  });
+  const met = new Set();
+  wheels.forEach((wheel, from) => {
+    if (met.has(from)) return;
+    const group = [from];
+    met.add(from);
+    for (const index of group) for (const mate of near[index]) if (!met.has(mate)) group.push((met.add(mate), mate));
+    if (group.every((index) => wheels[index] === scene.wheels[index])) return;
+    const placed = new Set([from]);
+    for (const index of group) {
+      for (const mate of near[index]) {
+        if (placed.has(mate)) continue;
+        placed.add(mate);
+        turned[mate] = engaged(turned[mate], turned[index]);
+      }
+    }
+  });
+  return turned;
+}
+
+/** A wheel turned so that its teeth meet the gaps of another, where both axes are parallel. */
+function engaged(wheel, other) {
+  const between = vector(other.centre).sub(vector(wheel.centre));
+  const axis = vector(wheel.direction);
+  between.addScaledVector(axis, -between.dot(axis));
+  if (!isParallel(wheel.direction, other.direction) || between.length() < 1e-9) return wheel;
+  const inside = wheel.kind === "ring" || other.kind === "ring";
+  const towards = between.normalize().multiplyScalar(other.kind === "ring" ? -1 : 1);
+  const across = inside ? towards : towards.clone().negate();
+  const same = axis.dot(vector(other.direction)) > 0 ? 1 : -1;
+  // places of teeth from the pitch point, in pitches along one tangent
+  const theirs = (inside ? same : -same) * place(other, across);
+  const wanted = theirs + 0.5;
+  return { ...wheel, turn: angleTo(wheel, towards) + (2 * Math.PI * wanted) / wheel.teeth };
+}
+
+const place = (wheel, towards) => ((wheel.turn - angleTo(wheel, towards)) * wheel.teeth) / (2 * Math.PI);
+
+/** The angle of a direction about a wheel's axis, from its reference (rad). */
+function angleTo({ direction, reference }, towards) {
+  const x = vector(reference);
+  return Math.atan2(vector(direction).cross(x).dot(towards), x.dot(towards));
+}

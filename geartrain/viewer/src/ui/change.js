@@ -1,0 +1,149 @@
+// What was changed here: counts, meshes that no longer fit their axes, outputs beside those declared; and the train as YAML.
+import { Fraction } from "../fraction.js";
+import { countOf } from "../formulas.js";
+import { copy } from "./copying.js";
+import { el } from "./element.js";
+import { shown } from "./number.js";
+import { difference, relative } from "./outputs.js";
+
+const PLAIN_NAME = /^[A-Za-z_][A-Za-z0-9_-]*$/;
+const WORDS = new Set(["null", "true", "false", "yes", "no", "on", "off", "y", "n"]);
+
+const NOTHING = "All counts are as declared. Under Wheels a tooth more or less can be given to each: all speeds then change at once, exactly, and here stands what else does.";
+
+/** A name as YAML reads it back: plain where that is safe, else in quotes. */
+const scalar = (name) => (PLAIN_NAME.test(name) && !WORDS.has(name.toLowerCase()) ? name : JSON.stringify(name));
+
+/** The changed train as a declaration that extends the one shown; `steps` as `Side.steps` gives them. */
+export function asYaml(side) {
+  const { scene, steps } = side;
+  const { parent } = scene.formulas;
+  const links = new Map();
+  for (const { wheel, link, count } of steps) links.set(link, [...(links.get(link) ?? []), `${scalar(wheel)}: {teeth: ${count}}`]);
+  return [
+    `name: ${scalar(`${scene.name}-changed`)}`,
+    `title: ${JSON.stringify(`${scene.title || scene.name}, with other counts`)}`,
+    `extends: ${scalar(parent).startsWith('"') && !/[:#{}[\],&*?|<>=!%@\\"' ]/.test(parent) ? parent : scalar(parent)}`,
+    "links:",
+    ...[...links].map(([link, wheels]) => `  ${scalar(link)}: {wheels: {${wheels.join(", ")}}}`),
+    "",
+  ].join("\n");
+}
+
+/** How a pair stands on its axes, in words; empty where it fits. */
+export function misfit({ pair, off, module }) {
+  if (off === null) return `${pair.id}: its cones are to be cut anew for the ratio`;
+  if (off.numerator === 0n) return "";
+  const size = off.numerator < 0n ? Fraction.of(0).minus(off) : off;
+  const way = off.numerator > 0n ? "further apart than they stand" : "nearer together than they stand";
+  const modules = `${size} ${size.equals(1) ? "module" : size.denominator === 1n ? "modules" : "of a module"}`;
+  return `${pair.id}: asks for axes ${modules} ${way} (${(Number(size) * module).toPrecision(3)} mm as drawn)`;
+}
+
+export class Change {
+  /** `onCounts(side, counts by declared wheel)`; `say(text)` */
+  constructor(sides, { onCounts, say }) {
+    Object.assign(this, { onCounts, say });
+    const changed = sides.filter(({ steps }) => steps.length);
+    this.node = el("div", {}, changed.length ? changed.map((side) => this.#part(side, sides.length > 1)) : el("p", { class: "quiet" }, NOTHING));
+  }
+
+  #part(side, many) {
+    const reset = el("button", { type: "button", class: "small", onclick: () => this.onCounts(side, side.formulas.declared), "data-key": "reset" }, "All as declared");
+    const broken = side.meshes.map(misfit).filter(Boolean);
+    return el(
+      "section",
+      { class: "change", "aria-label": "what is changed" },
+      el("div", { class: "row" }, el("h3", {}, many ? `${side.label}, changed` : "Changed"), reset),
+      el(
+        "ul",
+        { class: "counts" },
+        side.steps.map(({ wheel, declared, count }) => el("li", { "data-changed": wheel }, `${wheel}: ${declared} \u2192 ${count} teeth`)),
+      ),
+      el("h4", {}, "Meshes"),
+      broken.length
+        ? el("ul", { class: "misfits" }, broken.map((text) => el("li", { class: "bad" }, text)))
+        : el("p", {}, "All still fit their axes."),
+      el("h4", {}, "Outputs"),
+      this.#outputs(side),
+      this.#save(side),
+    );
+  }
+
+  #outputs({ scene, declared }) {
+    const rows = scene.pointers.flatMap((pointer, at) => {
+      const before = declared.pointers[at].shown;
+      if (before === pointer.shown) return [];
+      const gap = difference(before, pointer.shown);
+      const cells = [before, pointer.shown].map((text) => el("td", { class: "number" }, text === null ? "not determined" : shown(text)));
+      return [el("tr", { "data-output": pointer.output }, el("th", { scope: "row" }, pointer.output), cells, el("td", {}, gap ? relative(gap.part) : ""))];
+    });
+    if (!rows.length) return el("p", {}, "None turns otherwise than declared.");
+    const heads = ["output", "declared", "now", "change"];
+    return el(
+      "div",
+      { class: "scroll", tabindex: 0, role: "region", "aria-label": "changed outputs" },
+      el("table", {}, el("thead", {}, el("tr", {}, heads.map((head) => el("th", { scope: "col" }, head)))), el("tbody", {}, rows)),
+    );
+  }
+
+  #save(side) {
+    const text = asYaml(side);
+    const file = `${side.scene.name}-changed.yaml`.replace(/[^\w.-]+/g, "-");
+    const save = () => {
+      const address = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+      el("a", { href: address, download: file }).click();
+      setTimeout(() => URL.revokeObjectURL(address), 1000);
+      this.say(`${file} saved`);
+    };
+    const take = async () => this.say((await copy(text)) ? "the declaration is copied" : "the browser does not let this page copy");
+    return [
+      el("h4", {}, "As a declaration"),
+      el("pre", { class: "yaml", tabindex: 0 }, text),
+      el(
+        "div",
+        { class: "buttons" },
+        el("button", { type: "button", onclick: save, "data-key": "save" }, "Save YAML"),
+        el("button", { type: "button", onclick: take, "data-key": "copy" }, "Copy"),
+      ),
+    ];
+  }
+}
+
+/** Buttons and a field for the count of a wheel; nothing where it cannot be changed. `key` tells them from others. */
+export function stepper(side, index, onCounts, key, typed = false) {
+  const at = side.formulas?.at(index) ?? null;
+  if (at === null) return null;
+  const { id } = side.scene.wheels[index];
+  const now = side.counts[at];
+  const set = (count) => onCounts(side, side.counts.map((each, k) => (k === at ? count : each)));
+  const button = (step, sign, word) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "step",
+        "aria-label": `one tooth ${word} on ${id}`,
+        "data-key": `${key} ${side.index} ${id} ${step}`,
+        disabled: now + step < 1n,
+        onclick: () => set(now + step),
+      },
+      sign,
+    );
+  const field =
+    typed &&
+    el("input", {
+      type: "text",
+      inputmode: "numeric",
+      maxlength: 13,
+      value: now,
+      "aria-label": `teeth of ${id}`,
+      "data-key": `${key} ${side.index} ${id}`,
+      onchange: (event) => {
+        const count = countOf(event.target.value);
+        if (count === null) event.target.value = now;
+        else if (count !== now) set(count);
+      },
+    });
+  return el("span", { class: "stepper" }, button(-1n, "\u2212", "less"), field, button(1n, "+", "more"));
+}

@@ -1,0 +1,263 @@
+"""Counts changed on the page in a browser, against the package's answer for the train with those counts."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+import shipped
+from viewing import DESK, tab, wait
+
+from geartrain import GearTrain, load
+from geartrain.scene import make_scene
+from geartrain.viewer import page
+
+if TYPE_CHECKING:
+    from conftest import OpenPage, Shown
+
+    from geartrain.kinematics.answer import Answer
+
+# two arbors side by side, with two pairs between them: the one closes what the other opens
+LOOP = """
+name: loop
+frame: frame
+links: {frame: {}, a: {wheels: {a1: 20, a2: 30}}, b: {wheels: {b1: 40, b2: 60}}, c: {wheels: {c1: 25}}}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
+gears: [a1 ~ b1, a2 ~ b2, b1 ~ c1]
+inputs: {a: 1}
+outputs: {b: {}, c: {}}
+"""
+
+# the sun and the planet's second wheel drive a sun of their own: 40 (sun) and 20 + 30 p
+POLE = """
+name: pole
+frame: frame
+links: {frame: {}, s: {wheels: {s1: 30}}, t: {wheels: {t1: 31}}, p: {wheels: {p1: 20, p2: 20}}, arm: {}}
+revolutes: {M: [frame, s, t, arm], P: [arm, p]}
+gears: [s1 ~ p1, t1 ~ p2]
+inputs: {s: 0, t: 1}
+outputs: {arm: {}}
+"""
+
+SPEEDS = """(scene) => Object.fromEntries(geartrain.scenes[scene].bodies.map(({ id, shown }) => [id, shown]))"""
+ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tbody tr')].map((row) =>
+  [row.dataset.output, (row.querySelector('.copy') ?? row.querySelector('.quiet')).textContent]))"""
+
+
+@pytest.fixture
+def opened(open_page: OpenPage, tmp_path: Path) -> Any:
+    """Opens the page of a train on which counts may be changed, in all its states."""
+
+    def show(train: GearTrain) -> Shown:
+        path = tmp_path / "page.html"
+        scenes = [make_scene(train, state, formulas=True) for state in train.states or (None,)]
+        path.write_text(page(scenes, teeth=False), encoding="utf-8")
+        return open_page(path, **DESK)
+
+    return show
+
+
+def give(shown: Shown, wheel: str, count: int) -> None:
+    """Another count for a wheel, typed into the field of its panel."""
+    tab(shown, "Wheels")
+    shown.page.locator(f"[data-wheel='{wheel}']").click()
+    field = shown.page.get_by_label(f"teeth of {wheel}", exact=True)
+    field.fill(str(count))
+    field.press("Enter")
+    shown.page.get_by_role("button", name="Close", exact=True).click()
+
+
+def told(text: str) -> str:
+    return text.replace("\u2212", "-")
+
+
+def expected(answer: Answer) -> dict[str, str | None]:
+    return {name: None if each.speed is None else str(each.speed) for name, each in answer.outputs.items()}
+
+
+def agree(shown: Shown, scene: int, answer: Answer) -> None:
+    """All outputs of the table, and all links of the scene, are what the package says."""
+    tab(shown, "Outputs")
+    rows = {name: told(text) for name, text in shown.run(ROWS).items()}
+    assert rows == {name: speed or "not determined" for name, speed in expected(answer).items()}
+    speeds = shown.run(SPEEDS, scene)
+    assert {link: speed for link, speed in speeds.items() if link in answer.speeds} == {
+        link: None if speed is None else str(speed) for link, speed in answer.speeds.items() if link in speeds
+    }
+
+
+def drawn(seed: int, train: GearTrain, times: int) -> Iterator[Mapping[str, int]]:
+    """Counts near those declared, on one wheel and then on more."""
+    draw = random.Random(seed)
+    counts = {name: wheel.count for name, (_, wheel) in train.declaration.wheels.items() if wheel.count}
+    for number in range(1, times + 1):
+        chosen = draw.sample(sorted(counts), min(number, len(counts)))
+        yield {name: max(1, counts[name] + draw.choice([-2, -1, 1, 2, 7])) for name in chosen}
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["freeth-2008", "planetary-24-18-60", "humpage", "bevel-differential", "zf-8hp70", "prius-power-split", "worm"],
+)
+def test_all_speeds_are_those_of_the_train_with_these_counts(opened: Any, name: str) -> None:
+    train = shipped.train(name)
+    shown = opened(train)
+    states = train.states or (None,)
+    for counts in drawn(1, train, 3):
+        for wheel, count in counts.items():
+            give(shown, wheel, count)
+        changed = train.with_teeth(counts)
+        for state in dict.fromkeys((states[0], states[-1])):
+            at = states.index(state)
+            if len(states) > 1:
+                shown.page.get_by_label("State").select_option(index=at)
+            agree(shown, at, changed.solve(state, method="exact"))
+        assert shown.page.locator(".changed").count() == 1
+        tab(shown, "Change")
+        shown.page.get_by_role("button", name="All as declared").click()
+        agree(shown, states.index(states[-1]), train.solve(states[-1], method="exact"))
+    assert shown.page.locator(".changed").count() == 0
+    assert shown.errors == []
+
+
+def test_a_step_is_one_tooth_and_pointers_follow(opened: Any) -> None:
+    train = shipped.train("planetary-24-18-60")
+    shown = opened(train)
+    tab(shown, "Wheels")
+    more = shown.page.get_by_role("button", name="one tooth more on s", exact=True)
+    more.click()
+    more.click()
+    shown.page.get_by_role("button", name="one tooth less on p", exact=True).click()
+    assert shown.run("document.activeElement.getAttribute('aria-label')") == "one tooth less on p"
+    changed = train.with_teeth(s=26, p=17)
+    at = Fraction(100_003, 7)
+    shown.page.get_by_label("Go to turn").fill(str(at))
+    shown.page.keyboard.press("Enter")
+    for output, result in changed.solve().outputs.items():
+        assert result.speed is not None
+        angle = shown.run("(name) => geartrain.pointer(0, name).angle / (2 * Math.PI)", output)
+        off = angle - float(Fraction(result.speed) * at % 1)
+        assert off - round(off) == pytest.approx(0, abs=1e-9), output
+    tab(shown, "Change")
+    changes = shown.page.locator(".change").inner_text()
+    assert "s: 24 \u2192 26 teeth" in changes
+    # centres stand (24 + 18)/2 and (60 - 18)/2 modules apart; these ask for (26 + 17)/2 and (60 - 17)/2
+    assert "s~p: asks for axes 1/2 of a module further apart" in changes
+    assert "p~ring: asks for axes 1/2 of a module further apart" in changes
+    give(shown, "s", 24)
+    give(shown, "p", 18)
+    assert shown.page.locator(".changed").count() == 0
+    for text in ("0", "-3", "2.5", "many", "9999999999999"):
+        tab(shown, "Wheels")
+        shown.page.locator("[data-wheel='s']").click()
+        field = shown.page.get_by_label("teeth of s", exact=True)
+        field.fill(text)
+        field.press("Enter")
+        assert field.input_value() == "24", text
+
+
+def test_meshes_tell_by_how_much_they_miss_their_axes(opened: Any) -> None:
+    shown = opened(load(LOOP))
+    for counts, said in (
+        ({"a1": 22, "b1": 38}, ["b1~c1: asks for axes 1 module nearer together"]),
+        ({"c1": 28}, ["b1~c1: asks for axes 3/2 of a module further apart"]),
+        ({"b1": 39, "c1": 26}, ["a1~b1: asks for axes 1/2 of a module nearer together"]),
+    ):
+        for wheel, count in counts.items():
+            give(shown, wheel, count)
+        tab(shown, "Change")
+        texts = shown.page.locator(".misfits li").all_inner_texts()
+        assert [text.partition(" than")[0] for text in texts] == said
+        size = {wheel.id: wheel.module for wheel in make_scene(load(LOOP)).wheels}["b1"]
+        modules = float(Fraction(said[0].split("axes ")[1].split(" ")[0]))
+        millimetres = float(texts[0].split("(")[1].split(" mm")[0])
+        assert millimetres == pytest.approx(modules * size, rel=5e-3)
+        shown.page.get_by_role("button", name="All as declared").click()
+    give(shown, "a1", 22)
+    give(shown, "b1", 38)
+    give(shown, "c1", 27)
+    tab(shown, "Change")
+    assert "All still fit their axes" in shown.page.locator(".change").inner_text()
+
+
+def test_a_loop_that_no_longer_closes_locks_the_train(opened: Any) -> None:
+    train = load(LOOP)
+    shown = opened(train)
+    give(shown, "a1", 21)
+    answer = train.with_teeth(a1=21).solve()
+    assert answer.verdict.kind == "locked"
+    verdict = shown.page.locator(".verdict")
+    assert verdict.get_attribute("data-verdict") == "locked"
+    assert "loop a - b no longer closes: its wheels hold each other still" in verdict.inner_text()
+    tab(shown, "Outputs")
+    assert set(shown.run(ROWS).values()) == {"not determined"}
+    assert shown.page.get_by_role("button", name="play", exact=True).is_disabled()
+    give(shown, "b1", 42)  # it closes again
+    assert shown.page.get_by_role("button", name="play", exact=True).is_enabled()
+    agree(shown, 0, train.with_teeth(a1=21, b1=42).solve())
+
+
+def test_counts_at_which_nothing_is_determined_are_told(opened: Any) -> None:
+    train = load(POLE)
+    shown = opened(train)
+    agree(shown, 0, train.solve())
+    give(shown, "t1", 30)
+    answer = train.with_teeth(t1=30).solve()
+    assert answer.verdict.kind != "determined"
+    tab(shown, "Outputs")
+    assert shown.run(ROWS) == {"arm": "not determined"}
+    assert shown.page.locator(".verdict").get_attribute("data-verdict") != "determined"
+
+
+@pytest.mark.parametrize("name", ["freeth-2021", "nrel-grc-750"])
+def test_what_is_saved_loads_and_solves_to_the_same(opened: Any, tmp_path: Path, name: str) -> None:
+    train = shipped.train(name)
+    shown = opened(train)
+    counts = next(iter(drawn(2, train, 5)))
+    counts = {**counts, **dict(list(drawn(3, train, 4))[-1])}
+    for wheel, count in counts.items():
+        give(shown, wheel, count)
+    tab(shown, "Change")
+    with shown.page.expect_download() as download:
+        shown.page.get_by_role("button", name="Save YAML").click()
+    assert download.value.suggested_filename == f"{name}-changed.yaml"
+    path = tmp_path / "changed.yaml"
+    download.value.save_as(path)
+    saved = load(str(path))
+    assert saved.declaration.name == f"{name}-changed"
+    assert {wheel: saved.declaration.wheels[wheel][1].count for wheel in counts} == counts
+    agree(shown, 0, saved.solve(method="exact"))
+
+
+def test_the_picture_has_the_new_teeth_which_meet_gaps(opened: Any) -> None:
+    shown = opened(shipped.train("planetary-24-18-60"))
+    give(shown, "s", 26)
+    wait(shown, "geartrain.stages[0].world.wheels.find(({ wheel }) => wheel.id === 's').wheel.teeth === 26")
+    before, after = (
+        {wheel["id"]: wheel for wheel in wheels}
+        for wheels in (
+            make_scene(shipped.train("planetary-24-18-60")).to_dict()["wheels"],
+            shown.run("geartrain.scenes[0].wheels"),
+        )
+    )
+    assert after["s"]["radius"] == pytest.approx(before["s"]["radius"] * 26 / 24)
+    assert after["s"]["tip"] - after["s"]["radius"] == pytest.approx(before["s"]["tip"] - before["s"]["radius"])
+    for one, other in (("s", "p"), ("p", "ring")):
+        wheel, mate = after[one], after[other]
+        inside = other == "ring"
+        # in pitches, how far a tooth of each is past the pitch point; all stand on the x axis
+        own = tooth_at(wheel, 0.0)
+        theirs = tooth_at(mate, 0.0 if inside else math.pi)
+        off = (own - theirs if inside else own + theirs) - 0.5  # half a pitch apart: a tooth in a gap
+        assert off - round(off) == pytest.approx(0, abs=1e-6), (one, other)
+
+
+def tooth_at(wheel: Mapping[str, Any], angle: float) -> float:
+    """By how many pitches the first tooth of a wheel is past an angle about z (rad)."""
+    x, y, _ = wheel["reference"]
+    return (math.atan2(y, x) + wheel["turn"] - angle) * float(wheel["teeth"]) / (2 * math.pi)

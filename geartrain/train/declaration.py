@@ -91,9 +91,7 @@ class Train(Declared):
         None, description="How far the axes of every pair are off that says nothing of its own"
     )
     inputs: ByName[Speed] = Field(
-        {},
-        validate_default=True,
-        description="Prescribed speeds by link, in `unit`, else in that of the first that turns",
+        {}, validate_default=True, description="Prescribed speeds by link, in `unit`, else in that of the first one"
     )
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")

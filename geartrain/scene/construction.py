@@ -11,8 +11,8 @@ from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.count_formulas import find_count_formulas
 from geartrain.scene.dial_pointers import find_dials, find_pointers
+from geartrain.scene.formula_table import find_count_formulas
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.movement import find_movement

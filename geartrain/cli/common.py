@@ -27,7 +27,7 @@ File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a 
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
 Out = Annotated[
     Path | None,
-    typer.Option("--output-file", "-o", help="Write to this file instead of the terminal; - is standard output."),
+    typer.Option("--output-file", "-o", help="Write to this file, or as into a file to standard output: -."),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
 Theme = Annotated[ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print without colour.")]
@@ -164,9 +164,9 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Documents as HTML or Markdown to a file, or on the terminal: through rich if somebody looks, else as Markdown."""
+    """Documents as HTML or Markdown to a file, or to be read: within the terminal's width, or 80 columns of a pipe."""
     from geartrain.report.html_page import to_html
-    from geartrain.report.text import to_markdown, to_terminal
+    from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":
         emit(to_html(documents), out)
@@ -174,6 +174,8 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
         from rich.console import Console
 
         to_terminal(documents, Console(highlight=False))
+    elif out == STANDARD:
+        emit(to_text(documents))
     else:
         emit(to_markdown(documents), out)
 

@@ -21,7 +21,7 @@ def run(
     view: Annotated[bool, typer.Option("--view", help="Put the train itself into a page, to be turned there.")] = False,
     force: Force = False,
 ) -> None:
-    """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json.
+    """Report on trains: text within the terminal, 80 columns in a pipe; by the suffix of -o .md, .html or .json.
 
     A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
     """

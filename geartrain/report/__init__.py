@@ -1,10 +1,10 @@
 """Results as documents: on a terminal, as Markdown, as one page of HTML, and as JSON.
 
 In: a train (`collect_report`), or a result of another room. Out: a `Document`, titled sections of paragraphs and tables
-that know nothing of how they are shown; `to_markdown` and `to_html` show it. One function `describe_...` makes the
-document of a result, and the result's own `to_dict` its data, so that a page and its JSON are told from the same thing;
-`answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is worked out here: speeds are those of
-the Willis equation (docs/theory.md, equations 4 and 5), torques and motion those of `geartrain.dynamics`.
+that know nothing of how they are shown; `to_text`, `to_markdown` and `to_html` show it. One function `describe_...`
+makes the document of a result, and the result's own `to_dict` its data, so that a page and its JSON are told from the
+same thing; `answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is worked out here: speeds are
+those of the Willis equation (docs/theory.md, equations 4 and 5), torques and motion those of `geartrain.dynamics`.
 
 Results of other rooms are described in modules of their own: tooth numbers in `tooth_numbers`, gears on a sphere in
 `spherical_report`, one pair of wheels in `pair_page` and `conjugate_pair_page`, error against run time in
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from geartrain.report.strength_report import collect_strength_report as collect_strength_report
     from geartrain.report.strength_report import describe_strength as describe_strength
     from geartrain.report.text import to_markdown as to_markdown
+    from geartrain.report.text import to_text as to_text
     from geartrain.report.time_report import TimeReport as TimeReport
     from geartrain.report.time_report import collect_time_report as collect_time_report
     from geartrain.report.time_report import describe_time_run as describe_time_run
@@ -71,6 +72,7 @@ _PLACES = {
     "describe_train": "train_report",
     "to_html": "html_page",
     "to_markdown": "text",
+    "to_text": "text",
 }
 
 __all__ = [
@@ -105,6 +107,7 @@ __all__ = [
     "describe_train",
     "to_html",
     "to_markdown",
+    "to_text",
 ]
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -41,39 +41,50 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Speeds, outputs and targets of one state."""
+    """Outputs and targets of one state, then the speeds of all links."""
     head = f"State {answer.state}: " if answer.state is not None else ""
-    case = train.declaration.case(answer.state)
-    given = [*map(case.given, case.inputs)]
-    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
-    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
-    if answer.method == "floats":
-        why = "the coupled system is too dense for exact elimination" if case.exact else "radians stand beside turns"
-        lines.append(f"Solved in floats: {why}.")
-    yield Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
     if answer.outputs:
         yield _outputs(train, answer, head)
+    yield from _targets(answer, head)
+    yield _speed_section(train, answer, head)
+
+
+def _targets(answer: Answer, head: str) -> Iterator[Section]:
+    """Outputs beside their targets, the error first; nothing where no output has one."""
     targets = [
         (
             name,
             target.label,
-            figure(target.speed, 10),
-            _COMPARED[target.compared],
             ppm(target.ppm),
             _signed(target.days_per_century),
             _signed(target.degrees_per_unit),
+            figure(target.speed, 10),
+            _COMPARED[target.compared],
             _met(target.met),
         )
         for name, result in answer.outputs.items()
         for target in result.targets
     ]
-    if targets:
-        header = ("output", "target", "target speed", "by", "error ppm", "days a century", "degrees a unit", "within")
-        table = filled_table(header, targets, len(header) - 1)
-        said = ["A positive error is fast."]
-        if any(row[3] == "magnitude" for row in targets):
-            said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
-        yield Section(_title(head, "against the targets"), tuple(said), (table,))
+    if not targets:
+        return
+    header = ("output", "target", "error ppm", "days a century", "degrees a unit", "target speed", "by", "within")
+    table = filled_table(header, targets, len(header) - 1)
+    said = ["A positive error is fast."]
+    if any(row[6] == _COMPARED["magnitude"] for row in targets):
+        said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
+    yield Section(_title(head, "against the targets"), tuple(said), (table,))
+
+
+def _speed_section(train: GearTrain, answer: Answer, head: str) -> Section:
+    """What was prescribed, the verdict, and every link's speed."""
+    case = train.declaration.case(answer.state)
+    given = [*map(case.given, case.inputs)]
+    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
+    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
+    if answer.method == "floats":
+        why = "the coupled system is too dense for exact elimination" if case.exact else "radians are mixed with turns"
+        lines.append(f"Solved in floats: {why}.")
+    return Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
 
 
 _COMPARED = {"speed": "sense too", "magnitude": "magnitude", "difference": "difference"}
@@ -149,7 +160,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
     named = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
     total = sum(map(len, kinds.values()))
     if failed := sum(held.count(False) for held in kinds.values()):
-        return f"{failed} of {' and '.join(named)} FAIL"
+        return f"{failed} of {' and '.join(named)} FAIL{'S' if failed == 1 else ''}"
     return f"{named[0]} holds" if total == 1 else f"all {' and '.join(named)} hold" if named else ""
 
 
@@ -179,7 +190,7 @@ def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Sec
         if not found:
             continue
         head = f"State {answer.state}: " if answer.state is not None else ""
-        text = "Change of speed in ppm, solved again exactly; outputs that move alike stand together."
+        text = "Change of speed in ppm, solved again exactly; outputs that move alike share a row."
         table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
         yield Section(_title(head, "wheels in doubt"), (text,), (table,))
 

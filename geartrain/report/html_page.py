@@ -14,9 +14,12 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from geartrain.errors import MissingExtraError
-from geartrain.report.document import CitedText, Document
+from geartrain.report.document import CitedText, Document, Table
+from geartrain.report.table_strips import strips
 from geartrain.scene.palette import THEMES
 
+ON_PAPER = 110
+"""Characters across a sheet of A4 or letter, in the type in which a page prints its tables."""
 WORDS = {"viewer": "The train turning", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
@@ -99,8 +102,15 @@ def _template() -> Any:
         "is_web": is_web,
         "is_cited": lambda cell: isinstance(cell, CitedText),
         "with_code": _with_code,
+        "on_paper": _on_paper,
     }
     return environment.from_string(_shipped("page.html"))
+
+
+def _on_paper(table: Table) -> list[Table]:
+    """The strips in which a table that is wider than a sheet is printed; none for others."""
+    parts = list(strips(table, ON_PAPER))
+    return parts if len(parts) > 1 else []
 
 
 def _with_code(line: str) -> Any:

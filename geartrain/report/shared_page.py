@@ -17,14 +17,14 @@ from geartrain.report.document import (
     filled_table,
 )
 from geartrain.report.train_data import TrainReport
-from geartrain.report.train_report import describe_train, source_line
+from geartrain.report.train_report import SOURCES, describe_train
 from geartrain.train import Train
 
 
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """The report on a train with all that a page has room for; sources stand at its end instead of its lead.
+    """The report on a train with all that a page has room for; its sources are links.
 
     Parameters
     ----------
@@ -51,7 +51,6 @@ def describe_shared_page(
     ('determined', ('Not to scale.',))
     """
     document, declared = describe_train(found), found.train.declaration
-    cited = {source_line(key, source) for key, source in declared.sources.items()}
     badge, sound = _badge(found)
     aside = PageExtras(
         badge=badge,
@@ -65,7 +64,8 @@ def describe_shared_page(
             for key, source in declared.sources.items()
         },
     )
-    return replace(document, lead=[line for line in document.lead if line not in cited], aside=aside)
+    shown = [section for section in document.sections if section.title != SOURCES]
+    return replace(document, sections=shown, aside=aside)
 
 
 def _badge(found: TrainReport) -> tuple[str, bool]:

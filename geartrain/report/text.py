@@ -1,13 +1,15 @@
-"""A document as Markdown, or on a terminal."""
+"""A document as Markdown, as plain text, or on a terminal."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from io import StringIO
 from typing import TYPE_CHECKING
 
 from geartrain.errors import printable
 from geartrain.report.document import Branch, Document, Table
+from geartrain.report.table_strips import column_widths, gap_of, strips
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -86,25 +88,74 @@ def _pipes(table: Table) -> Iterator[str]:
     yield from lines[1:]
 
 
-def to_terminal(documents: Sequence[Document], console: Console) -> None:
-    """The documents on a terminal; matrices wider than it are shown in strips."""
+PIPED = 80
+"""Characters in a line where nobody says how many there are."""
+
+
+def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
+    """Documents as plain text within a width, as a terminal of that width shows them, headings underlined.
+
+    Parameters
+    ----------
+    documents : sequence of Document
+        What is shown; pictures and other extras of pages are left out.
+    width : int
+        Characters in a line. A word that is longer is broken.
+
+    Returns
+    -------
+    str
+        Lines without trailing blanks. A table too wide for its words is cut into strips of columns.
+
+    Examples
+    --------
+    >>> from geartrain.report import Document
+    >>> print(to_text([Document("A title", ["A lead."], [])]).strip())
+    A title
+    =======
+    <BLANKLINE>
+    A lead.
+    """
+    from rich.console import Console
+
+    out = StringIO()
+    console = Console(file=out, width=width, no_color=True, force_terminal=False, legacy_windows=False, highlight=False)
+    to_terminal(documents, console, marks="=-")
+    return "\n".join(line.rstrip() for line in out.getvalue().splitlines()).rstrip()
+
+
+def to_terminal(documents: Sequence[Document], console: Console, marks: str = "") -> None:
+    """The documents on a console, within its width.
+
+    marks   what headings of the two levels are underlined with where colours cannot tell them
+    """
     for document in documents:
-        console.print(_shown(document.title, style="bold underline"))
+        _heading(document.title, "bold underline", console, marks[:1])
         for paragraph in document.lead:
             console.print(_shown(paragraph))
         for section in document.sections:
             console.print()
-            console.print(_shown(section.title, style="bold cyan"))
+            _heading(section.title, "bold cyan", console, marks[1:])
             for paragraph in section.paragraphs:
                 console.print(_shown(paragraph))
             for branch in section.branches:
                 console.print(_rich_tree(branch))
-            strips = [strip for table in section.tables for strip in _strips(table, console.width)]
-            for at, strip in enumerate(strips):
-                if at:
+            shown = [strip for table in section.tables for strip in strips(table, console.width)]
+            for at, strip in enumerate(shown):
+                if at or (marks and section.paragraphs):
                     console.print()
-                console.print(_rich_table(strip))
+                console.print(_rich_table(strip, console.width))
         console.print()
+
+
+def _heading(title: str, style: str, console: Console, mark: str) -> None:
+    """A heading, underlined where its style may not be seen."""
+    shown = _shown(title, style=style)
+    console.print(shown)
+    if mark:
+        console.print(mark * min(console.width, shown.cell_len))
+        if mark == "=":
+            console.print()
 
 
 def _shown(text: str, style: str = "") -> Text:
@@ -124,32 +175,13 @@ def _rich_tree(branch: Branch) -> Tree:
     return shown
 
 
-def _rich_table(table: Table) -> RenderableType:
+def _rich_table(table: Table, width: int) -> RenderableType:
     """A table without rules; failures in red."""
     from rich.table import Table as RichTable
 
-    gap = 1 if table.wide else 2
-    shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap, 0, 0))
-    for name in table.header:
-        shown.add_column(_shown(name), no_wrap=table.wide, overflow="fold")
+    shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap_of(table), 0, 0))
+    for name, size in zip(table.header, column_widths(table, width), strict=True):
+        shown.add_column(_shown(name), width=size, overflow="fold")
     for row in table.rows:
         shown.add_row(*(_shown(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
     return shown
-
-
-def _strips(table: Table, width: int) -> Iterator[Table]:
-    """A matrix cut into strips of columns that fit; other tables as they are."""
-    if not table.wide:
-        yield table
-        return
-    columns = [[table.header[at], *(row[at] for row in table.rows)] for at in range(len(table.header))]
-    sizes = [max(map(len, column)) + 1 for column in columns]
-    start = 1
-    while start < len(columns):
-        end, used = start + 1, sizes[0] + sizes[start]
-        while end < len(columns) and used + sizes[end] <= width:
-            used += sizes[end]
-            end += 1
-        chosen = [0, *range(start, end)]
-        yield Table([table.header[at] for at in chosen], [[row[at] for at in chosen] for row in table.rows], wide=True)
-        start = end

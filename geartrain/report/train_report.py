@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
 from math import degrees
 from typing import TYPE_CHECKING
 
@@ -32,10 +31,12 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing import MeshPhasing
 
 _CIRCUITS_ABREAST = 6
+SOURCES = "Sources"
+"""The title under which a report cites; a page has a list with links in its place."""
 
 
 def describe_train(found: TrainReport) -> Document:
-    """The report on one train: structure, circuits, speeds, outputs, torques, strength, motion, doubts and errata.
+    """The report on one train: outputs, speeds, torques, strength, motion and doubts; then structure, circuits, errata.
 
     Parameters
     ----------
@@ -45,51 +46,76 @@ def describe_train(found: TrainReport) -> Document:
     Returns
     -------
     Document
-        Sections in this order; those on which the train declares nothing are left out.
+        Answers first, then what they follow from; sections on which the train declares nothing are left out.
 
     Examples
     --------
     >>> import geartrain
     >>> from geartrain.report import collect_report
     >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
-    >>> [section.title for section in page.sections]
-    ['Structure', 'Adjacency matrix', 'Fundamental circuits', 'Mobility', 'Speeds', 'Outputs', 'Formulas', 'Words']
+    >>> [section.title for section in page.sections][:6]
+    ['Outputs', 'Speeds', 'Formulas', 'Structure', 'Fundamental circuits', 'Mobility']
     """
     train, answers = found.train, found.states
     declared = train.declaration
-    sections = [*_structure(train), _circuits(train), _mobility(train)]
-    sections += _phasing(found.closure)
-    if train.build_findings:
-        head = "Told by the declaration alone; an error cannot be built so, a note is unwise or open."
-        findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
-        sections.append(
-            Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
-        )
-    if train.remarks:
-        notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
-        sections.append(Section("Remarks", notes))
-    box = _gearbox(train)
-    if box is not None:
-        sections += gearbox_sections(box)
-    elif train.states:
-        sections.append(shift_table(train, answers))
-    for answer in answers:
-        told = answer_sections(train, answer)
-        # a gearbox has all speeds in one table
-        sections += told if box is None or not answer.verdict else islice(told, 1, None)
-        sections += formula_section(train, answer.state)
-    sections += teeth_sections(train, found.teeth, found.pins)
-    sections += loaded_sections(found.torques)
-    for strength in found.strength:
-        from geartrain.report.strength_report import strength_sections
-
-        sections += strength_sections(strength)
-    sections += moving_sections(train, found.motion, bool(found.teeth))
-    sections += doubtful_wheels(train, answers)
+    sections = [
+        *_answers(train, answers),
+        *_findings(train),
+        *teeth_sections(train, found.teeth, found.pins),
+        *loaded_sections(found.torques),
+        *_strength(found),
+        *moving_sections(train, found.motion, bool(found.teeth)),
+        *doubtful_wheels(train, answers),
+        *_structure(train),
+        _circuits(train),
+        _mobility(train),
+        *_phasing(found.closure),
+        *_adjacency(train),
+    ]
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         sections.append(Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),)))
-    return Document(declared.title or declared.name, tuple(_lead(train, answers)), (*sections, *_words(sections)))
+    last = [*_words(sections), *_sources(declared)]
+    return Document(declared.title or declared.name, tuple(_lead(train, answers)), (*sections, *last))
+
+
+def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
+    """What each state shows: outputs against their targets, speeds, formulas; a gearbox in tables of all its states."""
+    box = _gearbox(train)
+    if box is not None:
+        yield from gearbox_sections(box)
+    elif train.states:
+        yield shift_table(train, answers)
+    for answer in answers:
+        told = list(answer_sections(train, answer))
+        # a gearbox has all speeds in one table
+        yield from told if box is None or not answer.verdict else told[:-1]
+        yield from formula_section(train, answer.state)
+
+
+def _findings(train: GearTrain) -> Iterator[Section]:
+    """What of it cannot be built, and what is odd."""
+    if train.build_findings:
+        head = "Told by the declaration alone; an error cannot be built so, a note is unwise or open."
+        findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
+        yield Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
+    if train.remarks:
+        notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
+        yield Section("Remarks", notes)
+
+
+def _strength(found: TrainReport) -> Iterator[Section]:
+    """Strength, where the train declares what bears it; its words are read only then."""
+    for strength in found.strength:
+        from geartrain.report.strength_report import strength_sections
+
+        yield from strength_sections(strength)
+
+
+def _sources(declared: Train) -> Iterator[Section]:
+    """All that the declaration cites."""
+    if declared.sources:
+        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _words(sections: Sequence[Section]) -> Iterator[Section]:
@@ -111,11 +137,6 @@ def _gearbox(train: GearTrain) -> Gearbox | None:
 
 def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     declared = train.declaration
-    yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
-    if declared.note:
-        yield declared.note
-    for key, source in declared.sources.items():
-        yield source_line(key, source)
     for answer in answers:
         if not answer.verdict:
             state = f"State {answer.state}: " if answer.state is not None else ""
@@ -129,10 +150,13 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     yield (
         f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
     ) + f", absolute, about each link's own axis{clock}."
+    yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
+    if declared.note:
+        yield declared.note
 
 
 def source_line(key: str, source: Source) -> str:
-    """A source as the lead tells it."""
+    """A source by its key and in full."""
     return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
 
 
@@ -148,7 +172,11 @@ def _structure(train: GearTrain) -> Iterator[Section]:
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
     yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
-    if len(declared.links) <= MOST_SQUARE:
+
+
+def _adjacency(train: GearTrain) -> Iterator[Section]:
+    """The matrix, where it is not too large to be read."""
+    if len(train.declaration.links) <= MOST_SQUARE:
         text = "R(axis) is a turning pair, the others are gear pairs and couplings by id."
         yield Section("Adjacency matrix", (text,), (adjacency_table(train),))
 

@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import signal
+from itertools import pairwise
 from math import pi, tau
 from pathlib import Path
 from typing import Any
@@ -52,7 +53,8 @@ def test_the_json_has_the_closed_rate_of_a_pin_and_the_torque_of_virtual_work(pi
 
 def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settled(pin: Path) -> None:
     text = call("dynamics", pin, *TURN).output
-    heads = [line[3:] for line in text.splitlines() if line.startswith("## ")]
+    lines = text.splitlines()
+    heads = [line for line, below in pairwise(lines) if line and below == "-" * len(line)]
     assert heads[:4] == ["Up to which rate it holds", "Contacts", "Drive and outputs", "Energy"]
     assert "Holds up to 0.44067 turn/s of 'a'" in text
     assert "While 'a' makes 1 turn at 0.3 turn/s" in text

@@ -70,8 +70,8 @@ def test_uniform_temperature_has_the_depth_of_the_involute_in_all_readings() -> 
 def test_a_form_that_cannot_run_has_its_faults_in_place_of_numbers() -> None:
     done = call("mesh", "compare", *PAIR, "--bevel", "90deg", "--forms", "involute,lantern")
     assert done.exit_code == 1
-    assert re.search(r"\| lantern +\| - +\| refused \|", done.output)
-    assert "no mate in closed form" in done.output
+    assert re.search(r"^lantern +- +refused ", done.output, re.M)
+    assert "no mate in closed form" in " ".join(done.output.split())
     data = compared(*PAIR, "--arcs", "0.7,0.7", "--pressure-angle", "10deg", "--forms", "involute")
     (form,) = data["forms"]
     # the dedendum of gear 1 ends where the line of action touches its base circle: R1 tan psi, in pitches
@@ -313,7 +313,7 @@ def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> Non
 def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
     done = call("mesh", "involute", *PAIR, "--friction", 2)
     assert done.exit_code == 1
-    assert "but friction locks them" in done.output
+    assert "but friction locks them" in " ".join(done.output.split())
     assert "the teeth run" not in done.output
 
 
@@ -342,8 +342,8 @@ def test_teeth_without_a_path_are_cut_as_finely_as_is_asked_and_the_page_tells_w
     for tolerance in ("0.001mm", "0.1mm"):
         file = tmp_path / f"w{tolerance}.csv"
         done = call(*asked, "--profile", file, "--tolerance", tolerance)
-        assert re.search(r"\| pitch diameter +\| 120 ", done.output)
-        assert re.search(r"\| centre distance +\| 68 ", done.output)
+        assert re.search(r"\npitch diameter +120\b", done.output)
+        assert re.search(r"\ncentre distance +68\b", done.output)
         points[tolerance] = len(file.read_text(encoding="utf-8").splitlines())
     assert points["0.1mm"] < points["0.001mm"] / 2
     data = json.loads(call(*asked, "--profile", tmp_path / "w.svg", "--json").stdout)

@@ -141,8 +141,8 @@ def test_what_is_told_beyond_counts() -> None:
     assert (one["bits"], len(one["same"])) == (1, 5)
     page = call("reconstruct", "metonic-l-m").stdout
     assert "A wheel of 53 is needed in all." in page
-    assert "- the input: 100 %, 2 trains" in page
-    assert "  - b2 > l1, l2 > m1, m2 > new_metonic1 (metonic): 50 %, rank 1 with new_metonic1 53" in page
+    assert "\nthe input: 100 %, 2 trains" in page
+    assert "b2 > l1, l2 > m1, m2 > new_metonic1 (metonic): 50 %, rank 1 with" in page
 
 
 def test_assumptions_are_dropped_where_that_is_asked() -> None:
@@ -150,7 +150,7 @@ def test_assumptions_are_dropped_where_that_is_asked() -> None:
     holds("reconstruct", found)
     assert {one["change"]: one["mechanisms"] for one in found["assumptions"]}["without any sense"] == [0, 0, 29]
     assert found["marginals"] == []
-    assert "| without any sense " in call("reconstruct", "back-train", "--assumptions").stdout
+    assert "\nwithout any sense " in call("reconstruct", "back-train", "--assumptions").stdout
 
 
 def test_why_nothing_fits(tmp_path: Path) -> None:

@@ -54,12 +54,16 @@ TEETH = {
 class Page(HTMLParser):
     """Tables as rows of cells, headings, tags that are not closed, and whatever would be fetched or run.
 
+    Strips in which a page prints what is too wide for paper stand apart, as `strips`.
+
     Links within the page fetch nothing; the one script that comes with every page is known.
     """
 
     def __init__(self, text: str) -> None:
         super().__init__()
         self.tables: list[Rows] = []
+        self.strips: list[Rows] = []
+        self.filled = self.tables
         self.headings: list[str] = []
         self.open: list[str] = []
         self.astray: list[str] = []
@@ -75,12 +79,14 @@ class Page(HTMLParser):
             self.outside.append(tag)
         if tag not in VOID:
             self.open.append(tag)
+        if tag == "div":
+            self.filled = self.strips if "paper" in (dict(attrs).get("class") or "").split() else self.tables
         if tag == "table":
-            self.tables.append([])
+            self.filled.append([])
         elif tag == "tr":
-            self.tables[-1].append([])
+            self.filled[-1].append([])
         elif tag in ("td", "th"):
-            self.tables[-1][-1].append("")
+            self.filled[-1][-1].append("")
         elif tag in ("h1", "h2"):
             self.headings.append("")
 
@@ -91,7 +97,7 @@ class Page(HTMLParser):
     def handle_data(self, data: str) -> None:
         last = self.open[-1] if self.open else ""
         if last in ("td", "th"):
-            self.tables[-1][-1][-1] += data
+            self.filled[-1][-1][-1] += data
         elif last in ("h1", "h2"):
             self.headings[-1] += data
         elif last == "script" and data != SCRIPT:
@@ -144,7 +150,7 @@ def by_name(table: Rows) -> dict[str, dict[str, str]]:
 
 @pytest.fixture(scope="module")
 def paper() -> str:
-    return call("report", "pennestri-2002").output
+    return call("report", "pennestri-2002", "-o", "-").output
 
 
 # ---------------------------------------------------------------------------------------------- the paper's own tables
@@ -219,6 +225,18 @@ def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
     assert (page.open, page.astray, page.outside) == ([], [], [])
 
 
+def test_what_is_wider_than_paper_is_printed_in_strips_with_every_cell_once() -> None:
+    page = Page(to_html([describe_train(shipped.report("freeth-2021"))]))
+    (matrix,) = (table for table in page.tables if len(table[0]) == len(shipped.train("freeth-2021").tree.parent) + 2)
+    parts = [strip for strip in page.strips if len(strip) == len(matrix) and strip[1][0] == matrix[1][0]]
+    widths = [sum(max(map(len, column)) + 1 for column in zip(*strip, strict=True)) for strip in parts]
+    assert 90 < max(widths) <= 111
+    assert all([row[0] for row in strip] == [row[0] for row in matrix] for strip in parts)
+    assert [[cell for part in rows for cell in part[1:]] for rows in zip(*parts, strict=True)] == [
+        row[1:] for row in matrix
+    ]
+
+
 @pytest.mark.parametrize("name", REPORTED)
 def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> None:
     train, report = shipped.train(name), json.loads(as_json([shipped.report(name)]))
@@ -245,9 +263,10 @@ def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_p
     assert page.outside == []
     assert page.headings[0] == "<script>alert(1)</script> & | <b>"
     assert page.tables == markdown_tables(text)
-    assert page.tables[0][2][0] == "a|b"
-    assert page.tables[0][2][3] == "<img src=x onerror=y> | z"
-    assert page.tables[1][2][3] == "G|1"
+    speeds, structure, circuits, *_ = page.tables
+    assert speeds[2][0] == structure[2][0] == "a|b"
+    assert structure[2][3] == "<img src=x onerror=y> | z"
+    assert circuits[0][1] == "G|1"
 
 
 def test_a_note_of_several_lines_stays_within_its_cell(tmp_path: Path) -> None:
@@ -272,7 +291,7 @@ def test_the_json_of_a_report_says_what_the_markdown_says(name: str, tmp_path: P
     whole = json.loads(out.read_text(encoding="utf-8"))
     assert whole == json.loads(call("report", name, "--json").output)
     (data,) = whole
-    text = call("report", name).output
+    text = call("report", name, "-o", "-").output
     (matrix,) = section(text, "Adjacency matrix")
     assert [matrix[0][1:], *(row[1:] for row in matrix[1:])] == [
         data["adjacency"]["links"],
@@ -312,7 +331,7 @@ def test_several_trains_stand_in_one_report_in_the_order_asked(suffix: str, tmp_
         assert [title for title in Page(text).headings if title in titles] == titles
     else:
         assert [title for title in headings(text) if title in titles] == titles
-        assert text.rstrip() == call("report", *names).output.rstrip()
+        assert text.rstrip() == call("report", *names, "-o", "-").output.rstrip()
 
 
 # -------------------------------------------------------------------------------------------------------- whole or not
@@ -398,7 +417,7 @@ def test_a_verdict_is_written_for_it_is_a_result(tmp_path: Path) -> None:
 
 
 def test_alternatives_stand_side_by_side_with_exact_numbers() -> None:
-    text = call("compare", "freeth-2006", "freeth-2008").output
+    text = call("compare", "freeth-2006", "freeth-2008", "-o", "-").output
     (table,) = section(text, "Outputs")
     assert table[0] == ["output", "freeth-2006", "freeth-2008"]
     rows = {row[0]: row[1:] for row in table[1:]}
@@ -417,7 +436,7 @@ def test_alternatives_stand_side_by_side_with_exact_numbers() -> None:
 
 
 def test_the_wheels_that_differ_are_those_that_differ_in_the_declarations() -> None:
-    text = call("compare", "freeth-2008", "freeth-2008-b224", "freeth-2006").output
+    text = call("compare", "freeth-2008", "freeth-2008-b224", "freeth-2006", "-o", "-").output
     (table,) = section(text, "Wheels that differ")
     names = table[0][1:]
     wheels = [{name: str(w.count) for name, (_, w) in load(train).declaration.wheels.items()} for train in names]
@@ -459,7 +478,7 @@ def test_the_shift_table_has_the_ratios_and_clutches_of_the_maker() -> None:
         "1": ("ABC", "4.70"), "2": ("ABE", "3.13"), "3": ("BCE", "2.10"), "4": ("BDE", "1.67"), "5": ("BCD", "1.28"),
         "6": ("CDE", "1.00"), "7": ("ACD", "0.84"), "8": ("ADE", "0.67"), "R": ("ABD", "-3.30"),
     }  # fmt: skip
-    (table,) = section(call("report", "zf-8hp70").output, "Gears")
+    (table,) = section(call("report", "zf-8hp70", "-o", "-").output, "Gears")
     assert table[0][:8] == ["state", *"ABCDE", "verdict", "ratio"]
     found = {}
     for row in table[1:]:
@@ -472,7 +491,7 @@ def test_the_shift_table_has_the_ratios_and_clutches_of_the_maker() -> None:
 
 @pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "freeth-jones-2012"])
 def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name: str) -> None:
-    (table,) = section(call("report", name).output, "Outputs")
+    (table,) = section(call("report", name, "-o", "-").output, "Outputs")
     rows = by_name(table)
     read = {pointer: rows[pointer]["as read"] for pointer in ("metonic", "callippic", "saros", "exeligmos", "games")}
     sense = {pointer: words.split(",")[0] for pointer, words in read.items()}
@@ -501,7 +520,7 @@ def terminal(name: str, width: int) -> str:
 
 def strips(shown: str) -> Iterator[tuple[str, str]]:
     """The cells of the matrix on a terminal with the column they start under."""
-    matrix = shown[shown.index("Adjacency matrix") : shown.index("Fundamental circuits")]
+    matrix = shown[shown.index("Adjacency matrix") :].split("Errata of the sources")[0]
     head: dict[int, str] = {}
     lines = matrix.splitlines()
     start = next(at for at, line in enumerate(lines) if line.startswith(" "))

@@ -28,7 +28,7 @@ def test_no_more_than_four_are_told_at_once() -> None:
 def test_a_report_explains_what_it_names_and_no_more() -> None:
     for name in ("planetary-24-18-60", "zf-8hp70", "freeth-2008"):
         report = describe_train(collect_report(shipped.train(name)))
-        *others, words = report.sections
+        *others, words, _sources = report.sections
         assert words.title == "Words"
         spoken = "\n".join(
             text

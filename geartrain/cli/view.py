@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 _MOST_ANGLES = 2_000_000  # of all links together, before few of them are chosen
 
-Other = Annotated[str | None, typer.Argument(help="Another train, to stand beside the first.", metavar="[FILE2]")]
+Other = Annotated[str | None, typer.Argument(help="Another train, shown beside the first.", metavar="[FILE2]")]
 Page = Annotated[
     Path | None,
     typer.Option("--output-file", "-o", help="The page; default NAME.html in this folder; - is standard output."),

@@ -221,7 +221,7 @@ class _Toothing:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm's wheel"
-            why = "its teeth do not stand straight in a plane"
+            why = "its teeth are not straight in a plane"
             raise GearTrainError(Problem(f"a {kind} has no flat outline", why, "take the solid for a likeness"))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)

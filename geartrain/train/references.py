@@ -117,7 +117,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
             if wheel in owner:
                 yield Problem(
                     f"wheel '{wheel}' is declared twice",
-                    f"it stands on link '{owner[wheel]}' and on link '{link}'",
+                    f"it is on link '{owner[wheel]}' and on link '{link}'",
                     "wheel ids are unique over the train: rename one",
                     train.place("links", link, "wheels", wheel),
                 )
@@ -143,7 +143,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
         if link_1 == link_2:
             yield Problem(
                 f"gear pair '{gear.name}' joins two wheels of one link",
-                f"'{first}' and '{second}' both stand on link '{link_1}', so they cannot turn against each other",
+                f"'{first}' and '{second}' are both on link '{link_1}', so they cannot turn against each other",
                 "put one of them on another link",
                 place,
             )
@@ -186,7 +186,7 @@ def _couplings(train: Train) -> Iterator[Problem]:
         if coupling.pin == coupling.slot:
             yield Problem(
                 f"coupling '{coupling.name}' joins '{coupling.pin}' to itself",
-                "pin and slot stand on two links",
+                "pin and slot are on two links",
                 "name the other link",
                 train.place("couplings", at),
             )

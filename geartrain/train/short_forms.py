@@ -49,7 +49,7 @@ def _joints(joints: YamlNode, problems: list[Problem]) -> Iterator[YamlNode]:
     for axis, links in joints.mapping.items():
         place = joints.keys.get(axis, joints.place)
         if len(links.items) < 2:
-            why = "its links stand in a list, the one first that carries the others"
+            why = "its links are a list that begins with the one that carries the others"
             fix = f"write for example `{axis}: [frame, arbor]`"
             problems.append(Problem(f"axis '{axis}' joins nothing", why, fix, place))
             continue

@@ -103,7 +103,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
         return _too_deep(place)
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
-        return Problem("a tab stands here", "YAML is indented with spaces only", "replace the tab by spaces", place)
+        return Problem("there is a tab here", "YAML is indented with spaces only", "replace the tab by spaces", place)
     return Problem(
         "the YAML cannot be read here",
         why,
@@ -213,7 +213,7 @@ class _Builder:
             if key in parent.mapping:
                 self.problems.append(
                     Problem(
-                        f"key '{key}' stands twice",
+                        f"key '{key}' is given twice",
                         f"it is also at {parent.keys[key]}, and one would be lost",
                         "rename or remove one",
                         key_place,

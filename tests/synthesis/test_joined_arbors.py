@@ -133,11 +133,11 @@ REFUSED = {
     ),
     "axes": (
         COUPLED + "revolutes: [{pair: [frame, n], axis: N}, {pair: [frame, k], axis: N}]\n",
-        ["'m' and 'k' are joined, and stand on different axes", "`apart`"],
+        ["'m' and 'k' are joined, but lie on different axes", "`apart`"],
     ),
     "places": (
         COUPLED + f"  geometry: {{}}\n{AXES}revolutes: [{{pair: [frame, m], axis: B}}]\n",
-        ["'m' and 'k' are joined, and stand on different axes"],
+        ["'m' and 'k' are joined, but lie on different axes"],
     ),
 }
 

@@ -47,8 +47,8 @@ MISTAKES = {
     "unknown key": (changed("wheels: {p: 20}", "wheel: {p: 20}"), 3, ["unknown key 'wheel'", "did you mean 'wheels'?"]),
     "unknown key at the top": (changed("gears:", "gear:"), 8, ["unknown key 'gear'", "did you mean 'gears'?"]),
     "unknown key in a pair": (changed("{pair: [p, w]}", "{pairs: [p, w]}"), 9, ["unknown key 'pairs'", "'pair'"]),
-    "duplicate key": (changed("  b: {wheels: {w: 60}}", "  a: {wheels: {w: 60}}"), 4, ["key 'a' stands twice", ":3"]),
-    "duplicate key in a flow": (changed("{p: 20}", "{p: 20, p: 30}"), 3, ["key 'p' stands twice"]),
+    "duplicate key": (changed("  b: {wheels: {w: 60}}", "  a: {wheels: {w: 60}}"), 4, ["key 'a' is given twice", ":3"]),
+    "duplicate key in a flow": (changed("{p: 20}", "{p: 20, p: 30}"), 3, ["key 'p' is given twice"]),
     "duplicate wheel": (changed("{w: 60}", "{w: 60, p: 9}"), 4, ["wheel 'p' is declared twice", "link 'a'"]),
     "duplicate pair": (changed("  - {pair: [p, w]}", "  - {pair: [p, w]}\n  - {pair: [p, w]}"), 10, ["declared twice"]),
     "missing wheel": (changed("[p, w]", "[p, ww]"), 9, ["no wheel 'ww'", "did you mean 'w'?"]),
@@ -106,7 +106,7 @@ MISTAKES = {
     "a missing anchor": (changed("p: 20", "p: *twenty"), 3, ["twenty"]),
     "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
     "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["the YAML cannot be read here"]),
-    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["a tab stands here"]),
+    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["there is a tab here"]),
 }  # fmt: skip
 
 

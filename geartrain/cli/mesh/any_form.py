@@ -90,7 +90,7 @@ def _run(
     ] = None,
     bore: Bore = None,
     rim: Annotated[
-        str | None, typer.Option("--rim", help="With --profile: what stands round a ring or a lantern.")
+        str | None, typer.Option("--rim", help="With --profile: how much material is left around a ring or a lantern.")
     ] = None,
     tolerance: Tolerance = FINE,
     plot: Annotated[

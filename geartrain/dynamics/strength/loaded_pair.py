@@ -164,7 +164,7 @@ class PairUnderLoad:
 
     def _notes(self) -> Iterator[str]:
         if self.load is None:
-            yield "its form has no path of contact: no pressure by Hertz, and the load stands at the tip"
+            yield "its form has no path of contact: no pressure by Hertz, and the load acts at the tip"
         elif self.load.has_cusp:
             yield "flanks have no radius at the pitch point: Hertz's pressure has no bound there until they wear"
         if self.spurs is not None:

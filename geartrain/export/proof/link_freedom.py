@@ -260,7 +260,7 @@ class _Motion:
 
     def _out_of_step(self, pair: str, mm: float, pose: Fraction) -> BuildFinding:
         where = f" after {pose} turns" if pose else ""
-        what = f"pair '{pair}': its wheels stand in each other{where}" + ("" if mm == inf else f" by {mm:.3g} mm")
+        what = f"pair '{pair}': its wheels overlap{where}" + ("" if mm == inf else f" by {mm:.3g} mm")
         why = "where all links stand as solved, a tooth meets a tooth"
         return _finding("error", what, why, "join a wheel to its arbor at another angle, or change tooth numbers")
 

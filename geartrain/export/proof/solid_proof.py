@@ -97,7 +97,7 @@ def _matrix(pose: ScenePose, body: int) -> Floats:
 
 
 def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
-    what = f"'{one.name}' and '{other.name}' stand in each other by {volume:.3g} mm3"
+    what = f"'{one.name}' and '{other.name}' overlap by {volume:.3g} mm3"
     kinds = {one.kind, other.kind}
     if kinds == {"arbor"}:
         why, fix = "two arbors are in one place", "make one of them a pipe about the other, or move an axis"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _MATES = ({"spur"}, {"bevel"}, {"contrate", "spur"}, {"worm", "spur"})
 _NEEDS = {
     "bevel": "cones roll on each other where their axes meet",
-    "contrate": "the teeth of a contrate stand along its axis, across that of its mate",
+    "contrate": "the teeth of a contrate wheel point along its axis, across that of its mate",
     "worm": "a worm's axis passes that of its wheel at a distance",
     "helical": "crossed helical wheels touch between axes that pass each other at a distance",
 }

@@ -111,7 +111,7 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they stand in one level, for their mates do, and their places leave no room between them",
+            "they lie in one level, as their mates do, and their places leave no room between them",
             "give their axes positions, or their pairs another order",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]

@@ -219,7 +219,7 @@ class FrameStack:
                 why = (
                     f"'{axis.carrier}', which bears it, is itself carried round"
                     if upright
-                    else "it does not stand at right angles to the plates"
+                    else "it is not at right angles to the plates"
                 )
                 what = f"axis '{label}' has no bearings"
                 yield Problem(what, why, f"bear it in a bracket on '{axis.carrier}', made by hand")

@@ -144,7 +144,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
         axes = {frozenset(_beside(problem, link)) - set(links) for link in links}
         if len(places) > 1 or len(axes) > 1:
             said = " and ".join(f"'{link}'" for link in links)
-            what = f"{said} are joined, and stand on different axes"
+            what = f"{said} are joined, but lie on different axes"
             why = "which of them an added wheel is on would have to be asked too"
             fix = f"leave out the axis of '{name}', and name wheels that do not mesh in `apart`"
             place = next(loc for pair, loc in _pairs(evidence) if name in pair)

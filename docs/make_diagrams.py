@@ -19,7 +19,6 @@ sys.path.insert(0, str(DOCS / "site"))
 import diagrams  # noqa: E402  # it is found in the folder of the site's makers
 
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-_OF_PICTURES = re.compile(r":root\{[^}]*\}|\.gd-(?!live|hint|reading|remark|handle)[\w-]+(?: \*)?\{[^}]*\}")
 LINE = 24  # of the numbers below a picture
 
 
@@ -41,9 +40,14 @@ def still(page: Page, kind: str) -> str:
     page.goto("about:blank")  # where no element is defined yet
     page.set_content(f"<style>{style}</style>{diagrams.element(kind, '')}<script>{script}</script>")
     page.wait_for_selector(".gd-alive", state="attached")
-    kept = "".join(_OF_PICTURES.findall(style))
-    taken = page.evaluate((DOCS / "site" / "take_still.js").read_text(encoding="utf-8"), [kept, LINE])
+    taken = page.evaluate((DOCS / "site" / "take_still.js").read_text(encoding="utf-8"), [_style(), LINE])
     return f"{taken}\n"
+
+
+def _style() -> str:
+    """How what is drawn looks, in few letters."""
+    text = (diagrams.SOURCES / "picture.css").read_text(encoding="utf-8")
+    return re.sub(r"\s*([{};:,])\s*", r"\1", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)).strip()
 
 
 if __name__ == "__main__":

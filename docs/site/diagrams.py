@@ -18,7 +18,8 @@ from geartrain.viewer.viewer_page import json_in_script
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BUILT = ROOT / "geartrain" / "viewer" / "built"
-KINDS = ("willis",)
+SOURCES = ROOT / "geartrain" / "viewer" / "src" / "diagrams"
+KINDS = ("circuits", "closure", "differential", "locking", "pin", "teeth", "willis")
 FILES = ("diagrams.js", "diagrams.css")
 _MARK = re.compile(r"<!-- diagram: (\w+) -->\s*<p>(<img [^>]*>)</p>")
 

@@ -93,6 +93,13 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 # -------------------------------------------------------------------------------------------------------------- placing
 
 
+def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
+    """Where the links stand (inches), and every pair with its curve's ends and middle control point (3, 2)."""
+    links, edges = list(train.declaration.links), edges_of(train)
+    at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
+    return at, list(zip(edges, _curves(edges, at), strict=True))
+
+
 def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
     """Inches (n, 2), the longer side across."""
     degree = dict.fromkeys(links, 0)

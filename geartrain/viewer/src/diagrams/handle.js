@@ -15,10 +15,12 @@ const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
  * text     its value in words
  * page     steps of the keys for pages; `key`, of the arrows; `least`, `most` where it ends
  */
-export function handle(sheet, part, { plane, label, value, set, moved, text, parts = 360, key = 1, page = 15, least = null, most = null }) {
+export function handle(sheet, part, given) {
+  const { plane, label, value, set, moved, text, key = 1, page = 15, least = null, most = null } = given;
   part.classList.add("gd-handle");
   for (const [name, said] of [["tabindex", 0], ["role", "slider"], ["aria-label", label]]) part.setAttribute(name, said);
   const to = (units) => {
+    const parts = given.parts ?? 360;
     const low = least === null ? -Infinity : Math.ceil(least * parts - 1e-9);
     const high = most === null ? Infinity : Math.floor(most * parts + 1e-9);
     const steps = Math.min(high, Math.max(low, Math.round(units * parts)));
@@ -46,17 +48,21 @@ export function handle(sheet, part, { plane, label, value, set, moved, text, par
     part.focus({ preventScroll: true });
     event.preventDefault();
   });
-  part.addEventListener("pointermove", (event) => {
+  const follow = (event) => {
     if (!held) return;
     const now = at(event);
     held.units += moved(held.from, now);
     held.from = now;
     to(held.units);
-  });
+  };
+  // Chromium scrolls the page under parts of an SVG picture whatever their touch-action
+  part.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
+  part.addEventListener("pointermove", follow);
+  part.addEventListener("pointerup", follow); // where it was let go counts
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) part.addEventListener(end, () => (held = null));
   part.addEventListener("keydown", (event) => {
     const steps = { PageUp: page, PageDown: -page }[event.key] ?? (KEYS[event.key] ?? 0) * key;
-    if (steps) to(Number(value()) + steps / parts);
+    if (steps) to(Number(value()) + steps / (given.parts ?? 360));
     else if (event.key === "Home") to(0);
     else return;
     event.preventDefault();

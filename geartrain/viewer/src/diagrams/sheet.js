@@ -17,11 +17,30 @@ export class Sheet {
     host.append(el("div", { class: "gd-live" }, this.picture, el("p", { class: "gd-hint" }, hint), this.bar, this.table, this.remark));
   }
 
-  /** A part of the picture in a plane of its own: x to the right, y up, one unit of it `scale` of the picture's. */
-  plane(scale, [x, y]) {
-    const group = svg("g", { transform: `translate(${x} ${y}) scale(${scale} ${-scale})`, class: "gd-plane" });
-    this.picture.append(group);
+  /** A part of the picture in a plane of its own: x to the right, y up, one unit of it as many of the picture's as `across` and `up` say. */
+  plane([across, up], [x, y], within = this.picture) {
+    const group = svg("g", { transform: `translate(${x} ${y}) scale(${across} ${-up})`, class: "gd-plane" });
+    within.append(group);
     return group;
+  }
+
+  /** A part of the picture beyond which nothing in it is seen. */
+  pane([x, y, width, height]) {
+    const pane = svg("svg", { x, y, width, height, overflow: "hidden" });
+    this.picture.append(pane);
+    return pane;
+  }
+
+  /** A field for a curve: `to` gives the place of a point; the curve and what is marked on it are drawn in it. */
+  chart([x, y, width, height], [left, right], [low, high]) {
+    const to = ([u, v]) => [x + (width * (u - left)) / (right - left), y + height - (height * (v - low)) / (high - low)];
+    this.picture.append(svg("path", { d: `M${x} ${y}V${y + height}H${x + width}`, class: "gd-axis" }));
+    const line = (points, attributes) => {
+      const drawn = svg("path", { d: `M${points.map((point) => to(point).map((each) => each.toFixed(2)).join(" ")).join("L")}`, class: "gd-curve", ...attributes });
+      this.picture.append(drawn);
+      return drawn;
+    };
+    return { to, line };
   }
 
   /** Words in the picture. */
@@ -31,11 +50,11 @@ export class Sheet {
     return words;
   }
 
-  /** One of several: `options` are [value, text]; `chosen` is told of the new one. */
-  choice(label, options, chosen) {
+  /** One of several: `options` are [value, text], `first` the value at the start; `chosen` is told of the new one. */
+  choice(label, options, chosen, first = options[0][0]) {
     const name = fresh("gd");
-    const buttons = options.map(([value, text], n) =>
-      el("label", {}, el("input", { type: "radio", name, value, checked: n === 0, onchange: () => chosen(value) }), el("span", {}, text)),
+    const buttons = options.map(([value, text]) =>
+      el("label", {}, el("input", { type: "radio", name, value, checked: value === first, onchange: () => chosen(value) }), el("span", {}, text)),
     );
     this.bar.append(el("fieldset", {}, el("legend", {}, label), buttons));
   }

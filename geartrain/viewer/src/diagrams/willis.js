@@ -23,7 +23,8 @@ export function willis(host, { scene, held, sun, ring, carrier, planet }) {
   const index = (link) => scene.bodies.findIndex(({ id }) => id === link);
   const machines = Object.fromEntries(Object.entries(held).map(([link, speeds]) => [link, new Machine(turningAs(scene, speeds))]));
   const state = { held: ring, share: 0 }; // 0 seen from the ground, 1 from the carrier
-  const view = sheet.plane(WIDE / 2 / (1.05 * rimOf(scene.wheels.find(({ kind }) => kind === "ring"))), [WIDE / 2, 240]);
+  const scale = WIDE / 2 / (1.05 * rimOf(scene.wheels.find(({ kind }) => kind === "ring")));
+  const view = sheet.plane([scale, scale], [WIDE / 2, 240]);
   const root = svg("g");
   view.append(root);
   const { nodes, arm } = draw(scene, root, index(carrier), index(planet));

@@ -171,6 +171,18 @@ def test_a_diagram_fits_a_phone_and_leaves_fingers_to_its_handles(draw: Opening,
     assert all(height >= 11 for height in drawn.page.evaluate(heights))
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_on_a_desk_what_is_dragged_and_its_numbers_are_seen_together(draw: Opening, kind: str) -> None:
+    drawn = draw(kind, viewport={"width": 704, "height": 700})  # the width of a page of the site
+    sides = """[...document.querySelectorAll('.gd-live, .gd-side, .gd-reading, .gd-remark')].map((each) => {
+      const {left, right, top, bottom} = each.getBoundingClientRect();
+      return [left, right, top, bottom];
+    })"""
+    (left, right, top, bottom), *inside = drawn.page.evaluate(sides)
+    assert bottom - top < 600
+    assert all(left < a and b < right and top < c and d < bottom for a, b, c, d in inside)
+
+
 def test_a_finger_drags_on_a_phone(draw: Opening) -> None:
     drawn = draw("willis", **PHONE)
     before = drawn.fraction("ring", ARM)
@@ -296,7 +308,7 @@ def test_the_speed_ratio_of_teeth_dragged_is_that_of_their_law(draw: Opening, na
         assert float(passed - before) == pytest.approx(pitches, abs=0.03)
         angle = float(passed % 1) * law.period
         assert float(drawn.number("speed ratio", "now")) == pytest.approx(float(law.speed(angle)), abs=1e-6)
-        ahead = float(drawn.number("driven wheel ahead by", "now").rstrip("\N{DEGREE SIGN}"))
+        ahead = float(drawn.number("driven ahead by", "now").rstrip("\N{DEGREE SIGN}"))
         assert ahead == pytest.approx(degrees(float(law.error(angle))), abs=1e-5)
         x, y = (float(drawn.page.locator(".gd-plane circle").get_attribute(key) or "nan") for key in ("cx", "cy"))
         recess = drawn.remark.startswith("Recess")
@@ -313,18 +325,16 @@ def test_the_speed_ratio_of_teeth_dragged_is_that_of_their_law(draw: Opening, na
 def test_the_slot_is_where_a_triangle_of_pin_and_axes_puts_it(draw: Opening) -> None:
     drawn = draw("pin")
     for turns in (0.21, -0.55, 0.83):
-        before = Fraction(drawn.number("pin, from its own axis", "degrees")) / 360
+        before = Fraction(drawn.number("pin, in degrees", "now")) / 360
         drawn.drag_round(6, turns)
-        pin = Fraction(drawn.number("pin, from its own axis", "degrees")) / 360
+        pin = Fraction(drawn.number("pin, in degrees", "now")) / 360
         assert float(pin - before) == pytest.approx(turns, abs=0.01)
         x, y = 9.6 * cos(TURN * float(pin)) - 1.1, 9.6 * sin(TURN * float(pin))
-        slot = float(drawn.number("slot, from its axis", "degrees"))
+        slot = float(drawn.number("slot, in degrees", "now"))
         assert (slot / 360 - atan2(y, x) / TURN + 0.5) % 1 == pytest.approx(0.5, abs=1e-8)
-        ahead = float(drawn.number("ahead by", "degrees"))
+        ahead = float(drawn.number("ahead by", "now"))
         assert ahead == pytest.approx(slot - 360 * float(pin), abs=2e-6)
-        assert (
-            abs(ahead) <= float(drawn.number("at most", "degrees")) == pytest.approx(degrees(asin(1.1 / 9.6)), abs=1e-6)
-        )
+        assert abs(ahead) <= float(drawn.number("at most", "now")) == pytest.approx(degrees(asin(1.1 / 9.6)), abs=1e-6)
 
 
 # ------------------------------------------------------------------------------------------------------------ closure

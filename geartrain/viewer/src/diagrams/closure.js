@@ -18,7 +18,7 @@ export function closure(host, { planet: count, sets }) {
   const sheet = new Sheet(host, {
     height: WIDE,
     label: "Planets between a sun and a ring",
-    hint: "Drag the second planet round the sun, or use the arrow keys: green fits, red does not.",
+    hint: "Drag the second planet round the sun, or use the arrow keys: blue fits, red does not.",
   });
   const scale = WIDE / 2 / (1.02 * Math.max(...Object.values(sets).map(({ wheels }) => rimOf(wheels.r))));
   const view = sheet.plane([scale, scale], [WIDE / 2, WIDE / 2]);

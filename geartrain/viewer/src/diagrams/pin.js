@@ -12,7 +12,7 @@ const TURN = 2 * Math.PI;
 const DEGREES = 360 / TURN;
 const SCALE = 11;
 const CENTRE = [WIDE / 2 - 6, 165];
-const NOW = "degrees";
+const NOW = "now";
 
 /** data   the wheels of pin and slot, `pin_radius`, `offset` (mm) and the law of the pair */
 export function pin(host, { wheels, pin_radius: r, offset: e, law: table }) {
@@ -42,8 +42,8 @@ export function pin(host, { wheels, pin_radius: r, offset: e, law: table }) {
     const degrees = turned.times(360);
     sheet.tell(
       [
-        ["pin, from its own axis", `${degrees}`],
-        ["slot, from its axis", (Number(degrees) + DEGREES * error).toFixed(6)],
+        ["pin, in degrees", `${degrees}`],
+        ["slot, in degrees", (Number(degrees) + DEGREES * error).toFixed(6)],
         ["ahead by", (DEGREES * error).toFixed(6)],
         ["at most", (DEGREES * Math.asin(e / r)).toFixed(6)],
       ],

@@ -14,7 +14,8 @@ export class Sheet {
     this.table = el("table", { class: "gd-reading" });
     this.remark = el("p", { class: "gd-remark", "aria-live": "polite" });
     this.handles = [];
-    host.append(el("div", { class: "gd-live" }, this.picture, el("p", { class: "gd-hint" }, hint), this.bar, this.table, this.remark));
+    const side = el("div", { class: "gd-side" }, el("p", { class: "gd-hint" }, hint), this.bar, this.table, this.remark);
+    host.append(el("div", { class: "gd-live" }, this.picture, side));
   }
 
   /** A part of the picture in a plane of its own: x to the right, y up, one unit of it as many of the picture's as `across` and `up` say. */

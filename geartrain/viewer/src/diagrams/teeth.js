@@ -44,7 +44,7 @@ export function teeth(host, { pairs }) {
         ["driver, in pitches", `${state.passed}`],
         ["speed ratio", ratio.toFixed(6)],
         ["mean ratio", pair.given.ratio],
-        ["driven wheel ahead by", `${(DEGREES * error).toFixed(5)}\u00b0`],
+        ["driven ahead by", `${(DEGREES * error).toFixed(5)}\u00b0`],
       ],
       [TELLS],
     );

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, SIMPLE, Opening, turns, wait
+from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
 
 
 def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
@@ -78,3 +79,36 @@ def test_reduced_motion_moves_by_jumps_of_a_second(show: Opening) -> None:
     )
     assert 1 <= len(moves) <= 2
     assert moves[0] >= 950
+
+
+def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show: Opening) -> None:
+    for name in (SIMPLE, "worm", "longcase-clock"):
+        shown = show(name)
+        box = shown.page.get_by_role("slider", name="crank").bounding_box()
+        assert box is not None
+        x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.36 * box["width"]
+        shown.page.mouse.move(x, y - reach)
+        shown.page.mouse.down()
+        for step in range(1, 18):  # a turn and a bit
+            angle = 0.4 * step
+            shown.page.mouse.move(x + reach * math.sin(angle), y - reach * math.cos(angle))
+        shown.page.mouse.up()
+        made = turns(shown)
+        assert float(made) == pytest.approx(0.4 * 17 / (2 * math.pi) / gearing(name), rel=1e-2)
+        told = shown.page.locator(".turns").inner_text().split(" = ")[0].replace("\u202f", "").replace("\u2212", "-")
+        assert float(told) == pytest.approx(float(made), abs=5.1e-5)
+        tab(shown, "Outputs")
+        pointers = {pointer.output: pointer for pointer in shipped.scene(name).pointers}
+        lead = next(iter(shipped.train(name).declaration.case(None).inputs.values()))
+        for output, result in shipped.train(name).solve().outputs.items():
+            text = shown.page.locator(f"[data-angle='{output}']").inner_text().removesuffix("\u00b0")
+            assert result.speed is not None
+            turned = pointers[output].sense * Fraction(result.speed) / lead * made % 1 * 360
+            assert (float(text) - float(turned) + 180) % 360 - 180 == pytest.approx(0, abs=0.0051), (name, output)
+
+
+def gearing(name: str) -> float:
+    """Turns of the hand for one of the lead: those of the crank that is declared, where a hand could turn it so."""
+    scene = shipped.scene(name)
+    speed = 1.0 if scene.crank is None else abs(float(Fraction(scene.bodies[scene.crank].speed or 1)))
+    return speed if 0.05 <= speed <= 20 else 1.0

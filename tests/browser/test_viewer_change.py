@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 import shipped
+from test_viewer_themes import TEXTS, contrast
 from viewing import DESK, tab, wait
 
 from geartrain import GearTrain, load
@@ -183,6 +184,32 @@ def test_meshes_tell_by_how_much_they_miss_their_axes(opened: Any) -> None:
     give(shown, "c1", 27)
     tab(shown, "Change")
     assert "All still fit their axes" in shown.page.locator(".change").inner_text()
+
+
+def test_meshes_of_other_axes_are_judged_by_what_they_have(opened: Any) -> None:
+    for name, wheel, more, said in (
+        ("worm", "w60", 2, "asks for axes 1 module further apart"),
+        ("worm", "w2", 1, None),  # a start more leaves a worm as thick as it is
+        ("bevel-differential", "pinion", 1, "its axes meet, and its wheels have to be cut and set along them anew"),
+        ("crossed-helical", "w20", 1, " mm further apart than they stand (as drawn)"),
+    ):
+        train = shipped.train(name)
+        shown = opened(train)
+        give(shown, wheel, (train.declaration.wheels[wheel][1].count or 0) + more)
+        tab(shown, "Change")
+        texts = shown.page.locator(".change").inner_text()
+        assert (said or "All still fit their axes") in texts, name
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_is_changed_can_be_read(opened: Any, scheme: str) -> None:
+    shown = opened(shipped.train("planetary-24-18-60"))
+    shown.page.get_by_label("theme").select_option(scheme)
+    give(shown, "s", 26)
+    for name in ("Change", "Wheels"):
+        tab(shown, name)
+        for where, ink, ground, least in shown.run(TEXTS):
+            assert contrast(ink, ground) >= least, (where, ink, ground)
 
 
 def test_a_loop_that_no_longer_closes_locks_the_train(opened: Any) -> None:

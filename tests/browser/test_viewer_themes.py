@@ -69,7 +69,7 @@ def test_text_and_edges_stand_out_in_both_themes(show: Opening, scheme: str) -> 
     shown.page.get_by_label("Colours").select_option("status")
     shown.page.locator("[data-wheel='e5']").evaluate("(button) => button.click()")
     weak, count = [], 0
-    for name in ("Dials", "Outputs", "Wheels", "About"):
+    for name in ("Dials", "Outputs", "Sky", "Wheels", "About"):
         tab(shown, name)
         if name == "Outputs":
             shown.page.locator("tr[data-output='moon'] th button").click()

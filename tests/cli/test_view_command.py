@@ -61,11 +61,11 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_page_of_the_largest_train_is_below_two_megabytes(here: Path) -> None:
+def test_the_page_of_the_largest_train_is_below_1200_kilobytes(here: Path) -> None:
     done = call("view", "freeth-2021")
     written = here / "freeth-2021.html"
     assert done.exit_code == 0, done.output
-    assert 100_000 < written.stat().st_size < 2_000_000
+    assert 100_000 < written.stat().st_size < 1_200_000
     assert f"{written.stat().st_size / 1000:,.0f} kB" in done.output
     assert [path.name for path in here.iterdir()] == ["freeth-2021.html"]
 

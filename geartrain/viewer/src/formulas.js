@@ -75,7 +75,7 @@ export class CountFormulas {
 
   /**
    * How each pair of wheels stands on the axes it has: {pair, off, module}. `off`, in modules and exact, is how much
-   * further apart its axes ought to be; null where no distance follows from counts: cones are then cut anew.
+   * further apart its axes ought to be, `apart` the same of skew axes in mm as drawn; both are null where axes meet.
    */
   meshes(counts) {
     const { scene } = this;
@@ -87,14 +87,20 @@ export class CountFormulas {
       if (!grown[0] && !grown[1]) return { pair, off: Fraction.of(0), module };
       const worm = [one, other].findIndex(({ kind }) => kind === "worm");
       if (worm >= 0) return { pair, off: new Fraction(grown[1 - worm], 2n), module: (2 * [other, one][worm].radius) / [other, one][worm].teeth };
-      if (!isParallel(one.direction, other.direction)) return { pair, off: null, module };
+      if (!isParallel(one.direction, other.direction)) return { pair, off: null, apart: skewed(one, other) ? this.#apart(pair, grown) : null };
       const ring = [one, other].findIndex(({ kind }) => kind === "ring");
       const sum = ring < 0 ? grown[0] + grown[1] : grown[ring] - grown[1 - ring];
       return { pair, off: new Fraction(sum, 2n), module };
     });
   }
+
+  /** By how much further apart two skew axes ought to be (mm as drawn). */
+  #apart({ wheels }, grown) {
+    return wheels.reduce((sum, index, k) => sum + (Number(grown[k]) * this.scene.wheels[index].radius) / this.scene.wheels[index].teeth, 0);
+  }
 }
 
+const skewed = (...wheels) => wheels.every(({ cone, kind }) => !cone && kind !== "contrate");
 const MEAN = "Teeth and pins ripple as they were computed for the declared counts only, so that this is mean motion.";
 
 /** A count that a wheel can have, of a number or of text; null for others. */

@@ -30,14 +30,17 @@ export function asYaml(side) {
   ].join("\n");
 }
 
+const wayOf = (further) => (further ? "further apart than they stand" : "nearer together than they stand");
+
 /** How a pair stands on its axes, in words; empty where it fits. */
-export function misfit({ pair, off, module }) {
-  if (off === null) return `${pair.id}: its cones are to be cut anew for the ratio`;
+export function misfit({ pair, off, apart, module }) {
+  if (off === null && apart === null) return `${pair.id}: its axes meet, and its wheels have to be cut and set along them anew`;
+  if (off === null && !apart) return "";
+  if (off === null) return `${pair.id}: asks for axes ${Math.abs(apart).toPrecision(3)} mm ${wayOf(apart > 0)} (as drawn)`;
   if (off.numerator === 0n) return "";
   const size = off.numerator < 0n ? Fraction.of(0).minus(off) : off;
-  const way = off.numerator > 0n ? "further apart than they stand" : "nearer together than they stand";
   const modules = `${size} ${size.equals(1) ? "module" : size.denominator === 1n ? "modules" : "of a module"}`;
-  return `${pair.id}: asks for axes ${modules} ${way} (${(Number(size) * module).toPrecision(3)} mm as drawn)`;
+  return `${pair.id}: asks for axes ${modules} ${wayOf(off.numerator > 0n)} (${(Number(size) * module).toPrecision(3)} mm as drawn)`;
 }
 
 export class Change {

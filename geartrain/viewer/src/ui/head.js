@@ -1,4 +1,5 @@
 // The head of the page: which train, its verdict, its states, theme and keys.
+import { misfit } from "./change.js";
 import { el, field } from "./element.js";
 import { loopParts, verdict } from "./verdict.js";
 
@@ -57,7 +58,7 @@ export class Head {
 
   /** That counts are changed, and what of the meshes that leaves; a click shows all of it. */
   #told(side) {
-    const off = side.meshes.filter(({ off: by }) => by === null || by.numerator !== 0n).length;
+    const off = side.meshes.filter(misfit).length;
     const counts = side.steps.map(({ wheel, declared, count }) => `${wheel} ${declared} \u2192 ${count}`);
     const fits = off ? `${off} ${off === 1 ? "mesh no longer fits its axes" : "meshes no longer fit their axes"}` : "all meshes still fit their axes";
     const button = el("button", { type: "button", class: "plain", onclick: () => this.onChanged() }, counts.slice(0, 6).join(", ") + (counts.length > 6 ? ", ..." : ""));

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from commands import call
 from shipped import train as load
 
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError
 from geartrain.export import wheel_file
 from geartrain.export.kerf import compensated
@@ -106,6 +108,25 @@ def test_a_sheet_that_is_none_is_refused(text: str, tmp_path: Path) -> None:
     done = call("export", "watch-going-train", "--to", tmp_path / "set", "--as", "svg", "--sheet", text)
     assert isinstance(done.exception, GearTrainError)
     assert "--sheet" in str(done.exception)
+
+
+def test_wheels_without_a_thickness_are_of_one_stock() -> None:
+    """Two and a half modules of most wheels, as sheets are sold: 21 modules would ask for as many sheets."""
+    for name, stock in (("freeth-2008", 1.2), ("longcase-clock-cycloidal", 2.5)):
+        wheels = SolidModel(load(name), ManufacturingSizes()).blanks.wheels
+        assert {blank.thickness for blank in wheels.values()} == {stock}
+    given = GearTrain.declare(
+        yaml.safe_load("""
+links: {frame: {}, a: {wheels: {p: {teeth: 20, thickness: 1.7 mm}}}, b: {wheels: {w: 40}}, c: {wheels: {q: 30}}}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
+gears: [p ~ w, w ~ q]
+inputs: {a: 1}
+""")
+    )
+    made = SolidModel(given, ManufacturingSizes(module=0.43))  # 1.075 mm
+    assert {name: blank.thickness for name, blank in made.blanks.wheels.items()} == {"p": 1.7, "w": 1.0, "q": 1.0}
+    asked = SolidModel(given, ManufacturingSizes(module=0.43, thickness=1.1))
+    assert {blank.thickness for blank in asked.blanks.wheels.values()} == {1.1}
 
 
 def test_declared_widths_materials_and_arbors_are_those_that_are_made() -> None:

@@ -17,7 +17,7 @@ from geartrain.teeth.standard_teeth import DEDENDUM
 
 _TIP = DEDENDUM  # modules beyond the pitch circle that are kept free: a tooth, and clearance
 _RING = 3.5  # modules of a ring's rim
-_WIDE = 2.5  # modules of a wheel's thickness
+WIDE = 2.5  # modules of a wheel's thickness
 _SLOT = 1.4  # thicknesses from slot to slot
 _WORM = 12.0  # modules of a worm's length
 
@@ -170,7 +170,7 @@ def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
 def _size(geometry: DeclaredGeometry, wheel: str, module: float, is_given: bool) -> WheelSize:
     declared = geometry.wheel(wheel)
     radius = float(geometry.radius(wheel)) * module
-    usual = (_WORM if declared.kind == "worm" else _WIDE) * module
+    usual = (_WORM if declared.kind == "worm" else WIDE) * module
     # of a wheel that may have any size a thickness says nothing
     thickness = geometry.thickness.get(wheel, usual) if is_given else usual
     across_axis = module * declared.slant

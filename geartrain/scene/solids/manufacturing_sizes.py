@@ -6,18 +6,26 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import isfinite
+from math import isfinite, log
+from statistics import median
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
 from geartrain.scene.layout import Layout, WheelPlace
+from geartrain.scene.layout.wheel_sizes import WIDE
 from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import DEDENDUM, PLAY
 from geartrain.train import GearPair, Train
+from geartrain.train.wheel_stock import wheel_thickness
 
 _SAME_LEVEL = 1e-3  # mm
+_STOCK = (
+    *(0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0),
+    *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
+)  # mm: sheets as they are sold
+_NEAR = 1.3  # how much thicker or thinner than 2.5 modules a sheet may be
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,19 +178,46 @@ def usual_module(layout: Layout) -> float:
     return Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0][0]
 
 
-def thick(layout: Layout, making: ManufacturingSizes) -> Layout:
-    """The layout with wheels of the thickness asked for, levels moved apart where it is more than they have."""
-    if making.thickness is None:
+def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout:
+    """The layout with wheels of the thickness asked for, else of sheets that are sold.
+
+    Levels move apart where wheels become thicker.
+    """
+    wanted = _thicknesses(declared, layout, making)
+    if all(wanted[name] == place.thickness for name, place in layout.wheels.items()):
         return layout
     upright = all(_is_upright(layout, place) for place in layout.wheels.values())
-    levels = sorted({round(place.centre[2], 6): place.thickness for place in layout.wheels.values()}.items())
+    more: dict[float, float] = {}
+    for name, place in layout.wheels.items():
+        height = round(place.centre[2], 6)
+        more[height] = max(more.get(height, 0.0), wanted[name] - place.thickness)
     wheels = {}
     for name, place in layout.wheels.items():
-        below = [max(making.thickness - had, 0.0) for height, had in levels if height < place.centre[2] - _SAME_LEVEL]
+        below = [growth for height, growth in sorted(more.items()) if height < place.centre[2] - _SAME_LEVEL]
         x, y, z = place.centre
         centre = (x, y, z + sum(below)) if upright else place.centre
-        wheels[name] = replace(place, thickness=making.thickness, centre=centre)
+        wheels[name] = replace(place, thickness=wanted[name], centre=centre)
     return replace(layout, wheels=wheels)
+
+
+def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
+    """Of all wheels (mm): as asked for; those that no one gives a thickness are of one stock."""
+    if making.thickness is not None:
+        return dict.fromkeys(layout.wheels, making.thickness)
+    own = {name: place.thickness for name, place in layout.wheels.items()}
+    free = [name for name, place in layout.wheels.items() if _is_free(declared, name, place)]
+    if not free:
+        return own
+    usual = median(own[name] for name in free)
+    stock = min(_STOCK, key=lambda each: abs(log(each / usual)))
+    return own if abs(log(stock / usual)) > log(_NEAR) else own | dict.fromkeys(free, stock)
+
+
+def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
+    """True of a flat wheel whose thickness is that of its module, and not wider for several mates."""
+    wheel = declared.wheels[name][1]
+    plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
+    return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
 
 
 def _is_upright(layout: Layout, place: WheelPlace) -> bool:

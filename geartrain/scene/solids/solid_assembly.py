@@ -162,7 +162,8 @@ class SolidModel:
     @cached_property
     def _spread(self) -> Layout:
         """Places before there are plates."""
-        return thick(self._laid if self.sized is self.train else lay_out(self.sized), self.making)
+        laid = self._laid if self.sized is self.train else lay_out(self.sized)
+        return thick(self.sized.declaration, laid, self.making)
 
     @cached_property
     def _toothed(self) -> Blanks:

@@ -108,6 +108,6 @@ class WheelPair:
             raise refused(
                 f"the {name} {length.text} has nothing to be compared with",
                 "the wheels declare no module with a unit",
-                f"give the `module` of both wheels, or the {name} as a plain number of modules",
+                f"give the `module` of both wheels, --module to `export`, or the {name} as a plain number of modules",
             )
         return length.si / self.module

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,7 @@ class TrainUnderLoad(TrainInTime):
         years: float | None = None,
         wear: tuple[float, float] | None = None,
         elements: bool = False,
+        over: float | None = None,
     ) -> TrainStrength:
         """Pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
 
@@ -42,6 +44,9 @@ class TrainUnderLoad(TrainInTime):
             Least and greatest wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
         elements : bool
             Whether root stresses are checked by plane finite elements, which takes the extra `fem`.
+        over : float, optional
+            Turns of the input: stresses are those of the greatest torque of each pair in them, with the ratios and the
+            friction that teeth and pins have at every position; by default those of its mean torque.
 
         Returns
         -------
@@ -60,7 +65,7 @@ class TrainUnderLoad(TrainInTime):
         from geartrain.dynamics.torques.power_flow import has_torque_units
         from geartrain.teeth.strength.archard_wear import WEAR_RANGE
 
-        check_numbers(turns=turns, years=years)
+        check_numbers(turns=turns, years=years, over=over)
         own = WearRange(*(wear or WEAR_RANGE))
         if not 0 < own.least <= own.greatest < inf:
             what = f"{own.least:g} to {own.greatest:g} is no range of wear coefficients"
@@ -74,7 +79,14 @@ class TrainUnderLoad(TrainInTime):
         scale = self._time_of_wear(found.state, turns, years)
         covered = None if scale is None else scale * self._input_speed(found.state)
         meshes = self.meshes_in(found.state)
-        return StrengthQuestion(self, setting, found, meshes, scale, covered, own, elements).answer()
+        question = StrengthQuestion(self, setting, found, meshes, scale, covered, own, elements)
+        if over is None:
+            return question.answer()
+        cycle = self.torques(state, turns=over)
+        if not cycle.parts:
+            return TrainStrength(found.state, cycle.verdict)
+        greatest = {name: part.greatest for name, part in cycle.parts.items()}
+        return replace(question, over=over, greatest=greatest).answer()
 
     def tells_strength(self, state: str | None = None) -> bool:
         """True where a state has loads in units, and some wheel says what it is made of.

@@ -158,13 +158,16 @@ def _title(head: str, name: str) -> str:
 def _verdict(found: TrainStrength) -> Iterator[str]:
     if not found.verdict:
         yield f"Verdict: {found.verdict.kind}: {found.verdict.text}."
+    if found.over is not None:
+        yield f"Under the greatest torque of each pair over {figure(found.over, 6)} turns of the input; wear by means."
     weakest = found.weakest
     if weakest is not None:
         where = {"root": "at the root of its teeth", "contact": "on its flanks", "arbor": "in its arbor"}[weakest.what]
         yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
     for each in found.left_out:
-        yield f"Left out: {', '.join(each.where)}: {each.why}."
-    if found.verdict and not found.pairs and not found.left_out:
+        swings = "swing within a turn of " if each.what == "swing within a turn" else ""
+        yield f"Left out: {swings}{', '.join(each.where)}: {each.why}."
+    if found.verdict and not found.pairs and not found.points and not found.left_out:
         yield "There is no gear pair."
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from math import cos, pi, radians, sqrt, tan
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -151,6 +152,58 @@ def test_an_arbor_of_which_a_force_is_not_known_is_left_out() -> None:
     found = changed(", module: 2 mm", "").strength()
     assert found.arbors == ()
     assert [each.where for each in found.left_out] == [("p~w",), ("arbor a",)]
+
+
+SWINGING = """
+links:
+  frame: {}
+  a: {wheels: {p: {teeth: 20, module: 1 mm}}, arbor: {diameter: 6 mm, span: 40 mm, material: steel}}
+  b: {wheels: {w: {teeth: 40, module: 1 mm}}}
+  c: {}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
+gears: [p ~ w]
+couplings: [{id: k, kind: pin_and_slot, pin: b, slot: c, pin_radius: 10 mm, offset: 8 mm}]
+tooth_form: {form: involute}
+material: steel
+face_width: 5 mm
+inputs: {a: 1}
+loads: {c: 1 N m}
+"""
+
+
+def test_the_greatest_torque_of_a_turn_bends_and_presses_and_the_mean_one_wears() -> None:
+    """A pin 10 mm from its axis drives a slot 8 mm off: where it is nearest the slot turns 10/(10 - 8) as fast."""
+    train = geartrain.load(SWINGING)
+    mean, most = train.strength(turns=10), train.strength(turns=10, over=2)
+    assert [each.where for each in mean.left_out] == [("k",)]
+    assert (mean.over, most.over, most.left_out) == (None, 2, ())
+    for one, other in zip(mean.pairs["p~w"].wheels, most.pairs["p~w"].wheels, strict=True):
+        assert other.tip_stress == pytest.approx(5 * one.tip_stress)
+        assert other.shared_stress == pytest.approx(5 * one.shared_stress)  # type: ignore[operator]
+        assert other.pressure == pytest.approx(sqrt(5) * one.pressure)  # type: ignore[operator]
+        assert one.wear is not None
+        assert other.wear is not None
+        assert other.wear.volume == pytest.approx(one.wear.volume)
+        assert other.wear.depth == pytest.approx(one.wear.depth)
+    assert [each.tangential for each in most.forces] == pytest.approx([5 * each.tangential for each in mean.forces])
+    assert most.arbors[0].stress == pytest.approx(5 * mean.arbors[0].stress)
+    parts = train.torques(turns=2).parts
+    assert parts["p~w"].greatest == pytest.approx(5)
+
+
+def test_what_turns_evenly_has_no_greater_torque_than_its_mean() -> None:
+    train = geartrain.load(PAIR)
+    assert train.strength(over=1).pairs["p~w"].wheels[0].tip_stress == pytest.approx(
+        train.strength().pairs["p~w"].wheels[0].tip_stress
+    )
+
+
+def test_a_safe_pair_on_crossed_axes_is_no_failure(tmp_path: Path) -> None:
+    file = tmp_path / "crossed.yaml"
+    for load, code in (("0.01 N m", 0), ("1 N m", 1)):
+        file.write_text("name: crossed" + CROSSED_ARBOR.replace("a: 1 N m", f"a: {load}"), encoding="utf-8")
+        told = ended("strength", file)
+        assert (told.returncode, "no gear pair" in told.stdout) == (code, False)
 
 
 def test_worn_volume_is_coefficient_times_force_times_way_over_hardness() -> None:

@@ -48,7 +48,7 @@ class WheelUnderLoad:
 
     gear      1 or 2, as the law of the pair calls it
     z         its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it
-    torque    on it [N m]; `turns` it makes as its carrier sees it, None where no time is given
+    torque    that counts [N m]; `turns` it makes as its carrier sees it, None where no time is given
     """
 
     name: str
@@ -81,6 +81,7 @@ class PairUnderLoad:
     wear      least and greatest wear coefficient
     elements  whether stresses are checked by finite elements
     spurs     of bevels: the spur pair that stands for them
+    swing     the torque that bends and presses over the mean one, which wears
     """
 
     mesh: GearMesh
@@ -90,6 +91,7 @@ class PairUnderLoad:
     wear: WearRange
     elements: bool = False
     spurs: VirtualSpurs | None = None
+    swing: float = 1.0
 
     def strength(self) -> PairStrength:
         """All figures."""
@@ -319,12 +321,12 @@ class PairUnderLoad:
         loss = loss_over_friction(self.mesh)
         if loss is None:
             return None
-        slid = abs(own.torque) * 2 * pi * own.turns * loss * _MM  # N mm
+        slid = abs(own.torque) / self.swing * 2 * pi * own.turns * loss * _MM  # N mm
         per = slid / (hardness / _MPA)  # mm3 for K = 1
         flank = self.mesh.wheels.counts[at] * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
         deep = None
         if self.load is not None and not self.lean.helix:
-            deep = deepest_passage(self.load, own.gear) * own.turns / (hardness / _MPA)
+            deep = deepest_passage(self.load, own.gear) / self.swing * own.turns / (hardness / _MPA)
         return FlankWear(
             own.turns, self._range(per), self._range(per / flank), None if deep is None else self._range(deep)
         )

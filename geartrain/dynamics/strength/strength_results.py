@@ -252,6 +252,8 @@ class TrainStrength(FrozenFields, Result):
         Pairs of which nothing is said, and why.
     points : mapping of str to PointContact
         Loaded gear pairs whose teeth touch at a point, by name.
+    over : float or None
+        Turns of the input whose greatest torques bend and press; None where means do. Wear goes by means.
 
     See Also
     --------
@@ -276,7 +278,7 @@ class TrainStrength(FrozenFields, Result):
     """
 
     KEYS = (
-        *("state", "verdict", "forces", "pairs", "points", "arbors", "weakest", "turns", "wear_coefficients"),
+        *("state", "verdict", "over", "forces", "pairs", "points", "arbors", "weakest", "turns", "wear_coefficients"),
         "left_out",
     )
 
@@ -289,6 +291,7 @@ class TrainStrength(FrozenFields, Result):
     left_out: tuple[NeglectedEffect, ...] = ()
     forces: tuple[WheelForce, ...] = ()
     points: Mapping[str, PointContact] = field(default_factory=dict)
+    over: float | None = None
 
     @property
     def weakest(self) -> WeakestPart | None:

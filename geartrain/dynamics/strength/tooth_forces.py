@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import cos, tan
 from typing import TYPE_CHECKING
@@ -40,12 +40,14 @@ class ToothForces:
     modules   transverse modules (m) by wheel; pairs without one are passed over
     pairs     torques by pair
     meshes    pairs with real teeth
+    swings    by pair: the torque that counts over the mean one
     """
 
     setting: LoadCase
     modules: Mapping[str, float]
     pairs: Mapping[str, PairTorque]
     meshes: Mapping[str, GearMesh]
+    swings: Mapping[str, float] = field(default_factory=dict)
 
     def find(self) -> Iterator[WheelForce]:
         """Of both wheels of every pair that carries a torque, as the pair names them."""
@@ -63,7 +65,7 @@ class ToothForces:
         parallel = self._is_parallel(circuit)
         crossing = None if parallel else _shaft_angle(self.setting, circuit)
         for at, name in enumerate(circuit.wheels):
-            load = float(torque.torques[at]) * _MM
+            load = float(torque.torques[at]) * _MM * self.swings.get(circuit.id, 1.0)
             if parallel:
                 radius, force = self._parallel(circuit, at, load)
             elif crossing is not None:

@@ -43,6 +43,8 @@ class StrengthQuestion:
     scale     turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input
     wear      least and greatest wear coefficient
     elements  whether stresses are checked by finite elements
+    over      turns of the input whose greatest torques bend and press; None where means do
+    greatest  by pair: the greatest torque on its driven side in them [N m]
     """
 
     train: ToothedTrain
@@ -53,6 +55,8 @@ class StrengthQuestion:
     turns: float | None
     wear: WearRange
     elements: bool = False
+    over: float | None = None
+    greatest: Mapping[str, float] = field(default_factory=dict)
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
@@ -74,10 +78,22 @@ class StrengthQuestion:
     def _cut(self) -> TrainTeeth:
         return find_cut_teeth(self.train)
 
+    @cached_property
+    def swings(self) -> Mapping[str, float]:
+        """By pair: the greatest torque over the turns that are asked for, over the mean one."""
+        found = {}
+        for circuit in self.setting.circuits:
+            pair, greatest = self.torques.pairs.get(circuit.id), self.greatest.get(circuit.id)
+            if pair is None or greatest is None or circuit.kind != "gear" or pair.driver not in circuit.wheels:
+                continue
+            mean = abs(float(pair.torques[1 - circuit.wheels.index(pair.driver)]))
+            found[circuit.id] = max(greatest / mean, 1.0) if mean else 1.0
+        return found
+
     def answer(self) -> TrainStrength:
         """All pairs and arbors."""
         meshes = {mesh.name: mesh for mesh in self.meshes}
-        forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes)
+        forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes, self.swings)
         told = tuple(forces.find())
         points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
         found: dict[str, PairStrength] = {}
@@ -98,10 +114,16 @@ class StrengthQuestion:
             self._all_left_out(),
             told,
             points,
+            self.over,
         )
 
     def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
-        """Pairs in the order of the declaration, then arbors."""
+        """Pairs in the order of the declaration, then arbors, then what swings."""
+        swinging = [each for each in self.torques.left_out if each.what == "swing within a turn"]
+        if self.over is None:
+            why = "stresses are those of mean torques; `--over` takes the greatest of some turns"
+            for each in swinging:
+                self.left_out[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
         order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
         return tuple(
             self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
@@ -154,13 +176,14 @@ class StrengthQuestion:
                 self.teeth[name] if spurs is None else spurs.teeth(gears[at]),
                 self._material_name(wheel),
                 material_named(self.declared, self._material_name(wheel)),
-                float(torque.torques[at]),
+                float(torque.torques[at]) * self.swings.get(gear.name, 1.0),
                 self._turns(torque, at),
             )
             for at, (name, wheel) in enumerate(wheels.items())
         ]
         middle = module if spurs is None else module * spurs.middle.shrunk
-        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs)
+        swing = self.swings.get(gear.name, 1.0)
+        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs, swing)
 
     def _leave_out(self, pair: str, why: str) -> None:
         self.left_out[pair] = NeglectedEffect("strength", (pair,), why)

@@ -138,15 +138,18 @@ class PairCycle(Result):
     flank_changes : int
         How often the torque through it changes its sense: each time the play of real teeth is crossed. In a run of
         whole periods the change from its end to its start counts.
+    greatest : float
+        Greatest torque on its driven side at any position, whichever its sense [N m, or plain]; of a bearing 0.
 
     See Also
     --------
     TorqueCycle.parts : where these stand.
     """
 
-    KEYS = ("kind", "loss", "passed", "flank_changes")
+    KEYS = ("kind", "loss", "passed", "flank_changes", "greatest")
 
     kind: str
     loss: float
     passed: float
     flank_changes: int = 0
+    greatest: float = 0.0

@@ -285,11 +285,14 @@ class _Answer:
             np.where(found.valid, found.passed, 0) @ weights,
         )
         changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
-        changes += [0] * len(self.run.train.bearings)
-        return {
-            name: PairCycle(kind, float(loss), float(through), count)
-            for name, kind, loss, through, count in zip(names, kinds, losses, passed, changes, strict=True)
-        }
+        bearings = len(self.run.train.bearings)
+        changes += [0] * bearings
+        greatest = [
+            *np.abs(np.where(found.valid, found.pressed, 0)).max(axis=1, initial=0.0).tolist(),
+            *[0.0] * bearings,
+        ]
+        rows = zip(names, kinds, losses.tolist(), passed.tolist(), changes, greatest, strict=True)
+        return {name: PairCycle(kind, *figures) for name, kind, *figures in rows}
 
     @property
     def _closes(self) -> bool:

@@ -74,8 +74,12 @@ def test_a_wolfrom_set_is_as_engineers_write_it() -> None:
     ratio = (z_p1 * z_r2 * (z_s + z_r1)) / (z_s * (z_p1 * z_r2 - z_p2 * z_r1))
     found = train.formula("out").ratio.inverse
     assert sympy.simplify(found.sympy() - ratio) == 0
-    assert set(re.findall(r"\([^()]*\)", found.text)) == {"(z_r1 + z_s)", "(z_p1 z_r2 - z_r1 z_p2)"}, "in factors"
-    assert found.poles == ("z_p1 z_r2 = z_r1 z_p2",)
+    assert found.text == "(z_p1 z_r2 (z_s + z_r1))/(z_s (z_p1 z_r2 - z_p2 z_r1))"
+    assert found.poles == ("z_p1 z_r2 = z_p2 z_r1",)
+    assert str(found) == found.text
+    assert found._repr_latex_() == f"${found.latex}$"
+    assert str(train.formula("out")) == train.formula("out").text
+    assert train.formula("out")._repr_latex_().startswith(r"$\omega_{\mathrm{out}} = \frac{")
 
 
 def test_two_inputs_are_a_sum() -> None:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 from commands import ended, without
+from places import DOCS, ROOT
+
+from geartrain.errors import MissingExtraError
 
 
 def normal(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -71,6 +76,14 @@ def test_a_page_that_cannot_be_made_is_refused_before_anything_is_read_or_drawn(
     assert done.returncode == 2
     assert "jinja2 is not installed" in done.stderr
     assert "no such train" not in done.stderr
+
+
+def test_what_is_missing_is_told_with_what_it_weighs() -> None:
+    measured = json.loads((DOCS / "data/extras.json").read_text(encoding="utf-8"))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    for extra in project["optional-dependencies"].keys() - {"all", "dev", "site"}:
+        (told,) = MissingExtraError("it", extra, "this").problems
+        assert told.fix == f"pip install 'geartrain[{extra}]' # {max(round(measured[extra][1]), 1)} MB"
 
 
 def test_the_same_report_in_markdown_needs_no_extra(tmp_path: Path) -> None:

@@ -71,6 +71,14 @@ class ClosedForm(Result):
     counts: Mapping[str, int] = field(repr=False)
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
 
+    def __str__(self) -> str:
+        """As text."""
+        return self.text
+
+    def _repr_latex_(self) -> str:
+        """As notebooks show it."""
+        return f"${self.latex}$"
+
     @property
     def value(self) -> Fraction | None:
         """At the declared counts; None where the denominator is 0 there."""

@@ -77,7 +77,10 @@ def find_formulas(
     (case,) = close_joints(train, tree, [train.case(state)])
     if inputs is not None:
         case = replace(case, inputs={link: Fraction(speed) for link, speed in inputs.items()})
-    wheels = tuple(name for name in train.wheels if name in free)
+    # rings last, as sums and products of counts are written
+    wheels = tuple(
+        sorted((name for name in train.wheels if name in free), key=lambda name: train.wheels[name][1].internal)
+    )
     equations = _equations(train, tree, case, wheels, free)
     try:
         return _read_off(train, case, equations, wheels)

@@ -71,6 +71,14 @@ class OutputFormula(Result):
     conditions: tuple[str, ...] = ()
     poles: tuple[str, ...] = ()
 
+    def __str__(self) -> str:
+        """As text."""
+        return self.text
+
+    def _repr_latex_(self) -> str:
+        """As notebooks show it."""
+        return f"${self.latex}$"
+
     @property
     def ratio(self) -> ClosedForm:
         """Output over input, where there is one input.

@@ -1,4 +1,4 @@
-"""Error against run time of the methods there are, on one train: speeds, transmission functions, motion, torques.
+"""Error against run time of the methods there are, on one train: speeds, its variants, laws of pairs, motion, torques.
 
 In goes a train and a number of positions; out comes a row a method with its time, the ratio of that to the cheapest
 method of its stage, and its error with what it was held against. A stage that the train does not have is named with the
@@ -17,6 +17,7 @@ from geartrain.analysis.method_accuracy import (
     MOTION,
     SPEEDS,
     TORQUES,
+    VARIANTS,
     AbsentStageError,
     MethodAccuracy,
     Stage,
@@ -25,6 +26,7 @@ from geartrain.analysis.method_accuracy import (
     measure_speeds,
     measure_torques,
 )
+from geartrain.analysis.variant_accuracy import measure_variants
 from geartrain.numerics.plain_data import Result
 
 
@@ -98,7 +100,7 @@ def find_accuracy(
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
     ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}})
     >>> found = find_accuracy(train)
-    >>> for row in found.methods:
+    >>> for row in found.methods[:2]:
     ...     print(row.method, row.error < 1e-15, "against", row.reference)
     exact True against every equation
     floats True against exact speeds
@@ -107,6 +109,7 @@ def find_accuracy(
     """
     stages: dict[Stage, Callable[[], Iterator[MethodAccuracy]]] = {
         SPEEDS: partial(measure_speeds, train, state),
+        VARIANTS: partial(measure_variants, train, state),
         LAWS: partial(measure_laws, train, state, positions),
         MOTION: partial(measure_motion, train, state, positions),
         TORQUES: partial(measure_torques, train, state),

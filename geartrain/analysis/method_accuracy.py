@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.numerics.arrays import Floats
 
-Stage = Literal["speeds", "transmission functions", "motion", "torques", "optimisation"]
+Stage = Literal["speeds", "variants", "transmission functions", "motion", "torques", "optimisation"]
 SPEEDS: Final = "speeds"
+VARIANTS: Final = "variants"
 LAWS: Final = "transmission functions"
 MOTION: Final = "motion"
 TORQUES: Final = "torques"
@@ -86,7 +87,7 @@ class _Timed(NamedTuple):
     found: Any
 
 
-def _best(task: Callable[..., Any], fresh: Callable[[], Sequence[Any]] = tuple) -> _Timed:
+def best_of(task: Callable[..., Any], fresh: Callable[[], Sequence[Any]] = tuple) -> _Timed:
     """The least time of a task, and what it returned; `fresh` makes its arguments anew before every run, untimed."""
     best, total, runs, found = math.inf, 0.0, 0, None
     while not runs or total < _ENOUGH or (runs < 2 and total < _LONG):  # the first may have had to load a library
@@ -122,9 +123,9 @@ def measure_speeds(train: GearTrain, state: str | None) -> Iterator[MethodAccura
 
     exact = None
     if usual.method == "exact":
-        seconds, exact = _best(partial(solve, method="exact"), partial(_as_declared, train))
+        seconds, exact = best_of(partial(solve, method="exact"), partial(_as_declared, train))
         yield MethodAccuracy(SPEEDS, "exact", seconds, _residual(train, state, exact), "relative", "every equation")
-    seconds, floats = _best(partial(solve, method="floats"), partial(_as_declared, train))
+    seconds, floats = best_of(partial(solve, method="floats"), partial(_as_declared, train))
     if exact is not None and train.cases[state].exact:
         error, reference = _off(floats, exact), "exact speeds"
     else:
@@ -179,7 +180,7 @@ def measure_laws(train: GearTrain, state: str | None, positions: int) -> Iterato
     def ask(answering: dict[str, Any]) -> dict[str, Floats]:
         return {name: each.error(S[name]) for name, each in answering.items()}
 
-    seconds, direct = _best(partial(ask, laws))
+    seconds, direct = best_of(partial(ask, laws))
     yield MethodAccuracy(LAWS, f"direct, {len(laws)} laws", seconds, None, "pitches", "the others are held against it")
     for tolerance in _TOLERANCES:
 
@@ -189,8 +190,8 @@ def measure_laws(train: GearTrain, state: str | None, positions: int) -> Iterato
                 _ = table.error_table
             return tables
 
-        prepared, tables = _best(prepare)
-        seconds, read = _best(partial(ask, tables))
+        prepared, tables = best_of(prepare)
+        seconds, read = best_of(partial(ask, tables))
         error, reference = _farthest(laws, direct, read)
         yield MethodAccuracy(LAWS, f"tabulated, {tolerance:.0e}", seconds, error, "pitches", reference, prepared)
 
@@ -217,7 +218,7 @@ def measure_motion(train: GearTrain, state: str | None, positions: int) -> Itera
     if not train.meshes_in(state) and not train.pins:
         raise AbsentStageError(_NO_FORM)
     try:
-        prepared, motion = _best(partial(_composed, train, state))
+        prepared, motion = best_of(partial(_composed, train, state))
     except GearTrainError as error:
         raise AbsentStageError(error.problems[0].what) from None
     if not motion.ahead.used:
@@ -229,19 +230,19 @@ def measure_motion(train: GearTrain, state: str | None, positions: int) -> Itera
     from geartrain.numerics.kernels import usable
 
     turns: Floats = np.arange(positions, dtype=float) * (TURNS / positions)
-    seconds, direct = _best(partial(_errors, motion, turns))
+    seconds, direct = best_of(partial(_errors, motion, turns))
     yield MethodAccuracy(MOTION, "composed", seconds, None, "deg", "the others are held against it", prepared)
     if usable() and (kernel := compiled_composition(motion.hung)) is not None:
         kernel.at(turns[:1])  # compiled, or loaded from disk
-        seconds, found = _best(lambda: kernel.at(turns))
-        prepared, _ = _best(partial(compiled_composition, motion.hung))
+        seconds, found = best_of(lambda: kernel.at(turns))
+        prepared, _ = best_of(partial(compiled_composition, motion.hung))
         yield _of_outputs("composed, compiled", seconds, found.error - direct, motion, direct, prepared)
-    prepared, tabulated = _best(partial(_composed, train, state, _TOLERANCES[-1]))
-    seconds, found = _best(partial(_errors, tabulated, turns))
+    prepared, tabulated = best_of(partial(_composed, train, state, _TOLERANCES[-1]))
+    seconds, found = best_of(partial(_errors, tabulated, turns))
     yield _of_outputs("composed, tabulated laws", seconds, found - direct, motion, direct, prepared)
-    prepared, superposed = _best(partial(_superposed, Superposition, motion))
+    prepared, superposed = best_of(partial(_superposed, Superposition, motion))
     for method, lagged in (("superposed with lag", True), ("superposed", False)):
-        seconds, found = _best(partial(superposed.at, turns, lagged=lagged))
+        seconds, found = best_of(partial(superposed.at, turns, lagged=lagged))
         yield _of_outputs(method, seconds, found - direct, motion, direct, prepared)
 
 
@@ -284,7 +285,7 @@ def measure_torques(train: GearTrain, state: str | None) -> Iterator[MethodAccur
     """The exact balance with losses, virtual work, which leaves losses out, and torque over a turn by its samples."""
     if not train.declaration.is_loaded(state):
         raise AbsentStageError("no loads are declared")
-    seconds, found = _best(lambda fresh: fresh.torques(state), partial(_as_declared, train))
+    seconds, found = best_of(lambda fresh: fresh.torques(state), partial(_as_declared, train))
     if not found.verdict:
         raise AbsentStageError(f"{found.verdict.kind}: {found.verdict.text}")
     powers = found.powers
@@ -302,7 +303,7 @@ def measure_torques(train: GearTrain, state: str | None) -> Iterator[MethodAccur
         speeds = fresh.solve(state).speeds
         return -sum(found.external[name] * speeds[name] for name in loads) / speeds[link]
 
-    seconds, lossless = _best(virtual_work, partial(_as_declared, train))
+    seconds, lossless = best_of(virtual_work, partial(_as_declared, train))
     error = float(abs(lossless / found.external[link] - 1))
     yield MethodAccuracy(
         TORQUES, "virtual work, without losses", seconds, error, "relative", f"balance with losses, of {link}"
@@ -332,14 +333,14 @@ def _over_turn(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
     run = "a turn" if span == 1 else f"{span:.3g} turns"
     slowest = 0.0
     for samples in _SAMPLES:
-        seconds, found = _best(partial(_mean_torque, train, state, span, samples))
+        seconds, found = best_of(partial(_mean_torque, train, state, span, samples))
         slowest = max(slowest, seconds)
         error = None if samples == _SAMPLES[0] or found is None else abs(found / best.mean - 1)
         reference = "the others are held against it" if samples == _SAMPLES[0] else f"{_SAMPLES[0]} samples, the mean"
         yield MethodAccuracy(TORQUES, f"over {run}, {samples} samples", seconds, error, "relative", reference)
     if slowest >= _WORTH_COMPILING and usable():
         _mean_torque(train, state, span, 2, True)  # compiled, or loaded from disk
-        seconds, found = _best(partial(_mean_torque, train, state, span, _SAMPLES[0], True))
+        seconds, found = best_of(partial(_mean_torque, train, state, span, _SAMPLES[0], True))
         error = None if found is None else abs(found / best.mean - 1)
         name = f"over {run}, {_SAMPLES[0]} samples, compiled"
         yield MethodAccuracy(TORQUES, name, seconds, error, "relative", f"{_SAMPLES[0]} samples, the mean")

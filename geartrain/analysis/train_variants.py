@@ -56,6 +56,10 @@ class TrainVariants(Tabular, Result):
     def __len__(self) -> int:
         return len(self.counts)
 
+    def __repr__(self) -> str:
+        varied, told = ", ".join(self.wheels), ", ".join(self.outputs)
+        return f"<TrainVariants: {len(self)} trains by {varied}; {told}>"
+
     def __getitem__(self, name: str) -> Any:
         """A column; `KeyError` for one there is not."""
         if name in self.outputs:

@@ -27,7 +27,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure error against run time on a train: speeds, transmission functions, motion, torques, optimisation."""
+    """Measure error against run time on a train: speeds, variants, laws of pairs, motion, torques, optimisation."""
     from geartrain.analysis import find_accuracy
     from geartrain.analysis.loader import load
     from geartrain.analysis.method_accuracy import OPTIMISATION, SPEEDS

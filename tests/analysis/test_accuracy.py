@@ -16,7 +16,7 @@ from commands import LOCKED, RIGHT, call
 
 from geartrain import GearTrain, load
 from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy, method_accuracy
-from geartrain.analysis.method_accuracy import LAWS, MOTION, OPTIMISATION, SPEEDS, TORQUES
+from geartrain.analysis.method_accuracy import LAWS, MOTION, OPTIMISATION, SPEEDS, TORQUES, VARIANTS
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
@@ -61,7 +61,23 @@ def test_exact_speeds_meet_every_equation_and_floats_are_as_far_off_as_a_third_o
     assert row_of(found, SPEEDS, "exact").error == 0
     third = abs(Fraction(1 / 3) * 3 - 1)
     assert row_of(found, SPEEDS, "floats").error == pytest.approx(float(third), rel=1e-6)
-    assert set(found.left_out) == {LAWS, MOTION, TORQUES}
+    assert set(found.left_out) == {VARIANTS, LAWS, MOTION, TORQUES}, "it declares no output"
+
+
+def test_variants_are_held_against_trains_solved_one_by_one() -> None:
+    """A planetary set of any counts: s/(s + r) in floats is off by its rounding, and not by more."""
+    train = load("planetary-24-18-60")
+    found = find_accuracy(train)
+    table, alone = (row for row in found.methods if row.stage == VARIANTS)
+    assert table.method == "formulas, 19683 trains of 3 outputs"
+    assert table.error is not None
+    assert 0 < table.error < 1e-15
+    assert alone.error is None
+    assert alone.seconds > table.seconds
+    made = train.variants({"s": range(11, 38), "ring": range(47, 74)}, ["carrier"])
+    sums = made["s"] / (made["s"] + made["ring"])
+    assert abs(made["carrier"] / sums - 1).max() < 1e-15
+    assert repr(made) == "<TrainVariants: 729 trains by s, ring; carrier>"
 
 
 def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon: TrainAccuracy) -> None:
@@ -98,7 +114,7 @@ def test_teeth_whose_law_is_their_ratio_have_nothing_to_measure_and_it_is_said_s
     found = find_accuracy(load("planetary-24-18-60-involute"), positions=10)
     assert "exact ratio" in found.left_out[LAWS]
     assert "no error" in found.left_out[MOTION]
-    assert {row.stage for row in found.methods} == {SPEEDS, TORQUES}
+    assert {row.stage for row in found.methods} == {SPEEDS, VARIANTS, TORQUES}
 
 
 def test_virtual_work_is_off_by_what_the_losses_take() -> None:
@@ -123,13 +139,13 @@ def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: obj
     assert done.exit_code == 1
     (found,) = json.loads(done.stdout)["states"]
     assert found["methods"] == []
-    assert set(found["left_out"]) == {SPEEDS, LAWS, MOTION, TORQUES, OPTIMISATION}
+    assert set(found["left_out"]) == {SPEEDS, VARIANTS, LAWS, MOTION, TORQUES, OPTIMISATION}
 
 
 def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
     done = call("bench", "moon-triangular", "--positions", 100)
     assert done.exit_code == 0
-    for stage in (SPEEDS, LAWS, MOTION, OPTIMISATION):
+    for stage in (SPEEDS, VARIANTS, LAWS, MOTION, OPTIMISATION):
         assert f"## {stage}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")

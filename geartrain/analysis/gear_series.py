@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from math import comb, log, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.analysis.gearbox import gearbox_ends
 from geartrain.errors import Problem, QuestionError
@@ -17,6 +17,7 @@ from geartrain.train import State
 
 if TYPE_CHECKING:
     from geartrain.analysis.train_strength import TrainUnderLoad
+    from geartrain.kinematics.answer import Answer
 
 MOST_COMBINATIONS = 20_000
 _JOINER = "+"
@@ -100,6 +101,8 @@ class GearSearch(Result):
         Ways to close so many.
     gears : tuple of PossibleGear
         Those that determine the output and let it turn, or hold it; forward from the lowest, backward, held.
+    free, locked : tuple of tuple of str
+        The other ways to close so many, which leave the train free, and which lock it.
     asked : int
         Gears of the series asked for; 0 where none was.
     series : int
@@ -114,7 +117,7 @@ class GearSearch(Result):
 
     KEYS = (
         *("name", "title", "input", "output", "closed", "combinations"),
-        *("gears", "asked", "series", "widest", "evenest"),
+        *("gears", "free", "locked", "asked", "series", "widest", "evenest"),
     )
 
     name: str
@@ -124,6 +127,8 @@ class GearSearch(Result):
     closed: int
     combinations: int
     gears: tuple[PossibleGear, ...]
+    free: tuple[tuple[str, ...], ...] = ()
+    locked: tuple[tuple[str, ...], ...] = ()
     asked: int = 0
     series: int = 0
     widest: GearSeries | None = None
@@ -135,20 +140,20 @@ def find_gears(
 ) -> GearSearch:
     """All gears and, for a number of gears above 1, series of them; see `GearTrain.gear_search`."""
     source, link = gearbox_ends(train, output)
-    closed, every = _all_gears(train, source, link)
+    closed, every, free, locked = _all_gears(train, source, link)
     forward = sorted((each for each in every if each.ratio is not None and each.ratio > 0), key=_falling)
     backward = sorted((each for each in every if each.ratio is not None and each.ratio < 0), key=_falling)
     still = [each for each in every if each.ratio is None]
     gears = (*forward, *backward, *still)
     ways = comb(len(train.declaration.clutches), closed)
-    title = train.declaration.title
+    found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, gears, free, locked)
     if number < 2:
-        return GearSearch(train.name, title, source, link, closed, ways, gears)
+        return found
     low, high = (Fraction(str(step)) for step in steps)
     links = _links(forward, low, high, single)
     widest, evenest = _widest(forward, links, number), _evenest(forward, links, number)
     count = _count(forward, links, number)
-    return GearSearch(train.name, title, source, link, closed, ways, gears, number, count, widest, evenest)
+    return replace(found, asked=number, series=count, widest=widest, evenest=evenest)
 
 
 def _falling(gear: PossibleGear) -> Fraction:
@@ -160,8 +165,20 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
     return len({*one.engaged} - {*other.engaged}) <= 1 and len({*other.engaged} - {*one.engaged}) <= 1
 
 
-def _all_gears(train: TrainUnderLoad, source: str, link: str) -> tuple[int, list[PossibleGear]]:
-    """How many elements are closed at once, and every gear with so many.
+_Choice = tuple[str, ...]
+
+
+class _AllGears(NamedTuple):
+    """How many elements are closed at once, every gear with so many, and what else closing so many does."""
+
+    closed: int
+    gears: list[PossibleGear]
+    free: tuple[_Choice, ...] = ()
+    locked: tuple[_Choice, ...] = ()
+
+
+def _all_gears(train: TrainUnderLoad, source: str, link: str) -> _AllGears:
+    """Every gear.
 
     All sets of rows that just suffice have one size, for they are the bases of a matroid.
     """
@@ -174,27 +191,38 @@ def _all_gears(train: TrainUnderLoad, source: str, link: str) -> tuple[int, list
             what = f"{comb(len(elements), size):,} ways to close {size} of {len(elements)} elements"
             why = f"more than {MOST_COMBINATIONS:,} are too many"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
-        found = list(_with_closed(train, list(combinations(elements, size)), source, link, names))
+        choices = list(combinations(elements, size))
+        answers = _answered(train, choices)
+        found = list(_gears(choices, answers, (source, link), names))
         if found:
-            return size, found
-    return len(elements), []
+            free = _with_verdict({"free"}, choices, answers)
+            locked = _with_verdict({"locked", "contradictory"}, choices, answers)
+            return _AllGears(size, found, free, locked)
+    return _AllGears(len(elements), [])
 
 
-def _with_closed(
-    train: TrainUnderLoad,
-    choices: Sequence[tuple[str, ...]],
-    source: str,
-    link: str,
-    names: Mapping[frozenset[str], Sequence[str]],
-) -> Iterator[PossibleGear]:
+def _answered(train: TrainUnderLoad, choices: Sequence[_Choice]) -> list[Answer]:
+    """What the train does with each choice closed."""
     first = next(iter(train.declaration.states.values()))
     states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}
-    tried = type(train)(train.declaration.model_copy(update={"states": states}))
-    for choice, answer in zip(choices, tried.answers(), strict=True):
-        drive, out = answer.speeds.get(source), answer.speeds.get(link)
+    return list(type(train)(train.declaration.model_copy(update={"states": states})).answers())
+
+
+def _gears(
+    choices: Sequence[_Choice],
+    answers: Sequence[Answer],
+    ends: tuple[str, str],
+    names: Mapping[frozenset[str], Sequence[str]],
+) -> Iterator[PossibleGear]:
+    for choice, answer in zip(choices, answers, strict=True):
+        drive, out = (answer.speeds.get(end) for end in ends)
         if answer.verdict and drive and out is not None:
             ratio = Fraction(drive) / Fraction(out) if out else None
             yield PossibleGear(choice, ratio, tuple(names.get(frozenset(choice), ())))
+
+
+def _with_verdict(kinds: Collection[str], choices: Sequence[_Choice], answers: Sequence[Answer]) -> tuple[_Choice, ...]:
+    return tuple(choice for choice, answer in zip(choices, answers, strict=True) if answer.verdict.kind in kinds)
 
 
 # ------------------------------------------------------------------------------------------------- series, as paths

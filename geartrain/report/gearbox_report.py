@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox, GearState, ShiftElement
 
 _DIGITS = 5
+_MOST = 12  # ways to close elements that are named
 _RATIOS = (
     "Ratio: input over output; step: over the ratio of the next state. Recirculating: power that runs round between "
     "gear sets over power in; inside: within one set."
@@ -132,14 +133,27 @@ def describe_gear_search(found: GearSearch) -> Document:
         f"From '{found.input}' to '{found.output}': {found.closed} elements closed, {found.combinations} ways, "
         f"{len(found.gears)} of which determine the output; all were tried, exactly."
     )
-    sections = [Section("Gears", (lead,), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))]
+    others = [
+        f"{_some(ways)} {told}." for ways, told in ((found.free, "leave it free"), (found.locked, "lock it")) if ways
+    ]
+    sections = [
+        Section("Gears", (lead, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
+    ]
     if found.widest is not None and found.evenest is not None:
-        both = (("The widest series", found.widest), ("The most even series", found.evenest))
-        head = f"{found.series:,} series hold; of each kind one is told."
+        both = [("The widest series", found.widest), ("The most even series", found.evenest)]
+        if found.widest == found.evenest:
+            both = [("The widest series, and the most even", found.widest)]
+        head = "One series holds." if found.series == 1 else f"{found.series:,} series hold; of each kind one is told."
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
     elif found.asked:
         sections.append(Section("Series", (f"No series of {found.asked} gears has all its steps in the window.",)))
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
+
+
+def _some(ways: Sequence[Sequence[str]]) -> str:
+    """Ways to close elements, not all where there are many."""
+    more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
+    return "; ".join(", ".join(way) for way in ways[:_MOST]) + more
 
 
 def _row(gear: PossibleGear) -> tuple[str, ...]:

@@ -94,6 +94,7 @@ def test_a_search_finds_what_solving_every_combination_finds(name: str) -> None:
     found = train.gear_search()
     elements = list(train.declaration.clutches)
     wanted = {}
+    others: dict[str, list[tuple[str, ...]]] = {"free": [], "locked": []}
     for size in range(found.closed + 1):
         for engaged in combinations(elements, size):
             states = {"tried": State(engaged=engaged)}
@@ -102,7 +103,11 @@ def test_a_search_finds_what_solving_every_combination_finds(name: str) -> None:
                 assert size == found.closed
                 out = answer.speeds[found.output]
                 wanted[engaged] = 1 / Fraction(out) if out else None
+            elif size == found.closed:
+                others[answer.verdict.kind].append(engaged)
     assert {gear.engaged: gear.ratio for gear in found.gears} == wanted
+    assert {"free": [*found.free], "locked": [*found.locked]} == others
+    assert len(found.gears) + len(found.free) + len(found.locked) == found.combinations
     declared = {name for gear in found.gears for name in gear.states}
     assert declared == set(train.states), "the shift table is among them"
 
@@ -179,6 +184,25 @@ states:
   6: {engaged: [C, E]}
   R: {engaged: [B, D]}
 """
+# counts that give the printed ratios at all their digits
+GM_6L80 = (
+    ZF_6HP26.replace("ZF 6HP26", "GM 6L80")
+    .replace("teeth: 71", "teeth: 94")
+    .replace("s1: 37", "s1: 50")
+    .replace("p1: 17", "p1: 22")
+    .replace("s2: 31", "s2: 35")
+    .replace("s3: 38", "s3: 46")
+    .replace("teeth: 85", "teeth: 92")
+)
+AISIN_TF80 = (
+    ZF_6HP26.replace("ZF 6HP26", "Aisin TF-80SC")
+    .replace("teeth: 71", "teeth: 90")
+    .replace("s1: 37", "s1: 50")
+    .replace("p1: 17", "p1: 20")
+    .replace("s2: 31", "s2: 36")
+    .replace("s3: 38", "s3: 44")
+    .replace("teeth: 85", "teeth: 96")
+)
 MODEL_T = """
 name: Ford model T
 links:
@@ -226,10 +250,12 @@ states:
     ("text", "ratios", "digits"),
     [
         (ZF_6HP26, [4.171, 2.340, 1.521, 1.143, 0.867, 0.691, -3.403], 3),
+        (GM_6L80, [4.027, 2.364, 1.532, 1.152, 0.852, 0.667, -3.064], 3),
+        (AISIN_TF80, [4.148, 2.370, 1.556, 1.155, 0.859, 0.686, -3.394], 3),
         (MODEL_T, [2.75, 1.0, -4.0], 2),
         (STURMEY_ARCHER_AW, [1 / 0.75, 1.0, 1 / 1.333], 3),
     ],
-    ids=["ZF 6HP26", "Ford model T", "Sturmey-Archer AW"],
+    ids=["ZF 6HP26", "GM 6L80", "Aisin TF-80SC", "Ford model T", "Sturmey-Archer AW"],
 )
 def test_other_gearboxes_have_the_printed_ratios(text: str, ratios: list[float], digits: int) -> None:
     train = GearTrain.declare(yaml.safe_load(text))

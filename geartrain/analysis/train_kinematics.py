@@ -235,7 +235,7 @@ class TrainKinematics:
         >>> import geartrain
         >>> train = geartrain.load("planetary-24-18-60")
         >>> train.formula("carrier").text
-        'carrier = z_s/(z_ring + z_s) · sun'
+        'carrier = z_s/(z_s + z_ring) · sun'
         """
         found = tuple(self.formulas(state, (output,)))
         if not found:

@@ -14,7 +14,9 @@ TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
 def run(
-    kind: Annotated[str, typer.Argument(help="planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND")],
+    kind: Annotated[
+        str, typer.Argument(help="planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND")
+    ],
     out: Out = None,
     force: Force = False,
 ) -> None:

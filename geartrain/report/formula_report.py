@@ -123,7 +123,7 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
     >>> train = geartrain.load("planetary-24-18-60")
     >>> page = describe_formulas(collect_formulas(train, [None]))
     >>> page.sections[0].paragraphs[1]
-    'carrier = z_s/(z_ring + z_s) · sun = 2/7'
+    'carrier = z_s/(z_s + z_ring) · sun = 2/7'
     """
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]

@@ -2,7 +2,8 @@
 
 Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from that of
 its ring. A pin's centre describes a shortened epitrochoid in the disc, whose outline stands a pin's radius within it.
-Every normal at a contact passes the pitch point; half of all pins press at once (docs/reducers.md, (1) to (6)).
+Every normal at a contact passes the pitch point; half of all pins press at once, or with a clearance fewer
+(docs/reducers.md, (1) to (7)).
 """
 
 from __future__ import annotations
@@ -37,12 +38,14 @@ class CycloidalDisc:
     lobes      of the disc; its ring has one pin more
     circle     radius on which the centres of pins stand; `pin`, radius of a pin
     clearance  by which the disc stands back from every pin
+    deflection by which a pin that bore the whole force on the pitch circle would give way; None: all pins share alike
     """
 
     lobes: int
     circle: float
     pin: float
     clearance: float = 0.0
+    deflection: float | None = None
 
     @property
     def pins(self) -> int:
@@ -100,8 +103,32 @@ class CycloidalDisc:
         phase   of a pin from the line of centres (rad)
         """
         arms = self.arms(self._angles(phase))
+        if self.clearance and self.deflection is not None:
+            return np.maximum(self._twist(arms) * arms - self.clearance, 0.0) / self.deflection
         found: Floats = arms * self.lobes / 2 / (arms**2).sum(axis=0)
         return found
+
+    def _twist(self, arms: Floats) -> Floats:
+        """Angle by which the disc turns under load, until the pins that it reaches bear the torque: (7).
+
+        The pins with the longest arms are met first: there are as many as leave the next one free.
+        """
+        assert self.deflection is not None
+        ordered = -np.sort(-arms, axis=0)
+        torque = self.deflection * self.lobes / 2
+        angles = (torque + self.clearance * np.cumsum(ordered, axis=0)) / np.cumsum(ordered**2, axis=0)
+        following = np.concatenate([ordered[1:], np.zeros_like(ordered[:1])])
+        enough = angles * following <= self.clearance
+        found: Floats = np.take_along_axis(angles, enough.argmax(axis=0)[None], axis=0)[0]
+        return found
+
+    @cached_property
+    def bearing_pins(self) -> tuple[int, int]:
+        """Fewest and most pins that bear at once."""
+        loads = self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))
+        # a pin on the line of centres has no arm, but for rounding
+        number = (loads > 1e-9 * loads.max()).sum(axis=0)
+        return int(number.min()), int(number.max())
 
     def _angles(self, phase: Floats) -> Floats:
         each = 2 * pi / self.pins * np.arange(self.pins)
@@ -151,7 +178,8 @@ class CycloidalDisc:
 
     def pin_tooth(self) -> FixedTooth:
         """One pin about the x axis, half round, with the ring behind it."""
-        root = max(self.circle, self.circle + 0.5 - self.pin - self.clearance + _FREE)
+        # a lobe reaches farthest out on the line of centres, half a module beyond its own radius
+        root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _FREE)
         R, r = self.circle, self.pin
         if root > R:  # straight sides from the pin's middle outwards
             side = pi / 2

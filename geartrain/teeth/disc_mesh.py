@@ -19,14 +19,19 @@ if TYPE_CHECKING:
 
 _WORDS = (
     "Discs of lobes in rings of pins, each in the frame of its eccentric. Shortening is the ring's pitch radius over "
-    "that of the pins' circle; the greatest load is that of one pin over the force on the disc's pitch circle, pins "
-    "equally stiff and without play; play in degrees of the driven wheel; efficiency of pins that do not roll, as the "
-    "pair is driven, and driven back."
+    "that of the pins' circle; bearing, how many pins bear at once, which are fewer where a clearance and the "
+    "`deflection` of a pin are given; the greatest load is that of one pin over the force on the disc's pitch circle, "
+    "pins equally stiff; play in degrees of the driven wheel; efficiency of pins that do not roll, as the pair is "
+    "driven, and driven back."
 )
 _HEADER = (
-    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "greatest load", "play (deg)", "efficiency"),
-    "driven back",
+    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "greatest load", "play (deg)"),
+    *("efficiency", "driven back"),
 )
+
+
+def _counted(fewest: int, most: int) -> str:
+    return str(most) if fewest == most else f"{fewest} to {most}"
 
 
 @dataclass(frozen=True)
@@ -36,13 +41,15 @@ class DiscFigures(PairFigures):
     shortening      the ring's pitch radius over that of the pins' circle
     pin_radius      in modules
     greatest_load   of one pin over the force on the disc's pitch circle
+    bearing         fewest and most pins that bear at once
     """
 
-    KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "greatest_load")
+    KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "greatest_load", "bearing")
 
     shortening: float
     pin_radius: float
     greatest_load: float
+    bearing: tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -93,10 +100,12 @@ class DiscMesh(GearMesh):
             disc.shortening,
             disc.pin,
             disc.greatest_load,
+            disc.bearing_pins,
         )
         row = (
             *(self.name, f"{self.driver} -> {self.driven}", str(disc.lobes), str(disc.pins)),
-            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", f"{disc.greatest_load:.4g}"),
+            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _counted(*disc.bearing_pins)),
+            f"{disc.greatest_load:.4g}",
             *(f"{degrees(self.verdict.play):.4g}", *self.efficiency_texts),
         )
         return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), figures)

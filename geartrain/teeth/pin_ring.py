@@ -54,10 +54,15 @@ class PinRing(ToothForm):
         validate_default=True,
         description="By how much the disc stands back from every pin, in modules or with a unit",
     )
+    deflection: Length | None = Field(
+        None,
+        description="By how much one pin would give way if it bore the whole force on the disc's pitch circle, in "
+        "modules or with a unit; it tells which pins a clearance leaves to bear. Default: half of all",
+    )
 
     @model_validator(mode="after")
     def _lengths_are_lengths(self) -> PinRing:
-        for name in ("pin_circle", "pin_diameter"):
+        for name in ("pin_circle", "pin_diameter", "deflection"):
             length = getattr(self, name)
             if length is not None and length.value <= 0:
                 raise bad("length", f"{name} {length.text} is no length", "write it above 0")
@@ -121,7 +126,8 @@ class PinRing(ToothForm):
                 f"the path of their centres is bent to a radius of {found.sharpest:.6g} modules",
                 f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a greater pin_circle",
             )
-        return CycloidalDisc(lobes, circle, pin, back)
+        yielding = None if self.deflection is None else self._modules("deflection", module)
+        return CycloidalDisc(lobes, circle, pin, back, yielding)
 
     def _modules(self, name: str, module: float | None) -> float:
         length: Quantity = getattr(self, name)

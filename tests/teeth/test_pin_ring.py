@@ -68,6 +68,46 @@ def test_clearance_is_that_to_every_pin() -> None:
         assert all(turned.exterior.distance(pin) > disc.pin for pin in pins_of(disc)) is free
 
 
+@settings(max_examples=25)
+@given(lobes, shortening, st.floats(0.05, 0.8), st.floats(0, 6.28))
+def test_a_disc_never_reaches_into_the_ring_behind_the_pins(z: int, part: float, thick: float, turn: float) -> None:
+    bare = CycloidalDisc(z, (z + 1) / 2 / part, 0.0)
+    disc = CycloidalDisc(z, bare.circle, min(bare.sharpest * 0.8, thick * bare.circle * sin(pi / (z + 1))), 0.01)
+    opening = polygon(disc.pin_tooth(), z + 1)
+    assert opening.contains(placed(disc, polygon(disc.lobe(1e-4), z), turn))
+    assert opening.contains(placed(disc, polygon(disc.lobe(1e-4), z), 0.0)), "a lobe between two pins, farthest out"
+
+
+@settings(max_examples=40)
+@given(lobes, shortening, st.floats(0, 6.28), st.floats(0.001, 0.2), st.floats(1e-4, 100))
+def test_with_a_clearance_those_pins_bear_that_the_disc_reaches(
+    z: int, part: float, phase: float, back: float, give: float
+) -> None:
+    """Turned under load, each pin is pressed back by as much as the disc overlaps it, and all balance the torque."""
+    disc = CycloidalDisc(z, (z + 1) / 2 / part, 0.1, back, give)
+    arms = disc.arms(phase + 2 * pi * np.arange(z + 1) / (z + 1))
+    loads = disc.loads(np.array(phase))
+    assert float((loads * arms).sum()) == pytest.approx(z / 2, rel=1e-9)
+    bearing = loads > 0
+    twist = (loads[bearing] * give + back) / arms[bearing]
+    assert twist == pytest.approx(np.full(bearing.sum(), twist[0]), rel=1e-6), "it is turned by one angle"
+    assert (twist[0] * arms[~bearing] <= back * (1 + 1e-9)).all(), "the others are not reached"
+
+
+def test_a_little_load_is_borne_by_one_pin_and_a_great_one_by_half_of_all() -> None:
+    free = PinRing.declared({"clearance": "0.02"}).disc(11)
+    assert free.bearing_pins == FORM.disc(11).bearing_pins == (5, 6)
+    assert free.greatest_load == FORM.disc(11).greatest_load
+    light, heavy = (
+        PinRing.declared({"clearance": "0.02", "deflection": give}).disc(11) for give in ("0.000001", "1000")
+    )
+    assert light.bearing_pins == (1, 1)
+    assert light.greatest_load == pytest.approx(1, abs=0.2), "one pin with an arm near the pitch radius"
+    assert heavy.bearing_pins == (5, 6)
+    assert heavy.greatest_load == pytest.approx(free.greatest_load, rel=1e-3)
+    assert light.greatest_load > PinRing.declared({"clearance": "0.02", "deflection": "0.05"}).disc(11).greatest_load
+
+
 @given(lobes, shortening, st.floats(0, 6.28))
 def test_arms_are_those_of_the_normals_and_forces_balance_the_torque(z: int, part: float, phase: float) -> None:
     disc = CycloidalDisc(z, (z + 1) / 2 / part, 0.1)
@@ -213,3 +253,16 @@ def test_an_offset_that_is_not_the_eccentricity_cannot_be_built() -> None:
 def test_the_command_tells_of_one_pair() -> None:
     out = ended("mesh", "pin_ring", "--teeth", 11, 12, "--friction", 0.05, "--json")
     assert '"greatest_load": 0.33' in out.stdout
+
+
+def test_the_command_takes_clearance_deflection_and_play() -> None:
+    def row(*options: str) -> list[str]:
+        done = ended("mesh", "pin_ring", "--teeth", 11, 12, *options)
+        assert done.returncode == 0, done.stderr
+        return next(line for line in done.stdout.splitlines() if "wheel 1 -> wheel 2" in line).strip("| ").split("|")
+
+    play = np.degrees(4 * 0.01 / 11)
+    for options in (("--clearance", "0.01"), ("--backlash", "0.02")):
+        assert float(row(*options)[-3]) == pytest.approx(play * 11 / 12, rel=1e-3), "of the ring, which is driven"
+    assert row("--clearance", "0.01")[6].strip() == "5 to 6"
+    assert row("--clearance", "0.01", "--deflection", "0.01")[6].strip() == "3 to 4"

@@ -41,7 +41,7 @@ from geartrain.cli.mesh.wheel_profile import (
     profile_sink,
     write_profile,
 )
-from geartrain.cli.option_values import at_option
+from geartrain.cli.option_values import at_option, read_quantity
 from geartrain.errors import GearTrainError
 from geartrain.teeth.tooth_form import ToothForm
 
@@ -114,17 +114,27 @@ def _run(
     angle, size = read_shaft_angle(internal, bevel), read_module(module, backlash)
     rub = read_pair_friction(friction)
     wheels = two_wheels(teeth, rub.coefficient, size, internal or model.ringed, angle, read_helix(helix, angle))
-    form = read_form(model, own | {"backlash": backlash})
+    form = _read(model, own, clearance, backlash)
     try:
         mesh = rub.of(pair_in_mesh(form, wheels, angle, driver), rate)
     except GearTrainError as error:
         raise at_option(error, "--teeth") from None
-    blank = {"clearance": clearance, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
+    root = None if "clearance" in model.model_fields else clearance
+    blank = {"clearance": root, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
     outlines = write_profile(mesh, wheel, blank, outlined)
     give(to, json, lambda: collect_pair(mesh, outlines), lambda: [describe_pair(mesh, outlines)])
     if plot is not None:
         draw(_figure(mesh), picture)
     raise typer.Exit(GOOD if not mesh.faults else VERDICT)
+
+
+def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, backlash: str | None) -> ToothForm:
+    """The form; a clearance may be its own and not that of a profile's root, and play what it makes of it."""
+    if "clearance" in model.model_fields:
+        own = own | {"clearance": clearance}
+    if "backlash" in model.model_fields or backlash is None:
+        return read_form(model, own | ({} if backlash is None else {"backlash": backlash}))
+    return read_form(model, own).thinned(read_quantity("--backlash", backlash, "length", plain=True, least="0"))
 
 
 def _figure(mesh: GearMesh) -> Figure:

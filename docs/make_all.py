@@ -18,6 +18,7 @@ import make_extremes
 import make_gallery
 import make_images
 import make_left_out
+import make_lines
 import make_mesh_accuracy
 import make_missing
 import make_motion_accuracy
@@ -60,6 +61,7 @@ def main() -> None:
         make_gallery,
         make_images,
         make_left_out,
+        make_lines,
         make_missing,
         make_palette,
         make_outputs,

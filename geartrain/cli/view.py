@@ -1,10 +1,13 @@
-"""`geartrain view`: one HTML file in which the train turns."""
+"""`geartrain view`: one HTML file in which the train turns, or a picture or film of it."""
 
 from __future__ import annotations
 
 import webbrowser
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -16,6 +19,7 @@ from geartrain.cli.common import (
     Fast,
     File,
     Force,
+    Sink,
     StateName,
     Without,
     file_name,
@@ -25,7 +29,8 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.time_runs import Rate, Restitution, Skip, Steps, TimeRequest, ToothModel, Turns, run_in_time
+from geartrain.cli.films import SUFFIXES, FilmRequest, with_shot
+from geartrain.cli.time_runs import Rate, Restitution, Skip, Steps, TimeRequest, ToothModel, run_in_time
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -33,16 +38,29 @@ if TYPE_CHECKING:
 
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TimeRun
+    from geartrain.scene import Scene
+    from geartrain.viewer.viewer_page import Shown
 
 _MOST_ANGLES = 2_000_000  # of all links together, before few of them are chosen
 
 Other = Annotated[str | None, typer.Argument(help="Another train, shown beside the first.", metavar="[FILE2]")]
 Page = Annotated[
     Path | None,
-    typer.Option("--output-file", "-o", help="The page; default NAME.html in this folder; - is standard output."),
+    typer.Option(
+        "--output-file", "-o", help="A page, or a .png .gif .webp .mp4; default NAME.html here; - is standard output."
+    ),
 ]
+Turns = Annotated[
+    str | None, typer.Option("--turns", help="Turns of the lead in a film; with --dynamics those that are counted.")
+]
+Embed = Annotated[bool, typer.Option("--embed", help="The picture with three buttons, for a frame in another page.")]
+Kiosk = Annotated[bool, typer.Option("--kiosk", help="The same for a museum's screen: full screen, turns by itself.")]
+Png = Annotated[bool, typer.Option("--png", help="Write a picture, NAME.png, in place of a page.")]
+Gif = Annotated[bool, typer.Option("--gif", help="Write a film, NAME.gif, in place of a page.")]
+Mp4 = Annotated[bool, typer.Option("--mp4", help="Write a film, NAME.mp4, in place of a page.")]
 
 
+@with_shot
 def run(
     file: File,
     other: Other = None,
@@ -62,30 +80,65 @@ def run(
     model: ToothModel = None,
     without: Without = None,
     fast: Fast = None,
+    embed: Embed = False,
+    kiosk: Kiosk = False,
+    png: Png = False,
+    gif: Gif = False,
+    mp4: Mp4 = False,
+    shot: Mapping[str, Any] = MappingProxyType({}),
 ) -> None:
-    """A page in which the train turns: one file, no server, no network; two trains stand side by side."""
+    """A page in which the train turns: one file, no server, no network; two trains stand side by side.
+
+    With --png, --gif or --mp4, or an output file called so, it is a picture or a film of one state.
+    """
     from geartrain.scene import make_scene
-    from geartrain.viewer import page
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
+    film = FilmRequest.of({"png": png, "gif": gif, "mp4": mp4}, out, shot, teeth)
+    if film is not None and not dynamics:
+        film, request = film.of_turns(turns), replace(request, turns=None)
     _check_request(request, dynamics, other)
+    shown = _shown(embed, kiosk, film, other)
     trains = load_all([file] if other is None else [file, other])
-    path = out or file_name("-".join(train.name for train in trains), ".html")
-    _check_suffix(path)
-    to = sink(path, force)
-    shown = [(train, each) for train in trains for each in _states(train, state, first=dynamics or other is not None)]
-    runs = [_played(train, each, request) if dynamics else None for train, each in shown]
-    scenes = [make_scene(train, each, run=run, formulas=True) for (train, each), run in zip(shown, runs, strict=True)]
-    text = page(scenes, compare=other is not None, teeth=teeth)
-    data = text.encode("utf-8")
-    to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
-    if open_it and to.path is not None and not webbrowser.open(path.resolve().as_uri()):
+    path = out or file_name("-".join(train.name for train in trains), film.suffix if film else ".html")
+    to = film.sink(path, force) if film else _page_sink(path, force)
+    first = dynamics or other is not None or film is not None
+    taken = [(train, each) for train in trains for each in _states(train, state, first)]
+    runs = [_played(train, each, request) if dynamics else None for train, each in taken]
+    whole = shown == "page" and film is None
+    scenes = [make_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
+    if film is not None:
+        film.write(scenes[0], to)
+    else:
+        _write_page(scenes, to, shown, other is not None, teeth)
+    if open_it and to.path is not None and not webbrowser.open(to.path.resolve().as_uri()):
         tell("no browser could be started here; open the file by hand")
     for run in runs:
         if run is not None and not run.complete:
-            tell(f"stopped after {run.turns[-1]:.4g} turns; the page shows those")
+            tell(f"stopped after {run.turns[-1]:.4g} turns; what is written shows those")
             raise typer.Exit(INTERRUPTED)
-    raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in shown) else VERDICT)
+    raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in taken) else VERDICT)
+
+
+def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, teeth: bool) -> None:
+    from geartrain.viewer import frame_of, page
+
+    data = page(scenes, compare=compare, teeth=teeth, shown=shown).encode("utf-8")
+    to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
+    if shown == "embed" and to.path is not None:
+        tell(f"put it beside your page, and this into it:\n{frame_of(to.path.name, scenes[0].title or scenes[0].name)}")
+
+
+def _shown(embed: bool, kiosk: bool, film: FilmRequest | None, other: str | None) -> Shown:
+    """How a page shows a train. Raises `QuestionError` for two ways at once, and two trains where one has room."""
+    ways = [way for way, wanted in (("--embed", embed), ("--kiosk", kiosk), (film and film.suffix, film)) if wanted]
+    if len(ways) > 1:
+        why = "a page, a picture or a film is written, and one of them"
+        raise QuestionError(Problem(f"{' and '.join(map(str, ways))} at once", why, "leave all but one out", "view"))
+    if ways and other is not None:
+        why = f"{ways[0]} has room for one"
+        raise QuestionError(Problem("two trains", why, "give one, or write a page of both", other))
+    return "embed" if embed else "kiosk" if kiosk else "page"
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
@@ -112,9 +165,10 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
     return names[:1] if first else names
 
 
-def _check_suffix(path: Path) -> None:
-    """Raises `QuestionError` where a browser would not know the file for a page."""
+def _page_sink(path: Path, force: bool) -> Sink:
+    """Where a page goes. Raises `QuestionError` where a browser would not know the file for one."""
     if path == STANDARD_NAME or path.suffix.lower() in (".html", ".htm") or path.is_dir():
-        return
+        return sink(path, force)
     why = f"'{path.suffix}' is no suffix of a page" if path.suffix else "its name has no suffix"
-    raise QuestionError(Problem("the page cannot be written", why, "let it end in .html", str(path)))
+    fix = f"let it end in .html, or for a picture or a film in {', '.join(SUFFIXES)}"
+    raise QuestionError(Problem("the page cannot be written", why, fix, str(path)))

@@ -10,13 +10,17 @@ from hashlib import sha256
 from html import escape
 from importlib.resources import files
 from string import Template
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
+from urllib.parse import quote
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene import Scene, make_scene
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
+
+Shown = Literal["page", "embed", "kiosk", "film"]
+"""How a page shows a train."""
 
 _IN_SCRIPTS: dict[str, str | int | None] = {
     "<": "\\u003c",
@@ -31,7 +35,9 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
 _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 
 
-def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True) -> str:
+def page(
+    scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
+) -> str:
     """One self-contained page of HTML that shows trains turning; it works from a file and asks the network for nothing.
 
     Parameters
@@ -44,6 +50,9 @@ def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = Non
         Of the page; default the names of the trains.
     teeth : bool
         False draws plain discs until the reader wants teeth.
+    shown : {"page", "embed", "kiosk", "film"}
+        The whole page; the picture with three buttons, for a frame in another page or for a museum's screen; or the
+        picture alone, which scripts set and take.
 
     Returns
     -------
@@ -65,7 +74,8 @@ def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = Non
     """
     if len(scenes) < 1 + compare:
         raise QuestionError(Problem("too few scenes for a page", f"it was given {len(scenes)}", "give it one, or two"))
-    data = {"scenes": [scene.to_dict() for scene in scenes], "options": {"compare": compare, "teeth": teeth}}
+    options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
+    data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")
     return Template(_part("page.html")).substitute(
         policy=escape(_policy(program)),
@@ -135,6 +145,32 @@ class EmbeddedPage:
         inner = escape(train_page(self.train, self.state)).translate(_AS_NUMBERS)
         style = f"width:100%;height:{self.height}px;border:0"
         return f'<iframe title="{escape(self.train.name)}, turning" style="{style}" srcdoc="{inner}"></iframe>'
+
+
+def frame_of(address: str, title: str, height: int = 480) -> str:
+    """The line of HTML that shows a page of a train within another page.
+
+    Parameters
+    ----------
+    address : str
+        Of the page, as seen from the one in which it is shown.
+    title : str
+        What it shows, for readers who do not see it.
+    height : int
+        Of the frame [px].
+
+    Returns
+    -------
+    str
+        An `iframe`.
+
+    Examples
+    --------
+    >>> frame_of("worm.html", "A worm")
+    '<iframe src="worm.html" title="A worm" style="width:100%;height:480px;border:0" loading="lazy"></iframe>'
+    """
+    style = f"width:100%;height:{height}px;border:0"
+    return f'<iframe src="{escape(quote(address))}" title="{escape(title)}" style="{style}" loading="lazy"></iframe>'
 
 
 def json_in_script(data: object) -> str:

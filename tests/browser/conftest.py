@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -20,20 +19,8 @@ from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Request, s
 from viewing import DESK, GALLERY, Opening, html_of, wait
 
 from geartrain.viewer import page
+from geartrain.viewer.browser import NAMES, SWITCHES, find_browser
 
-NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-SWITCHES = (
-    "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-    "--disable-gpu-compositing",  # only what a page draws in 3D needs the software GPU
-    "--disable-extensions",
-)
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 90_000  # ms: software draws slowly on a busy machine
 
@@ -68,21 +55,21 @@ OpenPage = Callable[..., Shown]
 Asked = Callable[[str], Shown]
 
 
-def find_browser() -> str | None:
-    """The browser's program: that of GEARTRAIN_BROWSER, else the first on the path."""
-    asked = os.environ.get("GEARTRAIN_BROWSER")
-    return shutil.which(asked) if asked else next(filter(None, map(shutil.which, NAMES)), None)
-
-
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """One browser for all tests of a process."""
-    program = find_browser()
-    if program is None:
+def program() -> str:
+    """The browser's program; what needs it is passed over where there is none."""
+    found = find_browser()
+    if found is None:
         why = f"no browser: none of {', '.join(NAMES)} is on the path, and GEARTRAIN_BROWSER names none"
         if os.environ.get("GEARTRAIN_REQUIRE_BROWSER"):
             pytest.fail(why)
         pytest.skip(why)
+    return found
+
+
+@pytest.fixture(scope="session")
+def browser(program: str) -> Iterator[Browser]:
+    """One browser for all tests of a process."""
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=program, args=list(SWITCHES))
         yield running

@@ -3,7 +3,9 @@
 import { Fraction } from "./fraction.js";
 import { Machine } from "./motion.js";
 import { Plan } from "./plan.js";
+import { Film } from "./still.js";
 import { buildInterface } from "./ui/interface.js";
+import { Showcase } from "./ui/showcase.js";
 import { Stage } from "./view.js";
 
 const { scenes: given, options } = JSON.parse(document.getElementById("scenes").textContent);
@@ -75,9 +77,17 @@ const painted = () =>
     setTimeout(done, 400);
   });
 
+/** A stage and nothing round it, for films. */
+function beginFilm() {
+  const stage = app.open(0);
+  stage.cut();
+  globalThis.geartrain.film = stage instanceof Stage ? new Film(stage) : null;
+  globalThis.geartrain.ready = true;
+}
+
 /** Words and dials first, then the wheels as discs, then their teeth. */
-async function begin() {
-  buildInterface(app);
+async function begin(build) {
+  build(app);
   await painted();
   app.interface.openStages();
   await painted();
@@ -89,4 +99,6 @@ async function begin() {
   performance.mark("teeth");
 }
 
-begin();
+const way = Showcase.asked(location.hash, options.shown);
+if (options.shown === "film") beginFilm();
+else begin(way ? () => (app.interface = new Showcase(app, way)) : buildInterface);

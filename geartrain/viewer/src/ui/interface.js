@@ -210,7 +210,7 @@ class Interface {
 }
 
 /** Turns of the lead a second at which the fastest pointer still can be followed by eye. */
-function pace(scene) {
+export function pace(scene) {
   const speeds = scene.pointers.map((pointer) => Math.abs(Number(Fraction.parse(pointer.speed) ?? 0)));
   return Math.min(0.25, Math.max(0.001, 0.5 / Math.max(1, ...speeds)));
 }

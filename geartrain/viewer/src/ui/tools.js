@@ -1,6 +1,7 @@
 // How the picture is shown: from where, in which colours, taken apart or whole.
 import { MODES, legend } from "./colours.js";
 import { el, field } from "./element.js";
+import { savePicture } from "./saving.js";
 
 const SMALL = "(max-width: 820px), (max-height: 520px)"; // as in page.css
 const LOOKS = { front: "Front", back: "Back", side: "Side", free: "Free" };
@@ -40,6 +41,7 @@ export class Tools {
       field("Apart", this.apart),
       field("Hide front", this.front, { class: "field tick" }),
       field("Teeth", this.teeth, { class: "field tick" }),
+      el("button", { type: "button", class: "save", onclick: () => savePicture(this.sides) }, "Save picture"),
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), tools);
     const small = matchMedia(SMALL);

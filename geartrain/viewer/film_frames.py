@@ -1,0 +1,116 @@
+"""Scenes to pictures and films: a browser draws each moment by itself, so that the same question gives the same frames.
+
+No clock is read: the crank is set to the exact turns of each picture, which is drawn at once and taken as a PNG.
+"""
+
+from __future__ import annotations
+
+from base64 import b64decode
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.viewer.browser import open_browser, outside_of_loops
+from geartrain.viewer.film_formats import FORMATS, check_format
+from geartrain.viewer.shot import Shot
+from geartrain.viewer.viewer_page import page
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+    from geartrain.scene import Scene
+
+OnFrame = Callable[[], object]
+
+_PATIENCE = 180_000  # ms: software draws slowly on a busy machine
+
+
+def film(scene: Scene, suffix: str, shot: Shot | None = None, on_frame: OnFrame = lambda: None) -> bytes:
+    """A picture or a film of a scene, as the file that holds it.
+
+    Parameters
+    ----------
+    scene : Scene
+        What turns.
+    suffix : {".png", ".gif", ".webp", ".mp4"}
+        A picture, or a film of what form; those of GIF and WebP begin again at the end.
+    shot : Shot, optional
+        What is shown.
+    on_frame : callable
+        Called after each picture.
+
+    Returns
+    -------
+    bytes
+        The file.
+
+    Raises
+    ------
+    MissingExtraError
+        Where what draws or packs is not installed.
+    QuestionError
+        Where there is no browser, it has no WebGL, nothing moves, or the shot does not fit the form.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import make_scene
+    >>> film(make_scene(geartrain.load("worm")), ".bmp")
+    Traceback (most recent call last):
+    ...
+    geartrain.errors.QuestionError: no picture and no film
+      why: the suffix says how it is packed, and '.bmp' is none
+      fix: did you mean '.mp4' or '.webp'?
+    """
+    shot = shot or Shot()
+    check_format(suffix, shot)
+    if suffix == ".png":
+        moments = [(shot.at, shot.turntable)]
+    else:
+        shot = shot.timed(scene)
+        moments = list(shot.moments())
+
+    def made() -> bytes:
+        return FORMATS[suffix](_told(frames(scene, shot, moments), on_frame), shot)
+
+    return outside_of_loops(made)
+
+
+def frames(scene: Scene, shot: Shot, moments: Iterable[tuple[Any, float]]) -> Iterator[bytes]:
+    """A PNG for each moment: turns of the lead, and turns of the camera."""
+    html = page([scene], teeth=shot.teeth, shown="film")
+    with TemporaryDirectory() as folder, open_browser() as browser:
+        path = Path(folder) / "film.html"
+        path.write_text(html, encoding="utf-8")
+        width, height = shot.size
+        sheet = browser.new_page(viewport={"width": width, "height": height}, device_scale_factor=1)
+        sheet.set_default_timeout(_PATIENCE)
+        sheet.goto(path.as_uri())
+        _prepare(sheet, shot)
+        for turns, orbit in moments:
+            yield _picture(sheet, str(turns), orbit)
+
+
+def _prepare(sheet: Page, shot: Shot) -> None:
+    """The page, ready and set. Raises `QuestionError` where it shows no picture, or knows no such colour."""
+    if not sheet.evaluate("Boolean(geartrain.film)"):
+        why = "it has no WebGL, which draws in three dimensions"
+        raise QuestionError(Problem("the browser draws no train", why, "use another one, or update it"))
+    if not sheet.evaluate("(colour) => CSS.supports('color', colour)", shot.background):
+        why, fix = "CSS knows no such colour", "give one such as white, #f4f1ea or rgb(20 20 20)"
+        raise QuestionError(Problem(f"'{shot.background}' is no background", why, fix))
+    wanted = {"look": shot.look, "background": shot.background, "apart": shot.apart, "turntable": bool(shot.turntable)}
+    sheet.evaluate("(wanted) => geartrain.film.set(wanted)", wanted)
+
+
+def _picture(sheet: Page, turns: str, orbit: float) -> bytes:
+    data: str = sheet.evaluate("([turns, orbit]) => geartrain.film.still(turns, orbit)", [turns, orbit])
+    return b64decode(data.partition(",")[2])
+
+
+def _told(pictures: Iterator[bytes], on_frame: OnFrame) -> Iterator[bytes]:
+    for each in pictures:
+        yield each
+        on_frame()

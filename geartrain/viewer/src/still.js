@@ -1,0 +1,82 @@
+// Stills: a stage drawn at once, as a picture that can be kept.
+
+import { vector } from "./space.js";
+
+const VIEWS = 24; // of a turning camera, from all of which the whole must be seen
+
+/** For films: one stage that fills the window and is drawn only when a picture of it is asked for. */
+export class Film {
+  constructor(stage) {
+    this.stage = stage;
+    document.body.classList.add("film");
+    document.body.prepend(stage.canvas);
+    stage.resize();
+  }
+
+  /** look, background and apart as the page has them; with `turntable` the camera stands far enough off for a turn. */
+  set({ look, background, apart, turntable }) {
+    const { stage } = this;
+    stage.theme({ background: plain(background) });
+    stage.explode(apart);
+    stage.look(look);
+    this.home = here(stage);
+    if (turntable) this.home = allRound(stage, this.home);
+  }
+
+  /** A PNG as a data URL. turns: of the lead, exact; orbit: turns of the camera */
+  still(turns, orbit = 0) {
+    const { stage, home } = this;
+    stage.setTurns(turns);
+    stage.controls.target.copy(home.target);
+    stage.camera.position.copy(home.target).addScaledVector(turned(home.towards, orbit), home.distance);
+    stage.controls.update();
+    stage.render();
+    return stage.canvas.toDataURL("image/png"); // in the same task: the next one finds the canvas empty
+  }
+}
+
+/** A colour as three.js reads it, of all that CSS can say. */
+function plain(colour) {
+  const pen = document.createElement("canvas").getContext("2d");
+  pen.fillStyle = colour;
+  return pen.fillStyle;
+}
+
+/** Where the camera of a stage stands. */
+function here({ camera, controls }) {
+  const towards = camera.position.clone().sub(controls.target);
+  const distance = towards.length();
+  return { target: controls.target.clone(), towards: towards.normalize(), distance };
+}
+
+/** A direction, turned about the vertical. */
+function turned(towards, orbit) {
+  return orbit ? towards.clone().applyAxisAngle(vector([0, 1, 0]), 2 * Math.PI * orbit) : towards;
+}
+
+/** One point to look at, and a distance, from which all is seen at every turn of the camera. */
+function allRound(stage, { towards }) {
+  const views = Array.from({ length: VIEWS }, (_, n) => {
+    stage.fit(turned(towards, n / VIEWS));
+    return here(stage);
+  });
+  const target = views.reduce((sum, view) => sum.add(view.target), vector([0, 0, 0])).divideScalar(VIEWS);
+  const distance = Math.max(...views.map((view) => view.distance + view.target.distanceTo(target)));
+  return { target, towards, distance };
+}
+
+/** The stages shown, beside each other in one picture as large as they are on the screen: a promise of a PNG. */
+export function pictureOf(stages) {
+  const canvases = stages.map((stage) => stage.canvas);
+  const sheet = document.createElement("canvas");
+  sheet.width = canvases.reduce((sum, { width }) => sum + width, 0);
+  sheet.height = Math.max(...canvases.map(({ height }) => height));
+  const pen = sheet.getContext("2d");
+  let left = 0;
+  stages.forEach((stage, n) => {
+    stage.render();
+    pen.drawImage(canvases[n], left, 0);
+    left += canvases[n].width;
+  });
+  return new Promise((done) => sheet.toBlob(done, "image/png"));
+}

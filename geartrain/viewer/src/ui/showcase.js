@@ -1,0 +1,161 @@
+// The picture with three buttons: for a frame in another page, and for a screen in a museum.
+import { Fraction } from "../fraction.js";
+import { PAUSE, PLAY } from "./crank.js";
+import { Drive } from "./drive.js";
+import { el, icon } from "./element.js";
+import { pace } from "./interface.js";
+import { decimal } from "./number.js";
+import { paceOf } from "./playhead.js";
+import { Theme } from "./theme.js";
+
+const LOOKS = ["free", "front", "side", "back"];
+const EYE = "M2 12c3-5 6.5-7 10-7s7 2 10 7c-3 5-6.5 7-10 7s-7-2-10-7zM12 9.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z";
+const LAYERS = "M12 3l9 4.5-9 4.5-9-4.5zM3 12l9 4.5 9-4.5M3 16.5l9 4.5 9-4.5";
+const IDLE = 45; // s without a hand until a kiosk goes on by itself
+const ROUND = 90; // s of one turn of the camera of a kiosk that is left alone
+
+export class Showcase {
+  /** What an address and the page ask for: null, or {kiosk, idle}. `#embed`, `#kiosk`, `#kiosk=20` (seconds of idleness) */
+  static asked(hash, shown) {
+    const [, name, idle] = /^#(embed|kiosk)(?:=(\d{1,5}))?$/.exec(hash) ?? [null, shown];
+    if (name !== "embed" && name !== "kiosk") return null;
+    return { kiosk: name === "kiosk", idle: 1000 * Math.max(1, Number(idle ?? IDLE)) };
+  }
+
+  constructor(app, { kiosk, idle }) {
+    Object.assign(this, { app, kiosk, idle });
+    this.index = Math.max(0, app.machines.findIndex((machine) => machine.moves)); // what turns, before what stands
+    this.scene = app.scenes[this.index];
+    const { run } = app.machines[this.index];
+    this.drive = new Drive(app, Fraction.of(this.scene.step));
+    this.drive.run = run ?? null;
+    this.drive.rate = run ? paceOf(run) / run.period : pace(this.scene);
+    this.drive.movable = app.machines[this.index].moves;
+    this.look = 0;
+    this.theme = new Theme((background) => this.stage?.theme({ background }));
+    this.theme.apply();
+    this.#lay();
+    this.drive.listen(() => this.#moved());
+    this.drive.goTo(this.drive.at);
+    if (kiosk) this.#attend();
+  }
+
+  #lay() {
+    const button = (act, name, path) =>
+      el("button", { type: "button", onclick: act, "aria-label": name, title: name }, icon(path), el("span", {}, name));
+    this.playing = button(() => this.#play(), "Turn", PLAY);
+    this.playing.disabled = !this.drive.movable;
+    const look = button(() => this.#nextLook(), "Other side", EYE);
+    this.apart = button(() => this.#pull(), "Take apart", LAYERS);
+    this.turns = el("output", { class: "quiet" });
+    this.place = el("div", { class: "place" });
+    const { title, name, state, verdict } = this.scene;
+    const said = this.drive.movable ? this.turns : el("p", { class: "bad" }, verdict.text);
+    document.body.classList.add("showcase");
+    document.body.classList.toggle("kiosk", this.kiosk);
+    document.body.prepend(
+      el(
+        "main",
+        {},
+        this.place,
+        el("header", {}, el("h1", {}, title || name, state && ` (${state})`), said),
+        el("div", { class: "buttons", role: "group", "aria-label": "the train" }, this.playing, look, this.apart),
+      ),
+    );
+  }
+
+  /** Its picture; called once the words are seen. */
+  openStages() {
+    this.stage = this.app.open(this.index);
+    const { canvas } = this.stage;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `${this.scene.title || this.scene.name}, turning`);
+    this.place.append(canvas);
+    this.stage.theme({ background: this.theme.background });
+    this.stage.onCrank = (made) => this.drive.advance(made, true);
+    this.stage.resize();
+    if (this.kiosk) this.#leave();
+    else this.#beginWhenSeen();
+  }
+
+  /** A frame far down a page costs nothing; where motion is not wanted nothing begins by itself. */
+  #beginWhenSeen() {
+    if (this.drive.calm.matches) return;
+    new IntersectionObserver((seen) => {
+      const inSight = seen.at(-1).isIntersecting;
+      if (inSight && !this.stopped) this.drive.play(true);
+      else if (!inSight) this.drive.play(false);
+    }).observe(this.place);
+  }
+
+  #play() {
+    this.drive.play();
+    this.stopped = !this.drive.playing;
+  }
+
+  #nextLook() {
+    this.look = (this.look + 1) % LOOKS.length;
+    this.stage?.look(LOOKS[this.look]);
+  }
+
+  #pull(apart = !this.pulled) {
+    this.pulled = apart;
+    this.#name(this.apart, apart ? "Together" : "Take apart");
+    this.stage?.explode(apart ? 1 : 0);
+    this.stage?.look(LOOKS[this.look]);
+  }
+
+  #name(button, name) {
+    button.setAttribute("aria-label", name);
+    button.title = name;
+    button.querySelector("span").textContent = name;
+  }
+
+  #moved() {
+    const { drive, scene } = this;
+    const lead = scene.bodies[scene.lead]?.id ?? "the input";
+    this.turns.textContent = drive.run ? `${drive.time.toFixed(2)} s` : `${decimal(drive.at, 2)} turns of ${lead}`;
+    if (this.shown === drive.playing) return;
+    this.shown = drive.playing;
+    this.#name(this.playing, drive.playing ? "Stop" : "Turn");
+    this.playing.querySelector("svg").replaceWith(icon(drive.playing ? PAUSE : PLAY));
+  }
+
+  /** A kiosk listens for hands: the first fills the screen, and when there are none for long it goes on by itself. */
+  #attend() {
+    document.addEventListener("contextmenu", (event) => event.preventDefault());
+    document.addEventListener("click", () => {
+      if (!document.fullscreenElement) document.documentElement.requestFullscreen?.().catch(() => {});
+    });
+    for (const kind of ["pointerdown", "pointermove", "wheel", "keydown"]) {
+      document.addEventListener(kind, () => this.#touched(), { passive: true, capture: true });
+    }
+  }
+
+  #touched() {
+    this.alone = false;
+    clearTimeout(this.waiting);
+    this.waiting = setTimeout(() => this.#leave(), this.idle);
+  }
+
+  /** Whole, seen from where it is seen best, turning, with a camera that goes round it slowly. */
+  #leave() {
+    this.alone = true;
+    this.look = 0;
+    this.#pull(false);
+    this.drive.play(true);
+    if (!this.drive.calm.matches) this.#goRound(performance.now());
+  }
+
+  #goRound(before) {
+    requestAnimationFrame((now) => {
+      const { controls } = this.stage;
+      if (!this.alone || !controls) return; // a plan has no camera
+      controls.autoRotate = true;
+      controls.autoRotateSpeed = 60 / ROUND;
+      controls.update(Math.min(now - before, 100) / 1000);
+      controls.autoRotate = false;
+      this.#goRound(now);
+    });
+  }
+}

@@ -1,0 +1,120 @@
+"""The picture with three buttons: in frames of other pages, and on a museum's screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import shipped
+from conftest import OpenPage, Shown
+from viewing import LOCKED, SIMPLE, wait
+
+import geartrain
+from geartrain.scene import make_scene
+from geartrain.viewer import frame_of, page
+from geartrain.viewer.viewer_page import Shown as Way
+
+Showing = Callable[..., Shown]
+CAMERA = "geartrain.stages.find(Boolean).camera.position.toArray()"
+
+
+@pytest.fixture
+def showcase(open_page: OpenPage, tmp_path: Path) -> Showing:
+    """Opens a train's page with its three buttons."""
+
+    def opened(way: Way, name: str = SIMPLE, mark: str = "", before: str = "", **window: Any) -> Shown:
+        path = tmp_path / "page.html"
+        scene = shipped.scene(name) if "\n" not in name else make_scene(geartrain.load(name))
+        path.write_text(page([scene], teeth=False, shown=way), encoding="utf-8")
+        return open_page(path, before + (f"location.hash = '{mark}';" if mark else ""), **window)
+
+    return opened
+
+
+def names(shown: Shown) -> list[str]:
+    return [each.inner_text() for each in shown.page.get_by_role("button").all()]
+
+
+@pytest.mark.parametrize(("way", "mark"), [("embed", ""), ("kiosk", ""), ("page", "embed"), ("page", "kiosk")])
+def test_there_are_three_buttons_and_nothing_to_type_into(showcase: Showing, way: Way, mark: str) -> None:
+    shown = showcase(way, mark=mark, viewport={"width": 390, "height": 600})
+    assert names(shown)[1:] == ["Other side", "Take apart"]
+    assert shown.run("document.querySelectorAll('input, select, textarea, a, [contenteditable]').length") == 0
+    assert "A simple planetary" in shown.page.get_by_role("heading").inner_text()
+    inside = (
+        "[...document.querySelectorAll('button, h1')].every((each) => each.getBoundingClientRect().right <= innerWidth)"
+    )
+    assert shown.run(inside)
+    assert shown.run("document.documentElement.scrollWidth <= innerWidth")
+    assert shown.errors == shown.requests == []
+
+
+def test_it_turns_by_itself_until_it_is_stopped(showcase: Showing) -> None:
+    shown = showcase("embed")
+    wait(shown, "Number(geartrain.machines[0].turns) > 0.02")
+    assert names(shown)[0] == "Stop"
+    shown.page.get_by_role("button", name="Stop").click()
+    stopped = shown.run("String(geartrain.turns)")
+    shown.page.wait_for_timeout(400)
+    assert shown.run("String(geartrain.turns)") == stopped
+    shown.page.get_by_role("button", name="Turn").click()
+    wait(shown, f"String(geartrain.turns) !== '{stopped}'")
+
+
+def test_where_less_motion_is_wanted_it_waits_for_its_reader(showcase: Showing) -> None:
+    shown = showcase("embed", reduced_motion="reduce")
+    shown.page.wait_for_timeout(500)
+    assert shown.run("String(geartrain.turns)") == "0"
+    assert names(shown)[0] == "Turn"
+
+
+def test_the_buttons_show_the_other_side_and_take_apart(showcase: Showing) -> None:
+    shown = showcase("embed", reduced_motion="reduce")
+    free = shown.run(CAMERA)
+    shown.page.get_by_role("button", name="Other side").click()
+    front = shown.run(CAMERA)
+    assert abs(front[0]) < 1e-6 * front[2], "from the front"
+    assert front != free
+    shown.page.get_by_role("button", name="Take apart").click()
+    assert shown.run("geartrain.stages.find(Boolean).world.poses.share") == 1
+    shown.page.get_by_role("button", name="Together").click()
+    assert shown.run("geartrain.stages.find(Boolean).world.poses.share") == 0
+
+
+def test_a_kiosk_left_alone_goes_on_by_itself_and_looks_round(showcase: Showing) -> None:
+    shown = showcase("kiosk", mark="kiosk=1")
+    shown.page.get_by_role("button", name="Stop").click()
+    shown.page.get_by_role("button", name="Take apart").click()
+    assert names(shown)[::2] == ["Turn", "Together"]
+    wait(shown, "document.querySelector('button').innerText === 'Stop'")
+    assert names(shown)[2] == "Take apart"
+    before = shown.run(CAMERA)
+    wait(shown, f"Math.hypot(...{CAMERA}.map((each, at) => each - {before}[at])) > 1e-3 * Math.hypot(...{before})")
+
+
+def test_the_first_touch_of_a_kiosk_fills_the_screen(showcase: Showing) -> None:
+    asked = "Element.prototype.requestFullscreen = function () { globalThis.filled = true; return Promise.resolve(); };"
+    shown = showcase("kiosk", before=asked)
+    assert not shown.run("Boolean(globalThis.filled)")
+    shown.page.get_by_role("button", name="Other side").click()
+    assert shown.run("globalThis.filled")
+
+
+def test_a_train_that_cannot_turn_says_why(showcase: Showing) -> None:
+    shown = showcase("embed", LOCKED)
+    assert shown.page.get_by_role("button", name="Turn").is_disabled()
+    assert "does not close" in shown.page.locator("header").inner_text()
+
+
+def test_a_page_of_somebody_else_shows_the_train_in_a_frame(open_page: OpenPage, tmp_path: Path) -> None:
+    (tmp_path / "a train.html").write_text(page([shipped.scene(SIMPLE)], teeth=False, shown="embed"), encoding="utf-8")
+    outer = tmp_path / "outer.html"
+    ready = "<script>globalThis.geartrain = {ready: true}</script>"
+    frame_line = frame_of("a train.html", 'A "train"')
+    outer.write_text(f"<title>mine</title>{ready}{frame_line}", encoding="utf-8")
+    shown = open_page(outer)
+    frame = shown.page.frame_locator("iframe[title='A \"train\"']")
+    frame.get_by_role("button", name="Stop").wait_for()
+    assert frame.locator("canvas").bounding_box()["width"] > 300  # type: ignore[index]

@@ -6,17 +6,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Circle, Figure
-from geartrain.drawing.style import BLACK, GREY, SMALL, sheet, title_of, write
+from geartrain.drawing.labels import text_width
+from geartrain.drawing.style import BLACK, FINE, GREY, SMALL, series_look, sheet, title_of, write
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene
 from geartrain.scene.dial_scale import DialScale, clock_point
-from geartrain.scene.palette import series_colour
 from geartrain.scene.pose import body_errors, turns_of
 
 if TYPE_CHECKING:
@@ -27,7 +27,8 @@ _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
 _INNER = 0.42  # radius of the innermost turn of a spiral over the outermost
 _TICK = 0.07  # inches: a border of a cell
-_FINE = 8.0  # points
+_OUTER = _FACE / 2 - 0.35  # radius of a face
+_SAMPLE = 0.45  # inches of a hand in the key
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,14 +86,19 @@ def dials_figure(
     columns = min(len(faces), 4)
     rows = [faces[at : at + columns] for at in range(0, len(faces), columns)]
     tall = [_FACE + 0.35 + (_ROW * max(len(face.pointers) for face in row) if labels else 0.0) for row in rows]
-    width = max(_FACE * columns, 5.0)
+    told = [_words(scene.pointers[at], readings[at], face) for face in faces for at in face.pointers]
+    wide = max(_FACE, max(text_width(words) for words in told) + _SAMPLE + 0.3) if labels else _FACE
+    width = max(wide * columns, 5.0)
     title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_lead(scene)}" if turns else "")
     figure, axes = sheet(width, _HEAD + sum(tall) + 0.1, title)
     top = sum(tall) + 0.1
     for row, high in zip(rows, tall, strict=True):
         for column, face in enumerate(row):
-            x = width / 2 + (column - (columns - 1) / 2) * _FACE
-            _draw_face(axes, face, scene, readings, (x, top - _FACE / 2 - 0.2), labels)
+            x = width / 2 + (column - (columns - 1) / 2) * wide
+            centre = (x, top - _FACE / 2 - 0.2)
+            _draw_face(axes, face, readings, centre)
+            if labels:
+                _draw_key(axes, face, scene, readings, centre)
         top -= high
     return figure
 
@@ -142,29 +148,28 @@ def place(centre: tuple[float, float], radius: float, turn: float | Fraction) ->
     return centre[0] + x, centre[1] + y
 
 
-def _draw_face(
-    axes: Axes,
-    face: DialPicture,
-    scene: Scene,
-    readings: Sequence[PointerReading],
-    centre: tuple[float, float],
-    labels: bool,
-) -> None:
-    outer = _FACE / 2 - 0.35
+def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading], centre: tuple[float, float]) -> None:
+    """Scale, hands and name."""
+    outer = _OUTER
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
-        color = series_colour(order)
-        share = 1.0 if face.turns > 1 else 0.97 - 0.09 * (order % 8)
-        _draw_pointer(axes, face, readings[at], centre, outer * share, color)
-        if labels:
-            y = centre[1] - outer - 0.3 - _ROW * order
-            write(axes, centre[0], y, _words(scene.pointers[at], readings[at], face), color, fontsize=_FINE)
-            if len(face.pointers) > 1 and readings[at].turned is not None:
-                x, y = place(centre, outer * (share - 0.1), readings[at].angle)
-                write(axes, x, y, readings[at].output, color, fontsize=6.0)
+        share = 1.0 if face.turns > 1 else 0.97 - 0.07 * (order % 10)
+        _draw_pointer(axes, face, readings[at], centre, outer * share, order)
     axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
     name = face.name or readings[face.pointers[0]].output
     write(axes, centre[0], centre[1] + _FACE / 2 + 0.02, name, fontsize=SMALL, fontweight="bold", gid=f"dial {name}")
+
+
+def _draw_key(
+    axes: Axes, face: DialPicture, scene: Scene, readings: Sequence[PointerReading], centre: tuple[float, float]
+) -> None:
+    """Below a face, a line for each hand: how it is drawn, and what it reads."""
+    told = [_words(scene.pointers[at], readings[at], face) for at in face.pointers]
+    left = centre[0] - (max(map(text_width, told)) + _SAMPLE) / 2
+    for order, words in enumerate(told):
+        y, look = centre[1] - _OUTER - 0.3 - _ROW * order, series_look(order)
+        axes.plot([left, left + _SAMPLE - 0.08], [y, y], linewidth=2.2, zorder=6, **look)
+        write(axes, left + _SAMPLE, y, words, look["color"], ha="left", fontsize=FINE)
 
 
 def scale_of(face: DialPicture, outer: float) -> DialScale:
@@ -183,14 +188,14 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
         for cell, turn in scale.numbers():
             if face.turns > 1:
                 x, y = place(centre, scale.radius(float(turn)), turn)
-                write(axes, x - 0.02, y, str(cell), GREY, ha="right", fontsize=5.5)
+                write(axes, x - 0.02, y, str(cell), GREY, ha="right", fontsize=FINE)
             else:
-                x, y = place(centre, outer + 0.12, turn)
-                write(axes, x, y, str(cell), GREY, fontsize=6.5)
+                x, y = place(centre, outer + 0.14, turn)
+                write(axes, x, y, str(cell), GREY, fontsize=FINE)
 
 
 def _draw_pointer(
-    axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, color: str
+    axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
     """A hand from the middle; on a spiral as long as the turn it has come to."""
     if reading.turned is None:
@@ -198,12 +203,12 @@ def _draw_pointer(
     along = (float(reading.turned % face.turns) + reading.error) % face.turns
     tip = place(centre, scale_of(face, reach).radius(along), reading.angle)
     tail = place(centre, -0.12, reading.angle)
-    style: dict[str, Any] = {"solid_capstyle": "round", "zorder": 6}
-    axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, **style)
-    axes.plot(*zip(centre, tip, strict=True), color=color, linewidth=2.2, gid=f"pointer {reading.output}", **style)
-    axes.plot(*zip(tail, centre, strict=True), color=color, linewidth=2.2, **style)
-    if face.turns > 1:
-        axes.plot(*tip, "o", color=color, markersize=4, zorder=7)
+    look = series_look(order)
+    axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, solid_capstyle="round", zorder=6)
+    axes.plot(*zip(centre, tip, strict=True), linewidth=2.2, zorder=6, gid=f"pointer {reading.output}", **look)
+    axes.plot(*zip(tail, centre, strict=True), color=look["color"], linewidth=2.2, zorder=6)
+    if face.turns > 1 or len(face.pointers) > 1:  # of hands over each other, the ends are still seen
+        axes.plot(*tip, "o", color=look["color"], markersize=4, zorder=7)
 
 
 def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:

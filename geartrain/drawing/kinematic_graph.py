@@ -15,7 +15,8 @@ import numpy as np
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import settle
 from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Path, PathPatch, Rectangle
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PURPLE, RED, SMALL, sheet, title_of, too_many, write
+from geartrain.drawing.labels import LabelSpace, text_box, text_width
+from geartrain.drawing.style import BLACK, BLUE, FINE, GREY, PURPLE, RED, SMALL, sheet, title_of, too_many, write
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -29,7 +30,17 @@ _ROOMY = 3.0  # inches: what a graph of one link would add to its edges
 _BENDS = [0.0, *(side * size for size in (0.15, 0.3, 0.5, 0.8, 1.2, 1.7) for side in (1, -1))]
 _SHORT = 4  # letters of a name that fits into its vertex
 _SHARES = (0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.27, 0.73)  # of an edge, where its label may stand
-_FINE = 7.5  # points
+_BESIDE = (
+    (0.0, 0.0),
+    (0.0, 0.12),
+    (0.0, -0.12),
+    (0.2, 0.06),
+    (-0.2, -0.06),
+    (0.0, 0.24),
+    (0.0, -0.24),
+)  # inches off it
+_NAME = 8.5  # points
+_SMALL = 0.11  # inches: half a vertex that is named beside it
 _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 
@@ -82,10 +93,16 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     curves = _curves(edges, at)
     for edge, curve in zip(edges, curves, strict=True):
         _draw_edge(axes, edge, curve)
-    if labels:
-        _draw_labels(axes, edges, curves, list(at.values()))
+    room = LabelSpace()
     for link in links:
-        _draw_vertex(axes, link, at, edges, link == declared.frame, named)
+        size = 2 * _SMALL if named else 0.42
+        room.take((*at[link], size, size))
+    for link in links:
+        _draw_vertex(axes, link, at, link == declared.frame, named)
+        if named:
+            _name_vertex(axes, link, at, edges, room)
+    if labels:
+        _draw_labels(axes, edges, curves, room)
     figure.legend(handles=list(_legend(edges)), loc="lower center", ncols=5, fontsize=SMALL - 1, frameon=False)
     return figure
 
@@ -179,38 +196,28 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
     )
 
 
-def _draw_labels(
-    axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], vertices: Sequence[tuple[float, float]]
-) -> None:
-    """Every edge's label on it, near its middle, where it hides no other one."""
-    taken: list[tuple[float, ...]] = [(x, y, 0.3, 0.25) for x, y in vertices]
-    for edge, curve in zip(edges, curves, strict=True):
-        size = _width(edge.label), 0.15
-        spots = [(*map(float, _point(curve, share)), *size) for share in _SHARES]
-        best = min(spots, key=lambda spot: sum(_overlap(spot, other) for other in taken))
-        taken.append(best)
+def _width(text: str) -> float:
+    return text_width(text)
+
+
+def _draw_labels(axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], room: LabelSpace) -> None:
+    """Every edge's label on it, near its middle, or beside it, where it hides no other one; the longest first."""
+    order = sorted(range(len(edges)), key=lambda at: (-len(edges[at].label), at))
+    for edge, curve in ((edges[at], curves[at]) for at in order):
+        spots = [(*map(float, _point(curve, share)),) for share in _SHARES]
+        moved = [(x + dx, y + dy) for dx, dy in _BESIDE for x, y in spots]
+        boxes = [text_box([edge.label], FINE, x, y) for x, y in moved]
+        x, y, _, _ = room.place(boxes) or boxes[0]
         turning = edge.kind == "revolute"
         color = RED if edge.broken else {"revolute": GREY, "gear": BLUE}.get(edge.kind, PURPLE)
         style = "italic" if turning else "normal"
-        write(axes, best[0], best[1], edge.label, color, 6.0, fontsize=_FINE, fontstyle=style)
+        write(axes, x, y, edge.label, color, 6.0, fontsize=FINE, fontstyle=style)
 
 
-def _width(text: str) -> float:
-    return len(text) * _FINE * LETTER
-
-
-def _overlap(one: tuple[float, ...], other: tuple[float, ...]) -> float:
-    """The area two boxes (middle, width, height) share."""
-    across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
-    along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
-    return max(across, 0.0) * max(along, 0.0)
-
-
-def _draw_vertex(
-    axes: Axes, link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge], frame: bool, named: bool
-) -> None:
+def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], frame: bool, named: bool) -> None:
+    """A circle, of the frame a hatched square; short names stand in it, if all are short."""
     x, y = at[link]
-    size = 0.11 if named else 0.19
+    size = _SMALL if named else 0.19
     style: dict[str, Any] = {
         "facecolor": "white",
         "edgecolor": BLACK,
@@ -224,27 +231,38 @@ def _draw_vertex(
         axes.add_patch(Circle((x, y), size, **style))
     if not named:
         write(axes, x, y, link, fontweight="bold", fontsize=9)
-        return
-    dx, dy = _free_side(link, at, edges)
-    reach = size + 0.05
-    across = "left" if dx > 0.35 else "right" if dx < -0.35 else "center"
-    write(axes, x + reach * dx, y + (reach + 0.05) * dy, link, ha=across, fontweight="bold", fontsize=8.5, zorder=9)
 
 
-def _free_side(link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]) -> tuple[float, float]:
-    """The unit direction, of sixteen, farthest from all edges of a vertex."""
+def _name_vertex(
+    axes: Axes, link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge], room: LabelSpace
+) -> None:
+    """A link's name beside its vertex, on the side on which fewest edges leave it and no other name stands."""
+    boxes = []
+    for reach in (_SMALL + 0.05, _SMALL + 0.13):
+        for dx, dy in _free_sides(link, at, edges):
+            _, _, wide, high = text_box([link], _NAME, 0.0, 0.0, "bold")
+            lean = 1 if dx > 0.35 else -1 if dx < -0.35 else 0
+            x = at[link][0] + reach * dx + lean * wide / 2
+            boxes.append((x, at[link][1] + (reach + 0.05) * dy, wide, high))
+    x, y, _, _ = room.place(boxes) or boxes[0]
+    write(axes, x, y, link, fontweight="bold", fontsize=_NAME, zorder=9)
+
+
+def _free_sides(
+    link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]
+) -> list[tuple[float, float]]:
+    """Sixteen unit directions, the farthest from all edges of a vertex first."""
     here = np.array(at[link])
     mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
     if not mates:
-        return 1.0, 0.0
+        return [(1.0, 0.0)]
     away = np.array([at[mate] for mate in mates]) - here
     away /= np.maximum(np.sqrt((away**2).sum(1)), 1e-9)[:, None]
     angles = np.arange(16) * np.pi / 8
     sides = np.stack([np.cos(angles), np.sin(angles)], 1)
     # beside reads better than above; rounded, so that equal sides are told apart by their order on every machine
     nearest = np.round((sides @ away.T).max(1) + 0.08 * np.abs(sides[:, 1]), 9)
-    x, y = sides[int(nearest.argmin())]
-    return float(x), float(y)
+    return [(float(x), float(y)) for x, y in sides[np.argsort(nearest, kind="stable")]]
 
 
 def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:

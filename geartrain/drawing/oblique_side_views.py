@@ -7,19 +7,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import to_rgb
+from scipy.spatial import ConvexHull
 
-from geartrain.drawing.backend import Axes, PolyCollection, Rectangle
+from geartrain.drawing.backend import Axes, Path, PolyCollection, Rectangle
+from geartrain.drawing.labels import Callout
 from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels
-from geartrain.drawing.style import BLACK, GREY, ORANGE, RED, LabelSpace, write
+from geartrain.drawing.style import BLACK, FILL, FINE, GREY, ORANGE, RED, SHADE
 from geartrain.scene import SceneWheel
+from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
     Place = Callable[[Floats], Floats]
-
-_DARK, _LIGHT = np.array([0.50, 0.64, 0.78]), np.array([0.93, 0.96, 0.98])
-_FINE = 7.5  # points
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +31,8 @@ class _Face:
     edge: float
 
 
-def draw_obliquely(axes: Axes, standing: ProjectedScene, place: Place, labels: bool) -> None:
-    """Every wheel as its two ends and the surface between them, arms and names over all.
+def draw_obliquely(axes: Axes, standing: ProjectedScene, place: Place) -> None:
+    """Every wheel as its two ends and the surface between them, tinted by what turns together, and arms over all.
 
     place   inches (..., 2) of what is seen (..., 3)
     """
@@ -40,14 +41,37 @@ def draw_obliquely(axes: Axes, standing: ProjectedScene, place: Place, labels: b
     faces = [(wheel, face) for wheel in scene.wheels for face in _faces(standing, wheel)]
     _draw_faces(axes, sorted(faces, key=lambda each: each[1].depth), place, red, 2.0)
     _draw_arbors(axes, standing, place)
-    if labels:
-        room = LabelSpace()
-        for wheel in scene.wheels:
-            x, y = place(standing.seen(standing.centre(wheel)))
-            spots = [(float(x) + dx, float(y) + dy) for dy in (0.0, 0.2, -0.2, 0.4, -0.4) for dx in (0.0, 0.3, -0.3)]
-            box = room.place([wheel.id, str(wheel.teeth)], _FINE, spots)
-            if box is not None:
-                write(axes, box[0], box[1], f"{wheel.id}\n{wheel.teeth}", fontsize=_FINE, gid=f"name {wheel.id}")
+
+
+def oblique_callouts(standing: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
+    """A line to each wheel, to where no nearer one hides its face."""
+    ends = {wheel.id: _ends(standing, wheel) for wheel in standing.scene.wheels if wheels}
+    outlines = {
+        name: _silhouette(place(np.concatenate([far.points, near.points]))) for name, (far, near) in ends.items()
+    }
+    middle = np.mean([place(near.points).mean(0)[0] for _, near in ends.values()]) if ends else 0.0
+    found = []
+    for wheel in wheels:
+        back, front = ends[wheel.id]
+        trials = np.concatenate([_inner_points(face.points, place) for face in (front, back)])
+        nearer = [outlines[name] for name, (_, near) in ends.items() if near.depth > front.depth]
+        hidden = np.any([path.contains_points(trials) for path in nearer], axis=0) if nearer else np.zeros(len(trials))
+        seen = trials if hidden.all() else trials[hidden == 0]
+        best = seen[int(np.argmax(np.round(np.abs(seen[:, 0] - middle), 6)))]
+        words = f"{wheel.id} {wheel.teeth}"
+        found.append(Callout(f"name {wheel.id}", words, (round(float(best[0]), 6), round(float(best[1]), 6))))
+    return found
+
+
+def _silhouette(points: Floats) -> Path:
+    """The convex line round what is seen of a wheel."""
+    return Path(points[ConvexHull(points).vertices])
+
+
+def _inner_points(rim: Floats, place: Place) -> Floats:
+    """Points (n, 2) within a face, from its rim inwards."""
+    middle = rim.mean(0)
+    return place(np.concatenate([middle + share * (rim[::4] - middle) for share in (0.85, 0.6, 0.35, 0.1)]))
 
 
 def draw_across(
@@ -62,11 +86,11 @@ def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
     """Faces in order, the last over all others."""
-    edges = [RED if wheel.id in red else BLACK if face.edge else "none" for wheel, face in faces]
+    edges = [RED if wheel.id in red and face.edge else BLACK if face.edge else "none" for wheel, face in faces]
     axes.add_collection(
         PolyCollection(
             [place(face.points) for _, face in faces],
-            facecolors=[(*(_DARK + (_LIGHT - _DARK) * face.light), 0.9) for _, face in faces],
+            facecolors=[_tint(wheel, face.light) for wheel, face in faces],
             edgecolors=edges,
             linewidths=[face.edge for _, face in faces],
             zorder=order,
@@ -76,24 +100,39 @@ def _draw_faces(
     )
 
 
+def _tint(wheel: SceneWheel, light: float) -> Floats:
+    """The colour of the body, the paler the more light falls on it."""
+    own = np.array(to_rgb(series_colour(wheel.body)))
+    return np.asarray(own + (1 - own) * (0.3 + 0.6 * light))
+
+
 def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """The end that is seen, with its teeth, and the strips of the surface between both ends."""
+    """The strips of the surface between both ends, then the far end, then the near one."""
+    far, near = _ends(standing, wheel)
+    first, last = near.points, far.points
+    middle = (first.mean(0) + last.mean(0)) / 2
+    for start in range(0, len(first), max(len(first) // 72, 1)):
+        strip = np.arange(start, min(start + max(len(first) // 72, 1), len(first)) + 1) % len(first)
+        points = np.concatenate([first[strip], last[strip[::-1]]])
+        away = points.mean(0) - middle
+        # of a strip in the middle of the wheel, whose normal is no direction, any shade will do
+        shade = 0.35 + 0.3 * float(away[2]) / max(float(np.linalg.norm(away)), 1e-9)
+        if away[2] > 0 or wheel.kind == "ring" or wheel.cone > 0:
+            yield _Face(points, float(points[:, 2].mean()), shade, 0.0)
+    yield far
+    yield near
+
+
+def _ends(standing: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
+    """The end away from the reader and the one that is seen, with their teeth."""
     (high, wide), (low, narrow) = standing.ends(wheel)
     first = standing.seen(standing.outline(wheel, wide, high))
     last = standing.seen(standing.outline(wheel, narrow, low))
     up = standing.seen(standing.axis(wheel)) * np.sign(high - low)
     near, light = (first, float(up[2])) if up[2] > 0 else (last, -float(up[2]))
-    for start in range(0, len(first), max(len(first) // 72, 1)):
-        strip = np.arange(start, min(start + max(len(first) // 72, 1), len(first)) + 1) % len(first)
-        points = np.concatenate([first[strip], last[strip[::-1]]])
-        middle = points.mean(0) - (first.mean(0) + last.mean(0)) / 2
-        # of a strip in the middle of the wheel, whose normal is no direction, any shade will do
-        shade = 0.35 + 0.3 * float(middle[2]) / max(float(np.linalg.norm(middle)), 1e-9)
-        if middle[2] > 0 or wheel.kind == "ring" or wheel.cone > 0:
-            yield _Face(points, float(points[:, 2].mean()), shade, 0.0)
     far = last if near is first else first
-    yield _Face(far, float(far[:, 2].min()) - 1.0, 0.3, 0.4)
-    yield _Face(near, float(near[:, 2].mean()), 0.55 + 0.4 * light, 0.6)
+    back = _Face(far, float(far[:, 2].min()) - 1.0, 0.3, 0.5)
+    return back, _Face(near, float(near[:, 2].mean()), 0.45 + 0.4 * light, 0.8)
 
 
 def _draw_arbors(axes: Axes, standing: ProjectedScene, place: Place) -> None:
@@ -108,8 +147,7 @@ def _draw_arbors(axes: Axes, standing: ProjectedScene, place: Place) -> None:
         axes.plot(*line.T, color=ORANGE, linewidth=4.0, zorder=4, gid=f"arm {standing.scene.bodies[body].id}")
 
 
-_FACE = np.array([0.74, 0.82, 0.89])  # colour of a bar
-_SIDE_FINE = 7.5  # points
+_FACE = (np.array(to_rgb(SHADE)) + np.array(to_rgb(FILL))) / 2  # colour of a bar
 
 
 class SideScale:
@@ -141,4 +179,4 @@ def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> N
     for (_, middle), ends in stacks.items():
         page.axes.plot([min(ends) - 0.06, max(ends) + 0.06], [middle, middle], color=BLACK, linewidth=1.4, zorder=4)
     text = "from the right" if abs(depth.scale / page.scale - 1) < 0.01 else "from the right, layers apart"
-    page.axes.text(depth.left, page.foot, text, fontsize=_SIDE_FINE, color=GREY)
+    page.axes.text(depth.left - 0.25, page.foot, text, fontsize=FINE, color=GREY)

@@ -3,26 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from math import cos, floor, log10, pi, sin
+from math import floor, log10
 from textwrap import shorten, wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Patch, Path, PathPatch, Polygon
-from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side
+from geartrain.drawing.labels import Box, Callout, CalloutMargin, find_margin
+from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side, oblique_callouts
+from geartrain.drawing.plan_labels import place_names
 from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels, project_scene
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
+    FILL,
+    FINE,
     GREY,
     LETTER,
     ORANGE,
     PURPLE,
     RED,
+    SHADE,
     SMALL,
-    LabelSpace,
     sheet,
     title_of,
     write,
@@ -30,16 +36,14 @@ from geartrain.drawing.style import (
 from geartrain.scene import Scene, SceneCoupling, SceneWheel
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.numerics.arrays import Floats
 
 
 _LEAST, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
 _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
-_FAR, _NEAR = np.array([0.55, 0.68, 0.80]), np.array([0.93, 0.96, 0.98])  # colours of the lowest and highest layer
+_FAR, _NEAR = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))  # colours of the lowest and highest layer
 _SIDE = 1.1  # inches: least width of the side view
-_FINE = 7.5  # points
+_TOLD = 8.5  # points: what is told above the plan
 _CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
 
 
@@ -49,38 +53,117 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     What lets a train not turn is red, with the verdict above.
     """
     standing = project_scene(scene, turns)
-    points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in scene.wheels), *_hubs(standing)])
-    low, high = points.min(0), points.max(0)
-    size = np.maximum(high - low, 1e-6)  # of points alone: the scale divides by it
-    side = min(max(_LEAST, _WHEEL * len(scene.wheels) ** 0.5 * 1.7), _MOST)
-    scale = side / float(size[:2].max())
-    layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in scene.wheels}) > 1
-    deep = max(float(size[2]) * scale, _SIDE) if layered else 0.0
-    width = max(size[0] * scale + 2 * _RIM + (deep + 2 * _RIM if layered else 0.0), 5.5)
-    said = _verdict(scene, float(width))
-    shifted = _elements(scene, float(width))
-    height = size[1] * scale + 2 * _RIM + _HEAD + _FOOT + 0.17 * (said.count("\n") + len(shifted))
-    figure, axes = sheet(float(width), float(height), _title(scene, turns))
-    left = (width - size[0] * scale - (deep + 2 * _RIM if layered else 0.0)) / 2
-    page = ScaledPage(axes, scale, np.array([left - low[0] * scale, _FOOT + _RIM - low[1] * scale]), _FOOT - 0.1)
+    plan = _PlanSize.of(standing)
+    written, margin = _names(standing, plan, labels)
+    beside = [wide + _RIM if wide else 0.0 for wide in margin.widths]
+    width = max(plan.size[0] + 2 * _RIM + sum(beside) + plan.deep_room, 5.5)
+    said = _verdict(scene, width)
+    shifted = _elements(scene, width)
+    over = max(plan.low[1] - margin.extent[0], margin.extent[1] - plan.low[1] - plan.size[1], 0.0)
+    height = plan.size[1] + 2 * _RIM + 2 * over + _HEAD + _FOOT + 0.17 * (said.count("\n") + len(shifted))
+    figure, axes = sheet(width, height, _title(scene, turns))
+    left = (width - plan.size[0] - sum(beside) - plan.deep_room) / 2 + beside[0]
+    shift = np.array([left, _FOOT + _RIM + over]) - plan.low
+    page = ScaledPage(axes, plan.scale, shift, _FOOT - 0.1)
     if standing.flat:
-        _draw_flat(page, standing, labels)
+        _draw_flat(page, standing)
     else:
-        draw_obliquely(axes, standing, page.at, labels)
-    if layered:
-        depth = SideScale(left + size[0] * scale + 2 * _RIM, deep, float(low[2]), float(size[2]))
-        draw_side(page, standing, depth)
-    _scale_bar(axes, scale)
-    _remark(page, scene, float(width))
-    for row, (words, color) in enumerate(shifted):
-        top = float(height) - 0.64 - 0.17 * row
-        write(axes, 0.15, top, words, color, ha="left", fontsize=_FINE + 1, gid="elements")
-    if said:
-        top = float(height) - 0.55 - 0.17 * len(shifted)
-        axes.text(0.15, top, said, fontsize=_FINE + 1, color=RED, va="top", parse_math=False)
+        draw_obliquely(axes, standing, page.at)
+    for wheel, (x, y, _, _) in written:
+        words, x, y = f"{wheel.id}\n{wheel.teeth}", x + shift[0], y + shift[1]
+        write(axes, x, y, words, fontsize=FINE, gid=f"name {wheel.id}", linespacing=1.0)
+    margin.moved(float(shift[0]), float(shift[1])).draw(axes)
+    if plan.deep:
+        start = left + plan.size[0] + beside[1] + 2 * _RIM
+        draw_side(page, standing, SideScale(start, plan.deep, plan.bottom, plan.depth))
+    _scale_bar(axes, plan.scale)
+    _remark(page, scene, width)
+    _write_above(axes, shifted, said)
     handles = list(_legend(scene))
-    figure.legend(handles=handles, loc="lower right", ncols=len(handles), fontsize=SMALL - 1.5, frameon=False)
+    figure.legend(
+        handles=handles,
+        loc="lower right",
+        bbox_to_anchor=(1.0, 0.2 / height),
+        ncols=len(handles),
+        fontsize=SMALL - 1.5,
+        frameon=False,
+    )
     return figure
+
+
+@dataclass(frozen=True, slots=True)
+class _PlanSize:
+    """Sizes of a plan on paper, in inches but for its depth.
+
+    scale          inches of a millimetre
+    low, size      lower left corner, about the origin of the train, and sides
+    bottom, depth  height of the lowest layer towards the reader and of all layers (mm)
+    deep           width of the side view, 0 without one
+    """
+
+    scale: float
+    low: Floats
+    size: Floats
+    bottom: float
+    depth: float
+    deep: float
+
+    @classmethod
+    def of(cls, standing: ProjectedScene) -> _PlanSize:
+        """Of a scene in its pose."""
+        wheels = standing.scene.wheels
+        points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in wheels), *_hubs(standing)])
+        low, high = points.min(0), points.max(0)
+        size = np.maximum(high - low, 1e-6)  # of points alone: the scale divides by it
+        side = min(max(_LEAST, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
+        scale = side / float(size[:2].max())
+        layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in wheels}) > 1
+        deep = max(float(size[2]) * scale, _SIDE) if layered else 0.0
+        return cls(scale, scale * low[:2], scale * size[:2], float(low[2]), float(size[2]), deep)
+
+    def at(self, seen: Floats) -> Floats:
+        """Inches (..., 2) about the origin of the train of what is seen (..., 3)."""
+        return np.asarray(self.scale * seen[..., :2])
+
+    @property
+    def deep_room(self) -> float:
+        """What the side view takes of the page."""
+        return self.deep + 2 * _RIM if self.deep else 0.0
+
+
+def _names(
+    standing: ProjectedScene, plan: _PlanSize, labels: bool
+) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
+    """Names on wheels and beside the plan, in inches about the origin of the train."""
+    written: list[tuple[SceneWheel, Box]] = []
+    callouts: list[Callout] = []
+    if labels and standing.flat:
+        facing = [wheel for wheel in _from_below(standing)[::-1] if standing.faces(wheel)]
+        written, callouts = place_names(standing, facing, plan.at, plan.scale)
+        across = [wheel for wheel in standing.scene.wheels if not standing.faces(wheel)]
+        callouts += oblique_callouts(standing, plan.at, across)
+    elif labels:
+        callouts = oblique_callouts(standing, plan.at, standing.scene.wheels)
+    edges = float(plan.low[0]) - _RIM, float(plan.low[0] + plan.size[0]) + _RIM
+    return written, find_margin(callouts, edges, (float(plan.low[1]), float(plan.low[1] + plan.size[1])))
+
+
+def _from_below(standing: ProjectedScene) -> list[SceneWheel]:
+    """Wheels in the order in which they are drawn."""
+    return sorted(
+        standing.scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius)
+    )
+
+
+def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> None:
+    """Lines of brakes and clutches, then the verdict, below the title."""
+    height = axes.get_ylim()[1]
+    for row, (words, color) in enumerate(shifted):
+        write(axes, 0.15, height - 0.64 - 0.17 * row, words, color, ha="left", fontsize=_TOLD, gid="elements")
+    if said:
+        axes.text(
+            0.15, height - 0.55 - 0.17 * len(shifted), said, fontsize=_TOLD, color=RED, va="top", parse_math=False
+        )
 
 
 def _title(scene: Scene, turns: Fraction) -> str:
@@ -96,14 +179,14 @@ def _verdict(scene: Scene, width: float) -> str:
     """Why a train does not turn, in lines that fit; nothing where it does."""
     if scene.verdict["kind"] == "determined":
         return ""
-    room = int((width - 0.3) / ((_FINE + 1) * LETTER))
+    room = int((width - 0.3) / (_TOLD * LETTER))
     lines = wrap(f"{scene.verdict['kind']}: {scene.verdict['text']}", room)
     return "\n".join(lines[:4]) + (" ..." if len(lines) > 4 else "")
 
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
     """Lines of brakes and clutches that are closed, then of those that are open, with their colours."""
-    room = int((width - 0.3) / ((_FINE + 1) * LETTER))
+    room = int((width - 0.3) / (_TOLD * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
         some = [each.text for each in scene.elements if each.closed is closed]
@@ -127,9 +210,8 @@ def _hubs(standing: ProjectedScene) -> list[Floats]:
 # --------------------------------------------------------------------------------------------------------------- wheels
 
 
-def _draw_flat(page: ScaledPage, standing: ProjectedScene, labels: bool) -> None:
-    scene = standing.scene
-    wheels = sorted(scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius))
+def _draw_flat(page: ScaledPage, standing: ProjectedScene) -> None:
+    scene, wheels = standing.scene, _from_below(standing)
     heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
     for order, wheel in enumerate(wheels):
@@ -143,8 +225,6 @@ def _draw_flat(page: ScaledPage, standing: ProjectedScene, labels: bool) -> None
         _draw_coupling(page, standing, coupling)
     for spot in {tuple(np.round(page.at(standing.seen(standing.centre(wheel))), 4)) for wheel in wheels}:
         page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
-    if labels:
-        _name_wheels(page, standing, wheels[::-1])
 
 
 def _draw_wheel(
@@ -182,54 +262,6 @@ def _hollow(outer: Floats, inner: Floats) -> Path:
         code for line in (outer, inner) for code in (Path.MOVETO, *[Path.LINETO] * (len(line) - 1), Path.CLOSEPOLY)
     ]
     return Path(np.concatenate([outer, outer[:1], inner[::-1], inner[-1:]]), codes)
-
-
-def _name_wheels(page: ScaledPage, standing: ProjectedScene, wheels: Sequence[SceneWheel]) -> None:
-    """Names and counts, small wheels first, each at the first free spot in its wheel or beside it."""
-    room = LabelSpace()
-    centres = np.array([page.at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
-    reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * page.scale for wheel in wheels])  # what it hides
-    for at in sorted(range(len(wheels)), key=lambda at: wheels[at].radius):
-        wheel, lines = wheels[at], [wheels[at].id, str(wheels[at].teeth)]
-        spots = list(_spots(centres[at], wheel, page.scale))
-        hidden = points_in_discs(np.array(spots).reshape(-1, 2), centres[:at], reach[:at])
-        spots = [spots[spot] for spot in np.argsort(hidden, kind="stable")]
-        box = room.place(lines, _FINE, spots)
-        if box is not None:
-            write(page.axes, box[0], box[1], "\n".join(lines), fontsize=_FINE, gid=f"name {wheel.id}", linespacing=1.0)
-    if room.left:
-        page.remarks.append(f"{room.left} names had no room")
-
-
-def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Which points (n, 2) lie in one of the discs (m, 2)."""
-    if not len(points) or not len(centres):
-        return np.zeros(len(points), dtype=bool)
-    middle = points.mean(axis=0)
-    far = np.hypot(*(points - middle).T).max()
-    near = np.hypot(*(centres - middle).T) < reach + far + 1e-9  # others hide none of them
-    apart = points[:, None] - centres[near]
-    return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < reach[near]).any(axis=1))
-
-
-def _spots(centre: Floats, wheel: SceneWheel, scale: float) -> Iterator[tuple[float, float]]:
-    """Where a wheel's name may stand: between hub and teeth, then round its hub, then outside."""
-    reach = wheel.root * scale
-    if wheel.kind == "ring":  # on its rim
-        for at in range(16):
-            angle = pi / 4 + at * pi / 8
-            yield float(centre[0]) + 1.05 * reach * cos(angle), float(centre[1]) + 1.05 * reach * sin(angle)
-        return
-    for share in (0.72, 0.5, 0.86) if reach > 0.3 else ():
-        for at in range(16):
-            angle = pi / 2 + at * pi / 8
-            yield float(centre[0]) + share * reach * cos(angle), float(centre[1]) + share * reach * sin(angle)
-    for more in (0.17, 0.3, 0.45):
-        for at in range(12):
-            angle = pi / 2 + at * pi / 6
-            out = max(wheel.tip, wheel.root) * scale + more
-            if reach <= 0.6:
-                yield float(centre[0]) + out * cos(angle), float(centre[1]) + out * sin(angle)
 
 
 # ----------------------------------------------------------------------------------------------------- arms, pins, bars
@@ -279,11 +311,11 @@ def _draw_holes(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupl
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
     """What could not be placed or has no room, in one line at the foot."""
-    found = [*(notice["what"] for notice in scene.notices[:1]), *page.remarks]
+    found = [notice["what"] for notice in scene.notices[:1]]
     if len(scene.notices) > 1:
         found.insert(1, f"and {len(scene.notices) - 1} more")
-    text = shorten("; ".join(found), int((width - 0.3) / (_FINE * LETTER)), placeholder=" ...")
-    page.axes.text(0.15, 0.08, text, fontsize=_FINE, color=GREY, parse_math=False, gid="remark")
+    text = shorten("; ".join(found), int((width - 0.3) / (FINE * LETTER)), placeholder=" ...")
+    page.axes.text(0.15, 0.08, text, fontsize=FINE, color=GREY, parse_math=False, gid="remark")
 
 
 def _scale_bar(axes: Axes, scale: float) -> None:
@@ -293,7 +325,7 @@ def _scale_bar(axes: Axes, scale: float) -> None:
     length = max(step * power for step in (1, 2, 5) if step * power <= raw * 1.0001)
     y = 0.45
     axes.plot([0.2, 0.2 + length * scale], [y, y], color=BLACK, linewidth=2.5, solid_capstyle="butt", gid="scale bar")
-    write(axes, 0.2 + length * scale / 2, y + 0.12, f"{length:g} mm", fontsize=_FINE + 0.5)
+    write(axes, 0.2 + length * scale / 2, y + 0.12, f"{length:g} mm", fontsize=FINE)
 
 
 def _legend(scene: Scene) -> Iterator[Line2D | Patch]:

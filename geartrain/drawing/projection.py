@@ -116,13 +116,11 @@ def _screen(view: Floats) -> Floats:
 class ScaledPage:
     """Axes in inches on which millimetres are drawn.
 
-    foot      height of the words below the side view
-    remarks   what is to be told at the foot of the page
+    foot   height of the words below the side view
     """
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
-        self.remarks: list[str] = []
 
     def at(self, seen: Floats) -> Floats:
         """Inches (..., 2) of what is seen (..., 3)."""

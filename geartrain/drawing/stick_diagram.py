@@ -12,6 +12,7 @@ from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Rectangle
 from geartrain.drawing.stick_elements import draw_elements, width_of
 from geartrain.drawing.stick_grid import StickCrank, StickShaft
 from geartrain.drawing.stick_skeleton import StickMesh, StickSkeleton, find_skeleton
+from geartrain.drawing.stick_words import StickWords
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
@@ -24,14 +25,12 @@ from geartrain.drawing.style import (
     sheet,
     title_of,
     too_many,
-    write,
 )
 
 _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
-_FINE, _NAME = 6.8, 8.0  # points
-_HEAD, _FOOT = 0.7, 0.5
-_ENTRY = 1.35  # inches of a legend in one row
+_NAME = 8.5  # points
+_HEAD, _FOOT = 0.7, 0.7
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
@@ -52,7 +51,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     axes.set_ylim(-_FOOT, skeleton.height + _HEAD)
     for text in list(axes.texts):
         text.set_position((0.15 - margin, skeleton.height + _HEAD - 0.12))
-    drawing = _Drawing(axes, train, skeleton, labels)
+    drawing = _Drawing(axes, train, skeleton)
     drawing.draw_axes()
     for mesh in skeleton.meshes:
         drawing.draw_mesh(mesh)
@@ -62,11 +61,13 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
         drawing.draw_lone(wheel, x)
     for shaft in skeleton.shafts.values():
         drawing.draw_shaft(shaft)
+    if labels:
+        drawing.words.write(axes)
     if elements:
         right = max(max(shaft.xs) for shaft in skeleton.shafts.values()) + 0.9
         draw_elements(axes, train, train.state_or_first(state), right, skeleton.height / 2)
     entries = list(_legend(train))
-    columns = 5 if len(entries) < 6 and width > 5 * _ENTRY else 3
+    columns = min(len(entries), int(width / 1.35), 5)
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
     return figure
 
@@ -74,16 +75,18 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 class _Drawing:
     """A skeleton being drawn; wheels that stand in several columns are named once."""
 
-    def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton, labels: bool) -> None:
-        self.axes, self.train, self.skeleton, self.labels = axes, train, skeleton, labels
+    def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton) -> None:
+        self.axes, self.train, self.skeleton = axes, train, skeleton
+        self.couplings = {each.name: each for each in train.declaration.couplings}
         self.feet: dict[str, tuple[float, float]] = {}
-        self.names: list[tuple[float, float, float, float]] = []
-        self.uprights = [(mesh.x, mesh.low, mesh.high) for mesh in skeleton.meshes]
-        self.uprights += [
-            (mesh.x + _COLUMN, min(mesh.low, mesh.meet), max(mesh.high, mesh.meet))
-            for mesh in skeleton.meshes
-            if mesh.ring
-        ]
+        self.words = StickWords()
+        for mesh in skeleton.meshes:
+            self.words.keep_off((mesh.x, mesh.x), (mesh.low, mesh.high))
+            if mesh.ring:
+                ends = min(mesh.low, mesh.meet), max(mesh.high, mesh.meet)
+                self.words.keep_off((mesh.x + _COLUMN, mesh.x + _COLUMN), ends)
+        for crank in skeleton.cranks:
+            self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, skeleton.rows[crank.axis][0]))
 
     def draw_axes(self) -> None:
         """Centre lines."""
@@ -91,8 +94,7 @@ class _Drawing:
             xs = [x for shaft in self.skeleton.shafts.values() if shaft.axis == axis for x in shaft.xs]
             ends = [min(xs) - 0.2, max(xs) + 0.25]
             self._line(ends, [low, low], PALE, 0.8, linestyle="-.", zorder=1, gid=f"axis {axis}")
-            if self.labels:
-                write(self.axes, ends[1] + 0.05, low, axis, GREY, ha="left", fontsize=_FINE, fontstyle="italic")
+            self.words.name_axis(axis, ends[1], low)
 
     def draw_shaft(self, shaft: StickShaft) -> None:
         """A link's shaft with its name, in a bearing if the frame bears it."""
@@ -101,36 +103,16 @@ class _Drawing:
         self._line([left, right], [shaft.y, shaft.y], BLACK, 1.8, zorder=6, gid=f"link {shaft.link}")
         if self.train.tree.top[shaft.link] == self.train.declaration.frame:
             self._ground(left + 0.04, shaft.y - 0.075)
-        if self.labels:
-            x, y, ha = self._name_spot(shaft.link, left, right, shaft.y)
-            write(self.axes, x, y, shaft.link, ha=ha, fontsize=_NAME, fontweight="bold", zorder=10)
-
-    def _name_spot(self, link: str, left: float, right: float, y: float) -> tuple[float, float, str]:
-        """Where a name stands, and to which end: before its shaft, or over it where something stands there."""
-        wide = len(link) * _NAME * LETTER
-        spots = [(left - 0.04 - wide, y), (left + 0.02, y + 0.1), (right - wide, y + 0.1), (right + 0.04, y + 0.1)]
-
-        def taken(spot: tuple[float, float]) -> int:
-            start, end, low, high = spot[0] - 0.03, spot[0] + wide + 0.03, spot[1] - 0.07, spot[1] + 0.07
-            # words stand on the right of each upright
-            uprights = sum(x - 0.02 < end and start < x + 0.14 and low < top and bottom < high
-                           for x, bottom, top in self.uprights)  # fmt: skip
-            return uprights + sum(a < end and start < b and low < top and bottom < high
-                                  for a, b, bottom, top in self.names)  # fmt: skip
-
-        x, middle = min(spots, key=taken)
-        self.names.append((x, x + wide, middle - 0.07, middle + 0.07))
-        return (left - 0.04, middle, "right") if middle == y else (x, middle, "left")
+        self.words.keep_off((left, right), (shaft.y, shaft.y))
+        self.words.name_link(shaft.link, left, right, shaft.y)
 
     def draw_mesh(self, mesh: StickMesh) -> None:
         """Two wheels up to where they touch, a pin in its slot or hole, or two links that stay parallel."""
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
-        elif mesh.kind == "parallel":
-            self._draw_parallel(mesh, low, high)
-        elif mesh.kind.startswith("pin"):
-            self._draw_pin(mesh, low, high)
+        elif mesh.name in self.couplings:
+            self._draw_coupling(mesh, low, high)
         else:
             for wheel, link, foot, side in zip(mesh.wheels, mesh.ends, (low, high), (-1, 1), strict=True):
                 end = mesh.meet + 0.022 * side
@@ -156,27 +138,21 @@ class _Drawing:
         self._line([mesh.x - _TICK, beside], [over, over], BLUE, 2.0, zorder=4)
         self._upright(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
-    def _draw_pin(self, mesh: StickMesh, low: float, high: float) -> None:
-        pin = next(each.pin for each in self.train.declaration.couplings if each.name == mesh.name)
+    def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
+        """A pin in its slot; of links that turn alike, two bars side by side."""
+        coupling = self.couplings[mesh.name]
         for link, foot in zip(mesh.ends, (low, high), strict=True):
             self._line([mesh.x, mesh.x], [foot, mesh.meet], PURPLE, 2.0, zorder=3, gid=f"coupling {mesh.name}")
-            if link == pin:
+            if coupling.kind == "parallel":
+                level = mesh.meet + (0.03 if link == coupling.pin else -0.03)
+                self._line([mesh.x - _TICK, mesh.x + _TICK], [level, level], PURPLE, 2.0, zorder=5)
+            elif link == coupling.pin:
                 self.axes.plot([mesh.x], [mesh.meet], "o", color=PURPLE, markersize=5, zorder=5)
             else:
                 box = Rectangle((mesh.x - 0.05, mesh.meet - 0.1), 0.1, 0.2, zorder=4)
                 box.set(facecolor="white", edgecolor=PURPLE, linewidth=1.4)
                 self.axes.add_artist(box)
-        if self.labels:
-            self._write_beside(mesh.x, mesh.meet, mesh.name, PURPLE)
-
-    def _draw_parallel(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Whatever keeps two links parallel: two strokes between them, with a gap."""
-        for foot, side in ((low, -1), (high, 1)):
-            level = mesh.meet + 0.03 * side
-            self._line([mesh.x, mesh.x], [foot, level], PURPLE, 2.0, zorder=3, gid=f"coupling {mesh.name}")
-            self._line([mesh.x - _TICK, mesh.x + _TICK], [level, level], PURPLE, 2.0, zorder=4)
-        if self.labels:
-            self._write_beside(mesh.x, mesh.meet, mesh.name, PURPLE)
+        self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
 
     def _upright(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
         """A wheel from its shaft to where it touches; the second time, joined to the first."""
@@ -187,9 +163,9 @@ class _Drawing:
         if known is not None and abs(known[0] - x) > 1e-9:  # more than rounding beside where it stood
             level = foot + (0.09 if end > foot else -0.09)
             self._line([known[0], x], [level, level], BLUE, 2.0, zorder=3)
-        if known is None and self.labels:
+        if known is None:
             count = self.train.declaration.wheels[wheel][1].count
-            self._write_beside(x, (foot + end) / 2, f"{wheel} {count}", BLUE)
+            self.words.name_upright(f"{wheel} {count}", x, (foot, end), BLUE)
         self.feet.setdefault(wheel, (x, foot))
 
     def draw_lone(self, wheel: str, x: float) -> None:
@@ -216,12 +192,10 @@ class _Drawing:
         self._line([x - reach, x + reach], [y - lean, y + lean], BLUE, 2.0, zorder=4, linestyle=style)
 
     def _ground(self, x: float, y: float) -> None:
+        self.words.keep_off((x - 0.09, x + 0.09), (y - 0.045, y + 0.045))
         box = Rectangle((x - 0.09, y - 0.045), 0.18, 0.09, hatch="//////", zorder=4)
         box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
         self.axes.add_artist(box)
-
-    def _write_beside(self, x: float, y: float, text: str, color: str) -> None:
-        write(self.axes, x + 0.08, y, text, color, fontsize=_FINE, rotation=90, zorder=9)
 
     def _line(self, xs: list[float], ys: list[float], color: str, width: float, **how: object) -> None:
         self.axes.plot(xs, ys, color=color, linewidth=width, solid_capstyle="butt", **how)  # type: ignore[arg-type]

@@ -18,7 +18,7 @@ from geartrain.drawing.stick_grid import (
 )
 from geartrain.kinematics.circuits import Circuit
 
-LANE, GAP = 0.15, 1.1  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
+LANE, GAP = 0.17, 1.4  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
 _TRIES = 6  # arrangements of columns and levels
 REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
 

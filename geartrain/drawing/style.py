@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
-from math import degrees, floor
+from math import degrees
 from textwrap import fill, shorten
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
 
 
 WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
-TEXT, SMALL = 11.0, 10.0  # points
+TEXT, SMALL, FINE = 11.0, 10.0, 8.0  # points; nothing is written smaller
 
 _LIGHT = THEMES["light"]
 BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.fault
@@ -138,47 +136,3 @@ def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
                 "draw a part of it, or another kind of picture",
             )
         )
-
-
-Box = tuple[float, float, float, float]
-"""Middle, width and height, in inches."""
-
-
-_CELL = 0.5  # inches: boxes are looked for in the squares of a grid that they touch
-
-
-@dataclass(slots=True)
-class LabelSpace:
-    """What is taken already, by square of a grid. `left` counts the words that found no place."""
-
-    taken: dict[tuple[int, int], list[Box]] = field(default_factory=dict)
-    left: int = 0
-
-    def place(self, lines: Sequence[str], size: float, spots: Sequence[tuple[float, float]]) -> Box | None:
-        """The first of the spots (inches) at which the lines hide nothing; None where there is none."""
-        width = max(map(len, lines)) * size * LETTER + 0.04
-        height = len(lines) * 1.25 * size / 72
-        for x, y in spots:
-            box = (float(x), float(y), width, height)
-            squares = list(_squares(box))
-            if not any(overlap(box, other) for square in squares for other in self.taken.get(square, ())):
-                for square in squares:
-                    self.taken.setdefault(square, []).append(box)
-                return box
-        self.left += 1
-        return None
-
-
-def _squares(box: Box) -> Iterator[tuple[int, int]]:
-    """The squares that a box touches."""
-    x, y, width, height = box
-    for across in range(floor((x - width / 2) / _CELL), floor((x + width / 2) / _CELL) + 1):
-        for along in range(floor((y - height / 2) / _CELL), floor((y + height / 2) / _CELL) + 1):
-            yield across, along
-
-
-def overlap(one: Box, other: Box) -> float:
-    """The area two boxes share."""
-    across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
-    along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
-    return max(across, 0.0) * max(along, 0.0)

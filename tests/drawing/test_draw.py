@@ -34,7 +34,8 @@ from matplotlib.figure import Figure
 from geartrain.drawing import picture, render
 from geartrain.drawing.arrangement import arrange, spread
 from geartrain.drawing.dial_faces import dials_figure
-from geartrain.drawing.plan_view import plan_figure, points_in_discs
+from geartrain.drawing.plan_labels import points_in_discs
+from geartrain.drawing.plan_view import plan_figure
 from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors, scene_pose
@@ -552,7 +553,7 @@ def of_drawing(module: str) -> bool:
 def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
     """Steps are entries into functions of the plan's modules, among them one for each comparison of a spot."""
     counts: list[int] = []
-    for count in (60, 120):
+    for count in (120, 240):  # from 120 on no wheel has room for its name
         wheels = range(count)
         train = geartrain.GearTrain.declare(
             {

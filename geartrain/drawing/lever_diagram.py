@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import spread
 from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, PURPLE, RED, SMALL, sheet, title_of, too_many
+from geartrain.drawing.labels import text_width
+from geartrain.drawing.style import BLACK, BLUE, GREY, ORANGE, PALE, PURPLE, SMALL, sheet, title_of, too_many
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers
@@ -38,6 +39,7 @@ _MOST = 120  # panels
 _LEAST, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
 _GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
 _FINE = 8.5  # points
+_UPRIGHT = 1.4  # times as high as wide, beyond which states stand in columns
 _LONG = 11  # letters of a fraction that is still written out
 
 
@@ -60,30 +62,36 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     answers = [train.solve(name) for name in states]
     wide = [max(_width(_points(train, lever, answer)) for answer in answers) for lever in levers]
     bands = _bands(wide)
-    width = max(max(sum(wide[at] + _GAP for at in band) for band in bands) + 0.45, 5.0)
-    height = (_TALL + _HEAD) * len(bands) * len(answers) + 0.45 * len(answers) + 0.35
-    declared = train.declaration
-    figure, page = sheet(width, height, title_of(declared.name, declared.title))
-    top = height - 0.35
-    for answer in answers:
-        page.text(
-            0.15,
-            top - 0.3,
-            _heading(answer, declared.unit_name, train.cases[answer.state].engaged),
-            fontsize=SMALL,
-            parse_math=False,
-        )
-        top -= 0.45
+    span = max(max(sum(wide[at] + _GAP for at in band) for band in bands) + 0.45, 5.0)
+    tall = (_TALL + _HEAD) * len(bands) + 0.45
+    columns = min(max(round((tall * len(answers) / (_UPRIGHT * span)) ** 0.5), 1), len(answers))
+    rows = -(-len(answers) // columns)
+    width, height = span * columns, tall * rows + 0.35
+    figure, page = sheet(width, height, title_of(train.declaration.name, train.declaration.title))
+    limits = _limits(train, levers, answers)
+    for place, answer in enumerate(answers):
+        corner = span * (place // rows), height - 0.35 - tall * (place % rows)
+        page.text(corner[0] + 0.15, corner[1] - 0.3, _heading(train, answer), fontsize=SMALL, parse_math=False)
+        top = corner[1] - 0.45
         for band in bands:
             top -= _TALL + _HEAD
-            left = 0.0
+            left = corner[0]
             for at in band:
                 left += _GAP
                 box = (left / width, (top + 0.3) / height, wide[at] / width, _TALL / height)
                 axes = figure.add_axes(box, label=f"{levers[at].carrier} {answer.state or ''}")
+                axes.set_ylim(*limits)
                 _panel(axes, train, levers[at], answer, labels)
                 left += wide[at]
     return figure
+
+
+def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]) -> tuple[float, float]:
+    """Of all speeds, so that every panel has one scale."""
+    points = (point for lever in levers for answer in answers for point in _points(train, lever, answer))
+    speeds = [0.0, *(float(point.speed) for point in points if point.speed is not None)]
+    more = 0.08 * (max(speeds) - min(speeds)) or 0.5
+    return min(speeds) - more, max(speeds) + more
 
 
 def _bands(wide: Sequence[float]) -> list[list[int]]:
@@ -107,10 +115,11 @@ def _width(points: Sequence[Point]) -> float:
 
 
 def _letters(text: str) -> float:
-    return len(text) * _FINE * LETTER + 0.1
+    return text_width(text, _FINE, "bold") + 0.15
 
 
-def _heading(answer: Answer, unit: str, closed: Sequence[str]) -> str:
+def _heading(train: GearTrain, answer: Answer) -> str:
+    closed, unit = train.cases[answer.state].engaged, train.declaration.unit_name
     state = f"state {answer.state}, " if answer.state is not None else ""
     if closed:
         state += f"{' and '.join(closed)} closed, "
@@ -122,14 +131,14 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
     points = _points(train, lever, answer)
     xs = [float(point.x) for point in points]
     known = [(float(point.x), float(point.speed)) for point in points if point.speed is not None]
-    _frame(axes, xs, [speed for _, speed in known])
+    _frame(axes, xs)
     for x in xs:
         axes.axvline(x, color=PALE, linewidth=1.0, zorder=1)
     axes.axhline(0.0, color=BLACK, linewidth=0.8, zorder=1)
     axes.plot(*zip(*known, strict=True), color=BLUE, linewidth=1.8, zorder=2, gid="line") if known else None
     for x, speed in known:
         axes.plot([x, x], [0.0, speed], color=GREY, linewidth=2.2, zorder=2)
-        axes.plot([x], [speed], "o", color=RED if x == 0 else BLUE, markersize=6, markeredgecolor="white", zorder=4)
+        axes.plot([x], [speed], "o", color=ORANGE if x == 0 else BLUE, markersize=6, markeredgecolor="white", zorder=4)
     held = sorted({float(x) for link, x in lever.abscissae.items() if link in train.cases[answer.state].fixed})
     axes.plot(held, [0.0] * len(held), "^", color=PURPLE, markersize=8, zorder=5, gid="held") if held else None
     if labels:
@@ -161,7 +170,7 @@ def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
     return found
 
 
-def _frame(axes: Axes, xs: Sequence[float], speeds: Sequence[float]) -> None:
+def _frame(axes: Axes, xs: Sequence[float]) -> None:
     for side in ("top", "right", "bottom"):
         axes.spines[side].set_visible(False)
     axes.tick_params(labelsize=_FINE - 0.5, colors=GREY)
@@ -170,9 +179,6 @@ def _frame(axes: Axes, xs: Sequence[float], speeds: Sequence[float]) -> None:
     low, high = min(xs), max(xs)
     rim = 0.08 * (high - low) or 0.5
     axes.set_xlim(low - rim, high + rim)
-    bottom, top = min([0.0, *speeds]), max([0.0, *speeds])
-    more = 0.08 * (top - bottom) or 0.5
-    axes.set_ylim(bottom - more, top + more)
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
@@ -200,7 +206,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
             "clip_on": False,
         }
         links = "\n".join(point.links)
-        axes.text(up, 1.08, speed, va="bottom", color=BLUE if point.x else RED, gid=f"speed {links}", **how)
+        axes.text(up, 1.08, speed, va="bottom", color=BLUE if point.x else ORANGE, gid=f"speed {links}", **how)
         axes.text(up, 1.19, "\n".join(point.names), va="bottom", color=BLACK, fontweight="bold", **how)
         axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {links}", **how)
 

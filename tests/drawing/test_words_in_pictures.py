@@ -1,0 +1,107 @@
+"""In every picture of every shipped train all words can be read: none under 8 points, over another, or over the edge.
+
+Measured in the written file, where a glyph is an outline: what is measured is what a reader sees.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from places import TRAINS
+from shipped import train as load
+
+from geartrain.errors import QuestionError
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.figure import Figure
+from written_text import read_picture
+
+from geartrain.drawing import picture, render
+from geartrain.drawing.train_pictures import KINDS
+
+LEAST = 8.0  # points
+WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
+FEW = ["planetary", "bevel-differential", "humpage", "longcase-clock", "ravigneaux-set", "rv-reducer", "worm"]
+ALL = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
+
+
+def faults_of(figure: Figure) -> dict[str, object]:
+    """What of a figure's words cannot be read, by what is wrong with it; empty where all is well."""
+    found = read_picture(render(figure, ".svg"))
+    assert found.texts, "a picture without words was not read"
+    faults = {
+        "over each other": found.overlaps(),
+        "over the edge": found.clipped(),
+        "too small": found.small(LEAST),
+        "too large": [side for side in (found.width, found.height) if side > 72 * WIDEST],
+    }
+    return {name: what for name, what in faults.items() if what}
+
+
+def check(name: str, kind: str, turns: Fraction = Fraction(0)) -> None:
+    train = load(name)
+    state = train.states[0] if train.states and kind != "lever" else None
+    try:
+        figure = picture(train, kind, state, turns)  # type: ignore[arg-type]
+    except QuestionError:
+        return  # a kind that does not fit this train, which other tests hold
+    assert not faults_of(figure)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", FEW)
+def test_words_can_be_read(name: str, kind: str) -> None:
+    check(name, kind)
+
+
+@pytest.mark.parametrize("name", ["al-biruni-box-of-the-moon", "ferguson-paradox", "prague-orloj"])
+def test_words_can_be_read_after_some_turns(name: str) -> None:
+    check(name, "plan", Fraction(31, 7))
+    check(name, "dials", Fraction(31, 7))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", ALL)
+def test_words_can_be_read_in_all_shipped_trains(name: str, kind: str) -> None:
+    check(name, kind)
+    if kind in ("plan", "dials"):
+        check(name, kind, Fraction(355, 113))
+
+
+# ---------------------------------------------------------------------------------------------- the measure can fail
+
+
+def drawn(*texts: tuple[float, float, str, float, float]) -> Figure:
+    figure = Figure(figsize=(4, 2))
+    for x, y, words, size, angle in texts:
+        figure.text(x / 4, y / 2, words, fontsize=size, rotation=angle, rotation_mode="anchor")
+    return figure
+
+
+def test_two_words_at_one_place_are_found() -> None:
+    assert faults_of(drawn((1, 1, "first", 10, 0), (1.2, 1.02, "second", 10, 0))) == {
+        "over each other": [("first", "second")]
+    }
+
+
+def test_words_over_the_edge_are_found() -> None:
+    assert faults_of(drawn((3.6, 1, "an overlong word", 10, 0))) == {"over the edge": ["an overlong word"]}
+
+
+def test_small_words_are_found() -> None:
+    assert set(faults_of(drawn((1, 1, "small", 7.5, 0)))) == {"too small"}
+
+
+def test_slanted_words_side_by_side_are_apart_though_their_upright_boxes_share_much() -> None:
+    assert not faults_of(drawn((1, 0.3, "slanted words", 9, 60), (1.2, 0.3, "slanted words", 9, 60)))
+    assert faults_of(drawn((1, 0.3, "slanted words", 9, 60), (1.05, 0.3, "slanted words", 9, 60)))
+
+
+def test_a_word_is_as_wide_as_its_font_says() -> None:
+    (text,) = read_picture(render(drawn((1, 1, "HHHH", 10, 0)), ".svg")).texts
+    width = text.corners[:, 0].max() - text.corners[:, 0].min()
+    assert text.size == pytest.approx(10)
+    assert width == pytest.approx(4 * 7.52, abs=2.2)  # DejaVu Sans: an H is 0.752 em wide, with its sides

@@ -141,11 +141,12 @@ class _Drawing:
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
         """A pin in its slot; of links that turn alike, two bars side by side."""
         coupling = self.couplings[mesh.name]
-        for link, foot in zip(mesh.ends, (low, high), strict=True):
-            self._line([mesh.x, mesh.x], [foot, mesh.meet], PURPLE, 2.0, zorder=3, gid=f"coupling {mesh.name}")
-            if coupling.kind == "parallel":
-                level = mesh.meet + (0.03 if link == coupling.pin else -0.03)
-                self._line([mesh.x - _TICK, mesh.x + _TICK], [level, level], PURPLE, 2.0, zorder=5)
+        parallel = coupling.kind == "parallel"
+        for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
+            end = mesh.meet + 0.03 * side * parallel
+            self._line([mesh.x, mesh.x], [foot, end], PURPLE, 2.0, zorder=3, gid=f"coupling {mesh.name}")
+            if parallel:
+                self._line([mesh.x - _TICK, mesh.x + _TICK], [end, end], PURPLE, 2.0, zorder=5)
             elif link == coupling.pin:
                 self.axes.plot([mesh.x], [mesh.meet], "o", color=PURPLE, markersize=5, zorder=5)
             else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
@@ -98,12 +98,13 @@ def _template() -> Any:
     from jinja2 import Environment
 
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {
+    filters: dict[str, Callable[..., Any]] = {
         "is_web": is_web,
         "is_cited": lambda cell: isinstance(cell, CitedText),
         "with_code": _with_code,
         "on_paper": _on_paper,
     }
+    environment.filters |= filters
     return environment.from_string(_shipped("page.html"))
 
 

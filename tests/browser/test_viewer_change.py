@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import shipped
 from test_viewer_themes import TEXTS, contrast
+from test_viewer_trains import BLIND
 from viewing import DESK, tab, wait
 
 from geartrain import GearTrain, load
@@ -238,7 +239,23 @@ def test_counts_at_which_nothing_is_determined_are_told(opened: Any) -> None:
     assert answer.verdict.kind != "determined"
     tab(shown, "Outputs")
     assert shown.run(ROWS) == {"arm": "not determined"}
-    assert shown.page.locator(".verdict").get_attribute("data-verdict") != "determined"
+    assert shown.page.locator(".verdict").get_attribute("data-verdict") == "not determined"
+    assert "locked, or free" in shown.page.locator(".verdict").inner_text()
+
+
+def test_where_there_is_no_webgl_the_plan_has_the_new_count(open_page: OpenPage, tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    path.write_text(page([make_scene(shipped.train("planetary-24-18-60"), formulas=True)]), encoding="utf-8")
+    shown = open_page(path, before=BLIND, **DESK)
+    spoke = "document.querySelector('.plan [data-wheel=s] .spoke').getAttribute('d')"
+    before = shown.run(spoke)
+    give(shown, "s", 30)
+    wait(shown, f"{spoke} !== {before!r}")
+    sizes = [
+        math.dist(*([float(part) for part in end.split(" ")] for end in path.removeprefix("M").split("L")))
+        for path in (before, shown.run(spoke))
+    ]
+    assert sizes[1] / sizes[0] == pytest.approx(30 / 24, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["freeth-2021", "nrel-grc-750"])

@@ -62,7 +62,7 @@ def test_the_keyboard_alone_suffices(show: Opening) -> None:
     assert shown.page.get_by_role("dialog").is_hidden()
     shown.page.get_by_role("tab", name="Wheels").focus()
     press("ArrowLeft")
-    assert shown.run("document.activeElement.textContent") == "Outputs"
+    assert shown.run("document.activeElement.textContent") == "Sky"
     assert turns(shown) == Fraction(235, 19), "arrows among tabs turn nothing"
     shown.page.get_by_role("slider", name="crank").focus()
     press("Home")
@@ -72,6 +72,12 @@ def test_the_keyboard_alone_suffices(show: Opening) -> None:
     press("Space")
     assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
     shown.run("document.activeElement.blur()")
+    press("b")
+    press("Space")
+    wait(shown, "String(geartrain.turns).startsWith('-')")
+    press("Space")
+    press("b")
+    assert shown.page.get_by_role("button", name="play backwards").get_attribute("aria-pressed") == "false"
     press("c")
     assert shown.page.get_by_label("Colours").input_value() == "speed"
     press("t")

@@ -110,7 +110,7 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
     assert "Carman and Evans" in shown.page.locator(".epoch").inner_text()
     assert "Mean motion" in shown.page.locator(".tells").inner_text()
     rows = shown.run(
-        """[...document.querySelectorAll('.sky tbody tr')].map((row) => [row.dataset.output, row.dataset.target,
+        """[...document.querySelectorAll('.sky tbody tr')].map((row) => [row.dataset.pointer, row.dataset.target,
           ...[...row.querySelectorAll('.angle')].map((cell) => cell.textContent),
           row.querySelector('.copy').dataset.exact])"""
     )

@@ -36,6 +36,19 @@ def test_a_date_has_an_hour_a_calendar_and_turns() -> None:
     assert epoch.turns.value == Fraction(19, 470)  # type: ignore[attr-defined]
 
 
+def test_the_epoch_of_the_saros_dial_is_a_full_moon() -> None:
+    epoch = load("freeth-2008").declaration.epoch
+    assert epoch is not None
+    # mean phases of the Moon: J. Meeus, Astronomical Algorithms, 2nd edition, 1998, equation (49.1); k + 1/2 is full
+    k = Fraction(-54511, 2)
+    century = k / Fraction("1236.85")
+    full = Fraction("2451550.09766") + Fraction("29.530588861") * k + Fraction("0.00015437") * century**2
+    assert abs(full - epoch.julian_day) < Fraction(1, 2)  # the true one is up to 14 h from the mean
+    assert epoch.turns.value == Fraction(1, 2) / Fraction(235, 19)  # half of one of 235 months in 19 years
+    assert load("freeth-2021").declaration.epoch == epoch
+    assert load("voulgaris-2022").declaration.epoch is None
+
+
 @pytest.mark.parametrize(
     ("more", "said"),
     [

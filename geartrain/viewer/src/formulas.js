@@ -3,6 +3,7 @@
 import { Fraction } from "./fraction.js";
 import { isParallel, vector } from "./space.js";
 
+const POLE = { zero: false, carrier: null }; // a function without a value
 const MOST = 10n ** 12n; // teeth of a wheel, as in a declaration
 const PLAIN = { kind: "exact", why: "", laws: [], sources: [], steps: [], offsets: {}, period: null };
 
@@ -23,7 +24,9 @@ export class CountFormulas {
   /** Exact speeds at some counts: of bodies and pointers in the train's unit, null where there are none; what is broken. */
   solve(counts) {
     const broken = this.given.conditions.filter(({ formula, zero }) => isZero(formula, counts) !== zero);
-    const values = this.given.formulas.map((formula) => (broken.length ? null : quotient(formula, counts)));
+    const found = this.given.formulas.map((formula) => quotient(formula, counts));
+    if (found.includes(null) && !broken.length) broken.push(POLE);
+    const values = broken.length ? found.map(() => null) : found;
     const of = (index) => (index === null ? null : values[index]);
     return { bodies: this.given.bodies.map(of), pointers: this.given.pointers.map(of), broken };
   }
@@ -101,7 +104,7 @@ export class CountFormulas {
 }
 
 const skewed = (...wheels) => wheels.every(({ cone, kind }) => !cone && kind !== "contrate");
-const MEAN = "Teeth and pins ripple as they were computed for the declared counts only, so that this is mean motion.";
+export const MEAN = "Teeth and pins ripple as they were computed for the declared counts only, so that this is mean motion.";
 
 /** A count that a wheel can have, of a number or of text; null for others. */
 export function countOf(value) {
@@ -142,13 +145,16 @@ function asRead(sense, speed) {
 
 /** Why the formulas do not hold; of a loop that no longer closes, what it holds. */
 function verdictOf(scene, broken) {
-  const said = broken.map(({ text, zero, carrier }) => {
-    if (!zero) return `no longer so: ${text}`;
-    const held = carrier === null || scene.bodies[carrier].parent === null ? "hold each other still" : `can only turn with ${scene.bodies[carrier].id} as one body`;
-    return text.startsWith("loop ") ? `${text.replace(/ closes$/, "")} no longer closes: its wheels ${held}` : `no longer so: ${text}`;
+  const still = ({ carrier }) => carrier !== null && scene.bodies[carrier].parent === null;
+  const said = broken.map((condition) => {
+    const { text, zero, carrier } = condition;
+    if (!zero) return "at these counts the train is locked, or free";
+    if (carrier === null) return `no longer so: ${text}`;
+    const held = still(condition) ? "hold each other still" : `can only turn with ${scene.bodies[carrier].id} as one body`;
+    return `${text.replace(/ closes$/, "")} no longer closes: its wheels ${held}`;
   });
-  const kind = broken.every(({ zero }) => !zero) ? "free" : broken.some(({ text }) => text.startsWith("loop ")) ? "locked" : "contradictory";
-  return { kind, text: `${said.join("; ")}. What then turns, \`geartrain solve\` tells of the saved train.`, links: [], loops: [], advice: [] };
+  const kind = broken.some(still) ? "locked" : "not determined";
+  return { kind, text: `${[...new Set(said)].join("; ")}. What then turns, \`geartrain solve\` tells of the saved train.`, links: [], loops: [], advice: [] };
 }
 
 /** A circuit in words with other counts, where its words are its counts. */

@@ -1,6 +1,6 @@
 // What was changed here: counts, meshes that no longer fit their axes, outputs beside those declared; and the train as YAML.
 import { Fraction } from "../fraction.js";
-import { countOf } from "../formulas.js";
+import { MEAN, countOf } from "../formulas.js";
 import { copy } from "./copying.js";
 import { el } from "./element.js";
 import { shown } from "./number.js";
@@ -67,6 +67,7 @@ export class Change {
       broken.length
         ? el("ul", { class: "misfits" }, broken.map((text) => el("li", { class: "bad" }, text)))
         : el("p", {}, "All still fit their axes."),
+      side.declared.movement.kind === "real" && el("p", { class: "quiet" }, MEAN),
       el("h4", {}, "Outputs"),
       this.#outputs(side),
       this.#save(side),
@@ -79,7 +80,7 @@ export class Change {
       if (before === pointer.shown) return [];
       const gap = difference(before, pointer.shown);
       const cells = [before, pointer.shown].map((text) => el("td", { class: "number" }, text === null ? "not determined" : shown(text)));
-      return [el("tr", { "data-output": pointer.output }, el("th", { scope: "row" }, pointer.output), cells, el("td", {}, gap ? relative(gap.part) : ""))];
+      return [el("tr", { "data-turned": pointer.output }, el("th", { scope: "row" }, pointer.output), cells, el("td", {}, gap ? relative(gap.part) : ""))];
     });
     if (!rows.length) return el("p", {}, "None turns otherwise than declared.");
     const heads = ["output", "declared", "now", "change"];

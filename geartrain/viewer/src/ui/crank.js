@@ -154,24 +154,26 @@ export class Crank {
     this.fault.textContent = wanted ? "" : fault;
   }
 
-  /** Turned back while it plays. */
+  /** Plays the other way from now on. */
+  turnBack() {
+    this.drive.sense *= -1;
+    this.back.setAttribute("aria-pressed", String(this.drive.sense < 0));
+  }
+
   #back() {
-    const button = el(
+    this.back = el(
       "button",
       {
         type: "button",
         "aria-pressed": String(this.drive.sense < 0),
         "aria-label": "play backwards",
         title: "Play backwards",
-        onclick: () => {
-          this.drive.sense *= -1;
-          button.setAttribute("aria-pressed", String(this.drive.sense < 0));
-        },
+        onclick: () => this.turnBack(),
       },
       icon("M4 5v5h5M4.5 10a8 8 0 1 1-.5 5"),
     );
-    button.firstChild.classList.add("line");
-    return button;
+    this.back.firstChild.classList.add("line");
+    return this.back;
   }
 
   #goToDate() {

@@ -41,6 +41,7 @@ class Interface {
       tools: this.tools,
       goTo: () => this.crank.find(),
       find: () => this.panel.find(),
+      back: () => this.crank.turnBack?.(),
       escape: () => this.letGo(),
     });
     this.head = new Head(this.all, {

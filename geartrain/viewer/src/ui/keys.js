@@ -6,6 +6,7 @@ const TURNED = [
   ["Left, Right", "turn back or on by five degrees; with Shift by one unit of the input"],
   ["Page Up, Page Down", "one unit of the input on or back"],
   ["G", "go to a number of turns"],
+  ["B", "play backwards, or forwards again"],
 ];
 const REST = [
   ["Home", "back to the start"],
@@ -86,11 +87,12 @@ export class Keys {
   }
 
   #letter(key) {
-    const { tools, goTo, find } = this.actions;
+    const { tools, goTo, find, back } = this.actions;
     if (LOOKS[key]) return (tools.look(LOOKS[key]), true);
     const act = {
       g: goTo,
       "/": find,
+      b: back,
       c: () => tools.next(),
       e: () => tools.takeApart(),
       h: () => tools.toggle(tools.front),

@@ -75,7 +75,7 @@ export class Sky {
     this.rows.push({ reading: new Reading(scene, machine, index), target, own, sky, error, machine });
     return el(
       "tr",
-      { "data-output": pointer.output, "data-target": target.label },
+      { "data-pointer": pointer.output, "data-target": target.label },
       el("th", { scope: "row" }, pointer.output, el("div", { class: "quiet" }, breakable(target.label))),
       own,
       sky,

@@ -67,7 +67,7 @@ def opened(open_page: OpenPage, tmp_path: Path) -> Any:
 def give(shown: Shown, wheel: str, count: int) -> None:
     """Another count for a wheel, typed into the field of its panel."""
     tab(shown, "Wheels")
-    shown.page.locator(f"[data-wheel='{wheel}']").click()
+    shown.page.locator(f"button[data-wheel='{wheel}']").click()
     field = shown.page.get_by_label(f"teeth of {wheel}", exact=True)
     field.fill(str(count))
     field.press("Enter")

@@ -194,7 +194,7 @@ def test_a_finger_drags_on_a_phone(draw: Opening) -> None:
     assert abs(float(drawn.fraction("ring", ARM) - before) - 0.8 / TURN) < 0.01
 
 
-def test_pages_of_the_site_have_their_diagrams_in_light_and_dark(site: Path, browser: Browser) -> None:
+def test_pages_of_the_site_have_their_diagrams_in_light_and_dark_and_on_phones(site: Path, browser: Browser) -> None:
     for path in sorted((ROOT / "docs").glob("*.md")):
         if count := path.read_text(encoding="utf-8").count("<!-- diagram: "):
             page = browser.new_page(offline=True)
@@ -208,6 +208,8 @@ def test_pages_of_the_site_have_their_diagrams_in_light_and_dark(site: Path, bro
                 page.evaluate("(scheme) => document.body.setAttribute('data-md-color-scheme', scheme)", scheme)
                 colours.add(page.evaluate(paper))
             assert len(colours) == 2
+            page.set_viewport_size({"width": 390, "height": 844})
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), path.stem
             assert wrong == []
             page.close()
 

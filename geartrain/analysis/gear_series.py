@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from math import comb, log, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geartrain.analysis.gearbox import gearbox_ends
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.tabular import Tabular
 from geartrain.train import State
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ class GearSeries(Result):
 
 
 @dataclass(frozen=True)
-class GearSearch(Result):
+class GearSearch(Tabular, Result):
     """All gears of a gearbox, and the series asked for.
 
     Attributes
@@ -133,6 +134,16 @@ class GearSearch(Result):
     series: int = 0
     widest: GearSeries | None = None
     evenest: GearSeries | None = None
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each gear: what is closed, its ratio, if the output turns, and the states declared so."""
+        return {
+            "closed": [", ".join(gear.engaged) for gear in self.gears],
+            "ratio": [None if gear.ratio is None else as_float(gear.ratio) for gear in self.gears],
+            "exact": ["" if gear.ratio is None else str(gear.ratio) for gear in self.gears],
+            "states": [", ".join(gear.states) for gear in self.gears],
+        }
 
 
 def find_gears(

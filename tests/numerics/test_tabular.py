@@ -23,11 +23,13 @@ def tables() -> dict[str, Tabular]:
         "gearbox": box.gearbox(),
         "variants": set_.variants({"s": range(20, 30)}),
         "cycle": loaded.torques(turns=0.01),
+        "search": box.gear_search(),
+        "strength": loaded.strength(),
         "array": set_.floats(inputs={"sun": [7.0, 14.0]}).speeds,
     }
 
 
-@pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "array"])
+@pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "search", "strength", "array"])
 def test_frames_and_records_hold_the_columns(name: str) -> None:
     table = tables()[name]
     frame, records = table.to_frame(), table.to_records()
@@ -50,6 +52,35 @@ def test_a_gearbox_has_a_row_a_state() -> None:
     first = records[records["state"] == "1"]
     assert first["ratio"] == pytest.approx(4.696, abs=5e-4)
     assert records["engaged"][0].count(",") == 2
+
+
+def test_every_gear_there_is_has_a_row() -> None:
+    records = geartrain.load("zf-8hp70").gear_search().to_records()
+    assert len(records) == 9
+    assert records["exact"][0] == "108/23"
+    assert set(records["states"]) == {*"12345678R"}
+
+
+def test_trials_and_budgets_have_rows_of_trials_and_of_causes() -> None:
+    from geartrain.uncertainty import find_budget
+
+    train = geartrain.load("moon-triangular")
+    budget = find_budget(train)
+    rows = budget.to_records()
+    assert len(rows) == sum(len(pointer.causes) for pointer in budget.pointers)
+    for row in rows:
+        known = budget[row["pointer"]][row["cause"]].degrees
+        assert row["degrees"] == known or (known is None and row["degrees"] != row["degrees"])
+
+
+def test_a_run_in_time_has_a_row_a_sample() -> None:
+    found = geartrain.load("moon-triangular-inertia").dynamics(rate=1.0, turns=0.02, skip=0.01)
+    columns = found.columns
+    assert columns["time (s)"] == found.time.tolist()
+    link = found.speeds.labels[0][-1]
+    assert columns[f"{link} speed (rad/s)"] == found.speeds[link].tolist()
+    assert found.to_csv().splitlines()[0] == ",".join(columns)
+    assert len(found.to_csv().splitlines()) == 1 + len(found.time)
 
 
 def test_arrays_of_any_number_of_axes() -> None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geartrain.dynamics.strength.contact_results import PointContact, WheelForce
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.plain_data import Result
+from geartrain.numerics.tabular import Tabular
 from geartrain.teeth.strength.contact_pressure import YIELD_AT, ContactPlace
 from geartrain.teeth.strength.iso_6336 import IsoContact, IsoRoot
 
@@ -229,7 +230,7 @@ class WeakestPart(Result):
 
 
 @dataclass(frozen=True)
-class TrainStrength(FrozenFields, Result):
+class TrainStrength(FrozenFields, Tabular, Result):
     """Pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
 
     Attributes
@@ -292,6 +293,23 @@ class TrainStrength(FrozenFields, Result):
     forces: tuple[WheelForce, ...] = ()
     points: Mapping[str, PointContact] = field(default_factory=dict)
     over: float | None = None
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety; None where not known."""
+        rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
+        told = (
+            "wheel",
+            "material",
+            "torque",
+            "tip_stress",
+            "shared_stress",
+            "pressure",
+            "root_safety",
+            "contact_safety",
+        )
+        own = {each: [getattr(wheel, each) for _, wheel in rows] for each in told}
+        return {"pair": [name for name, _ in rows]} | own
 
     @property
     def weakest(self) -> WeakestPart | None:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.numerics.files import csv_text
 from geartrain.numerics.plain_data import Key, Result, group
 from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
     from geartrain.dynamics.time.run_parts import (
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class TimeRun(Pictured, Result):
+class TimeRun(Tabular, Pictured, Result):
     """A train in time, by steps of one length; everything is of the run with the shorter steps.
 
     Attributes
@@ -173,25 +174,33 @@ class TimeRun(Pictured, Result):
         found: Floats = self.angles[name]
         return found
 
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, leads."""
+        made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
+        for found, what in (
+            (self.angles, "angle (rad)"),
+            (self.speeds, "speed (rad/s)"),
+            (self.torques, "torque (N m)"),
+        ):
+            made |= {f"{name} {what}": row for name, row in zip(found.labels[0], found.values, strict=True)}
+        made["drive torque (N m)"] = self.drive
+        for name, drive, coast in zip(self.gaps.labels[0], self.gaps.values, self.coast_gaps.values, strict=True):
+            made |= {f"{name} gap (rad)": drive, f"{name} coast gap (rad)": coast}
+        leads = zip(self.ahead.labels[0], self.ahead.values, strict=True)
+        made |= {f"output {name} ahead (rad)": row for name, row in leads}
+        return {name: column.tolist() for name, column in made.items()}
+
     def to_csv(self) -> str:
-        """All samples as a table: time, turns, angles and speeds of links, torques of contacts and drive, gaps, leads.
+        """All samples as a table, as `columns` has them.
 
         Returns
         -------
         str
             Comma-separated, with a head that names units.
         """
-        links, pairs = self.angles.labels[0], self.torques.labels[0]
-        head = ["time (s)", "turns", *(f"{name} angle (rad)" for name in links)]
-        head += [f"{name} speed (rad/s)" for name in links] + [f"{name} torque (N m)" for name in pairs]
-        head.append("drive torque (N m)")
-        for name in self.gaps.labels[0]:
-            head += [f"{name} gap (rad)", f"{name} coast gap (rad)"]
-        head += [f"output {name} ahead (rad)" for name in self.ahead.labels[0]]
-        links_and_contacts = (*self.angles.values, *self.speeds.values, *self.torques.values)
-        gaps = (each for pair in zip(self.gaps.values, self.coast_gaps.values, strict=True) for each in pair)
-        parts = (self.time, self.turns, *links_and_contacts, self.drive, *gaps, *self.ahead.values)
-        return csv_text(head, zip(*(part.tolist() for part in parts), strict=True))
+        columns = self.columns
+        return csv_text([*columns], zip(*columns.values(), strict=True))
 
     def _repr_html_(self) -> str:
         rows = "".join(

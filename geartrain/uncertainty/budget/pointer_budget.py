@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import SpeedValue
@@ -203,7 +204,7 @@ class PointerBudget(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class TrainBudget(Pictured, Result):
+class TrainBudget(Tabular, Pictured, Result):
     """The budgets of a train's pointers in one state, with the crank and the jams of its wheels.
 
     Attributes
@@ -260,6 +261,18 @@ class TrainBudget(Pictured, Result):
     jams: tuple[ClearanceCase, ...] = ()
     jams_note: str = ""
     turned_back: tuple[str, ...] = ()
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each cause of each pointer: greatest and rms error [deg], and in days; None where not known."""
+        rows = [(pointer.name, cause) for pointer in self.pointers for cause in pointer.causes]
+        return {
+            "pointer": [name for name, _ in rows],
+            "cause": [cause.name for _, cause in rows],
+            "degrees": [cause.degrees for _, cause in rows],
+            "rms": [cause.rms for _, cause in rows],
+            "days": [cause.days for _, cause in rows],
+        }
 
     def __getitem__(self, pointer: str) -> PointerBudget:
         return next(each for each in self.pointers if each.name == pointer)

@@ -21,9 +21,9 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-Every train that comes with geartrain, with what it answers. The [site](index.md#this-site) shows each with its plan and
-dials, a page in which it turns, and its report; `geartrain view NAME -o x.html` makes the page here. Files stand in
-`trains/`; each names its sources.
+Every train that comes with geartrain, with what it answers. The [site](index.md#this-site) shows each turning, with its
+plan and dials, a page in which it turns, and its report; `geartrain view NAME -o x.html` makes the page here. Files
+stand in `trains/`; each names its sources.
 """
 MOST = 4
 

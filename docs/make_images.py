@@ -1,5 +1,5 @@
-"""Draw the pictures of docs/images: a report as a terminal shows it, triangular teeth in contact, their law, pointers
-in motion, power that circulates, gears on a sphere, tooth shapes side by side."""
+"""Draw the pictures of docs/images: a worm that turns, a report as a terminal shows it, triangular teeth in contact,
+their law, pointers in motion, power that circulates, gears on a sphere, tooth shapes side by side."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ SECTIONS = ("Fundamental circuits", "Mobility", "Against the targets")
 def main() -> None:
     """Write the pictures."""
     IMAGES.mkdir(exist_ok=True)
+    turning()
     report()
     teeth()
     pointers()
@@ -37,6 +38,13 @@ def main() -> None:
     sphere()
     shapes()
     trains()
+
+
+def turning() -> None:
+    """A worm and its wheel, whose spokes stand as before after a sixth of its turn; left as it is without a browser."""
+    asked = ["--turns", "5", "--seconds", "8", "--fps", "12", "--size", "360x270", "--background", "white", "--force"]
+    command = [sys.executable, "-m", "geartrain", "view", "worm", "-o", str(IMAGES / "turning.gif"), *asked]
+    subprocess.run(command, check=False)
 
 
 def trains() -> None:

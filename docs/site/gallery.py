@@ -1,11 +1,14 @@
-"""The shipped trains as pictures, pages in which they turn, and reports; the gallery's rows as cards.
+"""The shipped trains as pictures, films, pages in which they turn, and reports; the gallery's rows as cards.
 
+Where there is a browser that draws, a card is a picture that turns under the pointer; elsewhere the train's plan.
 All are made two trains at a time, and kept in build/gallery under the content they are made from: a second build makes
 only what has changed. GEARTRAIN_GALLERY=NAME,NAME limits the gallery to some trains.
 """
 
 from __future__ import annotations
 
+import io
+import logging
 import os
 import re
 import shutil
@@ -15,11 +18,21 @@ from functools import cache
 from hashlib import sha256
 from multiprocessing import get_context
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from geartrain.viewer import Shot
+
+if TYPE_CHECKING:
+    from geartrain.scene import Scene
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 KEPT = ROOT / "build" / "gallery"
 WORKERS = 2
+SHOT = Shot(size=(320, 240), fps=10, seconds=3)
+_log = logging.getLogger("mkdocs.hooks")
 _ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
+_WALL = re.compile(r"^<!-- all trains -->$", re.MULTILINE)
+_FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->$", re.MULTILINE)
 _TABLE = re.compile(r"^\| train \| .*\n\|---.*\n((?:\|.*\n?)+)", re.MULTILINE)
 
 
@@ -45,14 +58,44 @@ def with_cards(markdown: str) -> str:
     return _TABLE.sub(lambda found: "".join(_cards(found[1])), markdown)
 
 
+def with_wall(markdown: str) -> str:
+    """The mark of the wall of all trains as their pictures, and that of a train as its page in a frame."""
+    markdown = _FRAME.sub(lambda found: _frame(found[1]), markdown)
+    return _WALL.sub(lambda _: "".join(_wall()), markdown)
+
+
+def _wall() -> Iterator[str]:
+    yield '<div class="wall" markdown>\n'
+    yield from (f"{_thumbnail(path.stem)}\n" for path in _trains())
+    yield "</div>\n"
+
+
+def _frame(name: str) -> str:
+    """A train that turns in the page; nothing where its page is not made."""
+    if f"view/{name}.html" not in make():
+        return ""
+    from geartrain.viewer import frame_of
+
+    line = frame_of(f"view/{name}.html", f"{name}, turning").replace(".html", ".html#embed", 1)
+    return f'<div class="turning-frame">{line}</div>'
+
+
+def _thumbnail(name: str) -> str:
+    """A picture that turns under the pointer, or the plan, and opens the train's page."""
+    if f"still/{name}.webp" not in make():
+        return f"[![plan of {name}](plan/{name}.png){{loading=lazy}}](view/{name}.html){{title={name}}}"
+    film = f" style=\"--film:url('film/{name}.webp')\"" if f"film/{name}.webp" in make() else ""
+    return f"[![{name}](still/{name}.webp){{loading=lazy}}](view/{name}.html){{.turning title={name}{film}}}"
+
+
 def _cards(rows: str) -> Iterator[str]:
     yield '<div class="grid cards" markdown>\n\n'
     for name, title, verdict, outputs in _ROW.findall(rows):
         if f"view/{name}.html" in make():
-            kinds = [kind for kind in ("plan", "dials") if f"{kind}/{name}.png" in make()]
-            pictures = " ".join(f"[![{kind} of {name}]({kind}/{name}.png)](view/{name}.html)" for kind in kinds)
-            links = f"[turn it](view/{name}.html) · [report](report/{name}.html)"
-            yield f"-   {pictures}\n\n    **{name}**: {title}\n\n    {verdict}: {outputs}\n\n    {links}\n\n"
+            files = [("plan", f"plan/{name}.png"), ("dials", f"dials/{name}.png"), ("report", f"report/{name}.html")]
+            links = " · ".join(f"[{word}]({file})" for word, file in files if file in make())
+            yield f"-   {_thumbnail(name)}\n\n    **{name}**: {title}\n\n    {verdict}: {outputs}\n\n"
+            yield f"    [turn it](view/{name}.html) · {links}\n\n"
         else:
             yield f"-   **{name}**: {title}\n\n    {verdict}: {outputs}\n\n"
     yield "</div>\n"
@@ -69,7 +112,7 @@ def _trains() -> list[Path]:
 
 def _key(path: Path) -> str:
     """A digest of the program, and of the train and all it may extend."""
-    digest = sha256(_program())
+    digest = sha256(_program() + Path(__file__).read_bytes() + bytes(_draws()))
     for file in sorted(path.parent.glob("*.yaml")):
         digest.update(file.read_bytes())
     return digest.hexdigest()[:16]
@@ -117,4 +160,39 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
         pictures.append(Picture(caption, render(figure, ".svg").decode("utf-8")))
         yield f"{kind}/{name}.png", render(figure, ".png", dots=72)
     yield f"report/{name}.html", to_html([describe_shared_page(collect_report(train), pictures)]).encode("utf-8")
-    yield f"view/{name}.html", page([make_scene(train, state) for state in train.states or (None,)]).encode("utf-8")
+    scenes = [make_scene(train, state) for state in train.states or (None,)]
+    yield f"view/{name}.html", page(scenes).encode("utf-8")
+    yield from _moving(name, next((each for each in scenes if each.movement.kind != "still"), scenes[0]))
+
+
+def _moving(name: str, scene: Scene) -> Iterator[tuple[str, bytes]]:
+    """A still and a film of a train, where there is what draws them; of what stands the still alone."""
+    from geartrain.viewer import film
+
+    if not _draws():
+        return
+    yield f"still/{name}.webp", _still(film(scene, ".png", SHOT))
+    if scene.movement.kind != "still":
+        yield f"film/{name}.webp", film(scene, ".webp", SHOT)
+
+
+def _still(picture: bytes) -> bytes:
+    """A PNG as a WebP, a tenth as large."""
+    from PIL import Image
+
+    out = io.BytesIO()
+    Image.open(io.BytesIO(picture)).convert("RGB").save(out, "WEBP", quality=80)
+    return out.getvalue()
+
+
+@cache
+def _draws() -> bool:
+    from geartrain.errors import GearTrainError
+    from geartrain.viewer.browser import check_browser
+
+    try:
+        check_browser()
+    except GearTrainError as error:
+        _log.info("the gallery shows plans in place of turning trains: %s", error)
+        return False
+    return True

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 Look = Literal["free", "front", "back", "side"]
 
 _PACE = Fraction(1, 4)  # turns a second of what turns fastest: an eye can follow its teeth
+_STEP = Fraction(2, 5)  # teeth that pass from one picture to the next: from a half on they seem to go backwards
 _LEAST, _LONGEST, _USUAL = 2.0, 40.0, 6.0  # s: of a film, of a whole period that is shown, of a part of a longer one
 _MOST_SIDE, _LEAST_SIDE, _MOST_FRAMES = 4096, 16, 5000
 _ORBIT = 12.0  # s of one turn of the camera
@@ -121,7 +122,7 @@ class Shot:
                 fix = "give --turntable 1, or --png for one picture"
                 raise QuestionError(Problem("nothing moves in this film", str(why), fix))
             return Fraction(0), self.seconds or abs(self.turntable) * _ORBIT
-        pace = _PACE / max((abs(Fraction(body.speed)) for body in scene.bodies if body.speed), default=1)
+        pace = _pace(scene, self.fps)
         period = period_of(scene)
         if self.turns is not None:
             turns = self.turns
@@ -157,6 +158,14 @@ class Shot:
         period = period_of(scene)
         whole = not self.turns or (scene.run is None and period is not None and (self.turns / period).denominator == 1)
         return whole and float(self.turntable).is_integer()
+
+
+def _pace(scene: Scene, fps: int) -> Fraction:
+    """Turns of the lead a second at which an eye can follow what turns, and a film shows which way teeth go."""
+    speeds = [abs(Fraction(body.speed or 0)) for body in scene.bodies]
+    teeth = max((wheel.teeth * speeds[wheel.body] for wheel in scene.wheels), default=0)
+    limits = [_PACE / max(speeds)] if any(speeds) else [_PACE]
+    return min([*limits, _STEP * fps / teeth] if teeth else limits)
 
 
 def period_of(scene: Scene) -> Fraction | None:

@@ -10,10 +10,14 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import gallery
+import numpy as np
 import pytest
+import shipped
 import yaml
 from package.test_public_names import SHOWING
-from playwright.sync_api import Browser, Page
+from PIL import Image
+from playwright.sync_api import Browser, Page, expect
 from viewing import GALLERY
 
 ROOT = Path(__file__).parent.parent.parent
@@ -123,6 +127,71 @@ def test_the_gallery_has_picture_viewer_and_report_of_each_train(site: Path) -> 
     for path in (ROOT / "trains").glob("*/*.yaml"):
         assert f"<strong>{path.stem}</strong>" in text
     assert sorted(path.stem for path in (site / "view").iterdir()) == sorted(GALLERY)
+
+
+def test_pictures_of_the_gallery_turn_under_the_pointer_and_open_the_train(
+    site: Path, sheet: tuple[Page, list[str]]
+) -> None:
+    page, wrong = sheet
+    for name in GALLERY:
+        with Image.open(site / "film" / f"{name}.webp") as film, Image.open(site / "still" / f"{name}.webp") as still:
+            assert film.n_frames > 10  # type: ignore[attr-defined]
+            assert film.size == still.size
+            first = np.asarray(film.convert("RGB"), dtype=int)
+            assert np.abs(first - np.asarray(still.convert("RGB"), dtype=int)).mean() < 8, "it begins where it stood"
+            film.seek(5)
+            assert np.abs(first - np.asarray(film.convert("RGB"), dtype=int)).max() > 60, "it moves"
+    shown = "(each) => getComputedStyle(each, '::after').backgroundImage"
+    for where in ("gallery", "index"):
+        page.goto((site / f"{where}.html").as_uri())
+        picture = page.locator("a.turning[title=worm]")
+        assert picture.evaluate(shown) == "none", "no film is fetched before it is wanted"
+        picture.hover()
+        assert picture.evaluate(shown).endswith('film/worm.webp")')
+        page.emulate_media(reduced_motion="reduce")
+        assert picture.evaluate(shown) == "none"
+        page.emulate_media(reduced_motion="no-preference")
+        picture.click()
+        assert page.url.endswith("view/worm.html")
+    assert wrong == []
+
+
+def test_the_home_page_has_a_machine_that_turns(site: Path, sheet: tuple[Page, list[str]]) -> None:
+    page, wrong = sheet
+    page.goto((site / "index.html").as_uri())
+    assert page.locator(".wall img").count() == len(GALLERY)
+    frame = page.frame_locator(".turning-frame iframe")
+    frame.get_by_role("button", name="Stop").wait_for()
+    said = frame.locator("output")
+    before = said.inner_text()
+    expect(said).not_to_have_text(before)
+    assert wrong == []
+
+
+def test_where_nothing_draws_the_pages_show_plans(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GEARTRAIN_BROWSER", "no-such-browser")
+    gallery._draws.cache_clear()
+    try:
+        assert list(gallery._moving("worm", shipped.scene("worm"))) == []
+    finally:
+        gallery._draws.cache_clear()
+    made = {f"{kind}/worm.{suffix}": Path() for kind, suffix in (("plan", "png"), ("view", "html"), ("report", "html"))}
+    monkeypatch.setattr(gallery, "make", lambda: made)
+    assert gallery._thumbnail("worm").startswith("[![plan of worm](plan/worm.png)")
+    assert gallery.with_wall("<!-- turning: planetary -->\n") == "\n", "no frame of what is not made"
+
+
+def test_the_readme_opens_with_a_machine_that_turns_beside_its_declaration() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8").partition("geartrain answers")[0]
+    (picture,) = re.findall(r"!\[.*?\]\((.*?)\)", text)
+    assert (ROOT / picture).stat().st_size < 1_500_000
+    with Image.open(ROOT / picture) as film:
+        assert film.n_frames > 50  # type: ignore[attr-defined]
+    (declared,) = re.findall(r"```yaml\n(.*?)```", text, re.S)
+    worm = yaml.safe_load((ROOT / "trains/engineering/worm.yaml").read_text(encoding="utf-8"))
+    shown = yaml.safe_load(declared)
+    assert {key: worm[key] for key in shown} == shown
+    assert set(worm) - set(shown) == {"name", "title", "sources"}
 
 
 def test_the_gallery_tells_what_the_trains_declare() -> None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.scene import Scene
 
 SIMPLE, ANTIKYTHERA = "planetary-24-18-60", "freeth-2008"
-GALLERY = ("worm", "longcase-clock", "zf-8hp70")  # what of the gallery is made for tests
+GALLERY = ("worm", "longcase-clock", "zf-8hp70", "south-pointing-chariot")  # what of the gallery is made for tests
 DESK: dict[str, Any] = {"viewport": {"width": 1000, "height": 620}}
 
 LOCKED = """

@@ -146,6 +146,17 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
     assert marks["metonic"] == pytest.approx(float(5 * YEAR / month * at % 5), abs=1e-9)
 
 
+def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    tab(shown, "Sky")
+    for at in ("1e18", "1/1000000"):
+        shown.page.get_by_label("Go to turn").fill(at)
+        shown.page.keyboard.press("Enter")
+        texts = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.textContent)")
+        assert max(map(len, texts)) <= 11, at
+        assert shown.run("document.querySelector('.sky').scrollWidth <= document.querySelector('.sky').clientWidth + 1")
+
+
 def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening) -> None:
     shown = show(text=CALENDAR)
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"

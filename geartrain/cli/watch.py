@@ -33,9 +33,9 @@ def run(
         raise QuestionError(Problem(what, "a page can follow only what is saved", fix))
     server = LiveServer(lambda: _pages(path), lambda: _files(path), port)
     server.refresh()
-    tell(server.error or f"{file} is shown at {server.address}; Ctrl-C ends it")
+    tell(server.error or f"{file} is shown at {server.address} until Ctrl-C ends it")
     if server.error:
-        tell(f"it is shown at {server.address} once that is mended; Ctrl-C ends it")
+        tell(f"it is shown at {server.address} once that is mended, until Ctrl-C ends it")
     if open_it and not webbrowser.open(server.address):
         tell("no browser could be started here; open the address by hand")
     server.run(lambda error: tell(error or f"{file} is shown anew"))

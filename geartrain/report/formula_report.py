@@ -156,7 +156,8 @@ def _title(state: str | None) -> str:
 
 def _lines(each: OutputFormula, latex: bool) -> Iterator[str]:
     value = "not determined at these counts" if each.value is None else str(exact(each.value))
-    yield f"{each.latex} = {value}" if latex else f"{each.text} = {value}"
+    written = each.latex if latex else each.text
+    yield f"{written} = {value}" if each.shares else written  # a speed of 0 is not told twice
     for condition in each.conditions:
         yield f"It turns only if {condition}."
     for pole in each.poles:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import asin, atan2, cos, degrees, hypot, pi, sin
 from pathlib import Path
 from typing import Any
@@ -181,6 +181,25 @@ def test_on_a_desk_what_is_dragged_and_its_numbers_are_seen_together(draw: Openi
     (left, right, top, bottom), *inside = drawn.page.evaluate(sides)
     assert bottom - top < 600
     assert all(left < a and b < right and top < c and d < bottom for a, b, c, d in inside)
+
+
+WORDS = """() => {
+  const box = (each) => (({left, right, top, bottom}) => [left, right, top, bottom])(each.getBoundingClientRect());
+  const all = [...document.querySelectorAll('.gd-text')];
+  return [box(document.querySelector('.gd-picture')), all.map((each) => [each.textContent, ...box(each)])];
+}"""
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_words_in_a_picture_neither_overlap_nor_leave_it(draw: Opening, kind: str) -> None:
+    drawn = draw(kind)
+    for choice in drawn.page.locator("input + span").all() or [drawn.page.locator(".gd-hint")]:
+        choice.click()
+        (left, right, top, bottom), words = drawn.page.evaluate(WORDS)
+        for (text, *a), (other, *b) in combinations(words, 2):
+            across, down = min(a[1], b[1]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[2], b[2])
+            assert across < 1 or down < 4, f"{text} meets {other}"  # the boxes of lines have room above letters
+        assert all(left <= a and b <= right and top <= c and d <= bottom for _, a, b, c, d in words)
 
 
 def test_a_finger_drags_on_a_phone(draw: Opening) -> None:

@@ -5,6 +5,7 @@ import { Sheet, WIDE } from "./sheet.js";
 
 const HIGH = 360;
 const ROOM = 56; // round the graph, for names
+const SHARES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73]; // of an edge, where its label may stand
 
 /** data   `trains`, each with places of its links, edges with their curves, and circuits by the name of their pair */
 export function circuits(host, { trains }) {
@@ -22,13 +23,14 @@ export function circuits(host, { trains }) {
 
 function drawn(train, sheet) {
   const to = fitted(Object.values(train.links));
+  const taken = Object.entries(train.links).map(([link, place]) => ({ at: to(place), half: halfOf(link) }));
   const edges = train.edges.map((edge) => {
     const [a, b, c] = edge.curve.map(to);
-    const [u, v] = [0, 1].map((k) => a[k] / 4 + b[k] / 2 + c[k] / 4);
     const curve = svg("path", { d: `M${a.join(" ")}Q${b.join(" ")} ${c.join(" ")}`, class: edge.kind === "revolute" ? "gd-turning" : "gd-gearing" });
-    const words = svg("text", { x: u, y: v + 5, "text-anchor": "middle", class: "gd-text gd-halo" }, edge.label);
     const reach = svg("path", { d: curve.getAttribute("d"), class: "gd-reach" });
-    return { ...edge, curve, words, group: svg("g", {}, curve, reach, words) };
+    const [x, y] = free(a, b, c, edge.label, taken);
+    const words = svg("text", { x, y: y + 5, "text-anchor": "middle", class: "gd-text gd-halo" }, edge.label);
+    return { ...edge, words, group: svg("g", {}, curve, reach) };
   });
   const nodes = Object.fromEntries(Object.entries(train.links).map(([link, place]) => [link, vertex(link, to(place), link === train.frame)]));
 
@@ -45,14 +47,29 @@ function drawn(train, sheet) {
     sheet.say(circuit.equation.replaceAll(" - ", " \u2212 ").replace(/^-/, "\u2212"));
   }
 
-  for (const { group, label, kind } of edges) {
+  for (const { group, words, label, kind } of edges) {
     if (kind === "revolute") continue;
     for (const [key, value] of [["tabindex", 0], ["role", "button"], ["aria-label", `Gear pair ${label}`], ["class", "gd-choice"]]) group.setAttribute(key, value);
-    for (const event of ["pointerenter", "click", "focus"]) group.addEventListener(event, () => light(label));
+    words.classList.add("gd-choice");
+    for (const event of ["pointerenter", "click", "focus"]) for (const part of [group, words]) part.addEventListener(event, () => light(label));
   }
   light(Object.keys(train.circuits)[0]);
-  return [...edges.map(({ group }) => group), ...Object.values(nodes)];
+  return [...edges.map(({ group }) => group), ...Object.values(nodes), ...edges.map(({ words }) => words)];
 }
+
+/** Where on its curve a label meets no vertex and no other label, as near the middle as can be. */
+function free(a, b, c, label, taken) {
+  const half = 4 + 4.2 * label.length;
+  const spots = SHARES.map((t) => [0, 1].map((k) => (1 - t) ** 2 * a[k] + 2 * t * (1 - t) * b[k] + t ** 2 * c[k]));
+  const under = ([x, y]) =>
+    taken.reduce((sum, { at: [u, v], half: other }) => sum + Math.max(0, half + other - Math.abs(x - u)) * Math.max(0, 24 - Math.abs(y - v)), 0);
+  const at = spots.reduce((best, spot) => (under(spot) < under(best) ? spot : best)).map((value) => Number(value.toFixed(2)));
+  taken.push({ at, half });
+  return at;
+}
+
+/** Half the width of a vertex. */
+const halfOf = (link) => [...link].reduce((sum, letter) => sum + (letter === letter.toLowerCase() ? 4.4 : 6.2), 7);
 
 /** The links along a circuit, from one of its wheels' back to it. */
 function along(train, { ends, path }) {
@@ -66,7 +83,7 @@ function along(train, { ends, path }) {
 }
 
 function vertex(link, [x, y], framed) {
-  const half = 5 + 4.4 * link.length;
+  const half = halfOf(link);
   const shape = svg("rect", { x: x - half, y: y - 14, width: 2 * half, height: 28, rx: framed ? 0 : 14, class: "gd-link" });
   return svg("g", { "data-link": link }, shape, svg("text", { x, y: y + 5, "text-anchor": "middle", class: "gd-text" }, link));
 }

@@ -297,7 +297,7 @@ def _arbors(arbors: Sequence[ArborStrength]) -> Table:
         for each in arbors
     ]
     header = (
-        *("arbor", "material", "force (N)", "thrust (N)", "bending", "torsion", "both (MPa)", "pivot (MPa)"),
-        *("shoulder (MPa)", "safety"),
+        *("arbor", "material", "force (N)", "thrust", "bending", "torsion", "both (MPa)", "pivot", "shoulder"),
+        "safety",
     )
     return Table(header, rows)

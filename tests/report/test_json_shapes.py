@@ -229,7 +229,8 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory"]}
     assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
     methods = answers()["bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
-    assert methods["stage"]["enum"] == ["speeds", "transmission functions", "motion", "torques", "optimisation"]
+    stages = ["speeds", "variants", "transmission functions", "motion", "torques", "optimisation"]
+    assert methods["stage"]["enum"] == stages
     assert methods["unit"]["enum"] == ["relative", "pitches", "deg", "of power"]
     speeds = answers()["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
     assert speeds["additionalProperties"]["required"] == ["exact", "value"]

@@ -7,7 +7,7 @@ from functools import cache
 import geartrain
 from geartrain import GearTrain
 from geartrain.report import TrainReport, collect_report
-from geartrain.scene import Layout, Scene, lay_out, make_scene
+from geartrain.scene import Layout, Scene, build_scene, lay_out, make_scene
 
 
 def trains() -> list[str]:
@@ -37,3 +37,9 @@ def layout(name: str) -> Layout:
 def scene(name: str, state: str | None = None) -> Scene:
     """Its scene."""
     return make_scene(train(name), state, layout(name))
+
+
+@cache
+def built(name: str, state: str | None = None) -> Scene:
+    """Its scene as it is built, which pages show."""
+    return build_scene(train(name), state)

@@ -149,7 +149,7 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     from geartrain.report.html_page import to_html
     from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report
-    from geartrain.scene import make_scene
+    from geartrain.scene import build_scene
     from geartrain.viewer import page
 
     train = geartrain.load(name)
@@ -160,7 +160,7 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
         pictures.append(Picture(caption, render(figure, ".svg").decode("utf-8")))
         yield f"{kind}/{name}.png", render(figure, ".png", dots=72)
     yield f"report/{name}.html", to_html([describe_shared_page(collect_report(train), pictures)]).encode("utf-8")
-    scenes = [make_scene(train, state) for state in train.states or (None,)]
+    scenes = [build_scene(train, state) for state in train.states or (None,)]
     yield f"view/{name}.html", page(scenes).encode("utf-8")
     yield from _moving(name, next((each for each in scenes if each.movement.kind != "still"), scenes[0]))
 

@@ -133,14 +133,14 @@ def write_page(to: Sink, report: ReconstructionReport, evidence: Train, turning:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.report.html_page import to_html
     from geartrain.report.reconstruction_report import describe_reconstruction
-    from geartrain.scene import make_scene
+    from geartrain.scene import build_scene
     from geartrain.synthesis.reconstruction.candidate_train import candidate_train
     from geartrain.viewer import page
 
     with progress("scenes", len(turning), patience=_PATIENCE) as bar:
         scenes = []
         for rank, candidate in enumerate(turning, 1):
-            scenes.append(make_scene(GearTrain(candidate_train(evidence, candidate.arbor, f"rank {rank}"))))
+            scenes.append(build_scene(GearTrain(candidate_train(evidence, candidate.arbor, f"rank {rank}"))))
             bar.advance()
     viewer = page(scenes) if scenes else ""
     data = to_html([describe_reconstruction(report, viewer, len(scenes))]).encode("utf-8")

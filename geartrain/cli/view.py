@@ -91,7 +91,7 @@ def run(
 
     With --png, --gif or --mp4, or an output file called so, it is a picture or a film of one state.
     """
-    from geartrain.scene import make_scene
+    from geartrain.scene import build_scene
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
     film = FilmRequest.of({"png": png, "gif": gif, "mp4": mp4}, out, shot, teeth)
@@ -106,7 +106,7 @@ def run(
     taken = [(train, each) for train in trains for each in _states(train, state, first)]
     runs = [_played(train, each, request) if dynamics else None for train, each in taken]
     whole = shown == "page" and film is None
-    scenes = [make_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
+    scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
     if film is not None:
         film.write(scenes[0], to)
     else:

@@ -4,6 +4,7 @@ In: a train, a state, a layout; sizes to make it in. Out: places of axes and whe
 solids to be exported. Lengths are in mm and angles in rad; ratios are exact.
 
 lay_out      a `Layout`: axes and wheels in space, as declared or placed so that pitch circles touch
+build_scene  the same with its plates, pillars, arbors and dials, as they are made
 make_scene   a `Scene`: the train in one state, its angles from exact speeds and, of real teeth, equations (1) to (4) of
              docs/motion.md
 SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `ManufacturingSizes`
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneBody as SceneBody
     from geartrain.scene.elements import SceneCoupling as SceneCoupling
     from geartrain.scene.elements import ScenePair as ScenePair
+    from geartrain.scene.elements import ScenePart as ScenePart
     from geartrain.scene.elements import SceneWheel as SceneWheel
     from geartrain.scene.elements import ToothProfile as ToothProfile
     from geartrain.scene.error_steps import ErrorLawTable as ErrorLawTable
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from geartrain.scene.scene_run import LinkCourse as LinkCourse
     from geartrain.scene.scene_run import SceneContact as SceneContact
     from geartrain.scene.scene_run import SceneRun as SceneRun
+    from geartrain.scene.solids.built_scene import build_scene as build_scene
     from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes as ManufacturingSizes
     from geartrain.scene.solids.solid_assembly import SolidModel as SolidModel
     from geartrain.scene.solids.solid_part import SolidPart as SolidPart
@@ -69,12 +72,14 @@ __all__ = [
     "SceneEpoch",
     "SceneFormulas",
     "ScenePair",
+    "ScenePart",
     "SceneRun",
     "SceneWheel",
     "SolidModel",
     "SolidPart",
     "ToothProfile",
     "WheelPlace",
+    "build_scene",
     "lay_out",
     "make_scene",
 ]
@@ -100,12 +105,14 @@ _PLACES = {
     "SceneEpoch": "train_scene",
     "SceneFormulas": "count_formulas",
     "ScenePair": "elements",
+    "ScenePart": "elements",
     "SceneRun": "scene_run",
     "SceneWheel": "elements",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_assembly",
     "ToothProfile": "elements",
     "WheelPlace": "layout.train_layout",
+    "build_scene": "solids.built_scene",
     "lay_out": "layout.train_layout",
     "make_scene": "construction",
 }

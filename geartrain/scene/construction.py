@@ -11,7 +11,7 @@ from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.dial_pointers import find_dials, find_pointers
+from geartrain.scene.dial_pointers import find_dials, find_pointers, with_balls
 from geartrain.scene.formula_table import find_count_formulas
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
@@ -82,7 +82,7 @@ def make_scene(
     wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
     dials = find_dials(stage)
     notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
-    bodies, pointers = find_bodies(stage), find_pointers(stage, tuple(dials))
+    bodies, pointers = find_bodies(stage), find_pointers(stage, dials)
     pairs, couplings = find_pairs(stage, drawn.forms, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -101,7 +101,7 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        dials=tuple(dials.values()),
+        dials=with_balls(tuple(dials.values()), pointers),
         pointers=pointers,
         movement=moved.movement,
         sources=_sources(train),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -21,7 +22,8 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that look
 _APART = 0.96  # of the distance of two neighbours: what their radii may fill together
 _NESTED = 0.74  # radius over that of the dial around it
 _INNER = 0.55  # innermost turn of a spiral over the outermost
-_OUT, _OVER, _BALL = 0.5, 0.04, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own
+_OUT, _BALL = 0.5, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own radius
+_LOWEST, _STEP = 0.02, 0.018  # over the radius of its dial: how high hands stand where no pipe bears them
 _GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
 
 
@@ -52,20 +54,28 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             note=dial.note or "",
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
-    return {key: scales[key] if key in scales else _ball(stage, key, face, scales) for key, face in faces.items()}
+    return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
 
 
-def _ball(stage: SceneContext, key: Key, face: DialFace, scales: Mapping[Key, DialFace]) -> DialFace:
-    """A ball in the middle of the pointer of the link that bears it; on its own axis where that has no pointer."""
-    _, bearer, axis = key
-    read = [dial_key(stage, name) for name, each in stage.outputs.items() if (each.of or name) == bearer]
-    under = next((scales[own] for own in read if own is not None and own in scales), None)
-    if under is None:
-        place = stage.layout.axes.get(axis)
-        foot, reach = (0.0, 0.0, 0.0) if place is None else place.point, face.radius
-    else:
-        foot, reach = plus(under.centre, under.normal, _OVER * under.radius), under.radius
-    return replace(face, centre=plus(foot, face.normal, _OUT * reach), radius=_BALL * reach)
+def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
+    """A ball on its own axis, until the pointer that bears it is known."""
+    place = stage.layout.axes.get(key[2])
+    foot = (0.0, 0.0, 0.0) if place is None else place.point
+    return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
+
+
+def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
+    """The dials, balls put in the middle of the pointers of the links that bear them, if these have pointers."""
+    return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
+
+
+def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> DialFace:
+    for each in pointers:
+        if each.body == face.body and each.dial is not None and dials[each.dial].look == "scale":
+            under = dials[each.dial]
+            foot = plus(under.centre, under.normal, each.level)
+            return replace(face, centre=plus(foot, face.normal, _OUT * under.radius), radius=_BALL * under.radius)
+    return face
 
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:
@@ -138,10 +148,18 @@ def _rounded(u: Vector) -> Vector:
     return round(u[0], 6), round(u[1], 6), round(u[2], 6)  # equal but for rounding is equal
 
 
-def find_pointers(stage: SceneContext, dials: Sequence[Key]) -> tuple[Pointer, ...]:
-    """A pointer for every output of the state, in the order declared."""
-    paths = find_dependence(stage)
-    return tuple(_pointer(stage, name, dials, paths.get(name, ())) for name in stage.outputs)
+def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
+    """A pointer for every output of the state, in the order declared; hands of one dial stand over each other."""
+    paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
+    found = []
+    for name in stage.outputs:
+        pointer = _pointer(stage, name, keys, paths.get(name, ()))
+        if pointer.dial is not None:
+            face = dials[keys[pointer.dial]]
+            pointer = replace(pointer, level=face.radius * (_LOWEST + _STEP * taken[face.id]))
+            taken[face.id] += 1
+        found.append(pointer)
+    return tuple(found)
 
 
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:

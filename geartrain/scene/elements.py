@@ -277,3 +277,41 @@ class SceneShiftElement:
     bodies: Sequence[int]
     closed: bool
     text: str
+
+
+@dataclass(frozen=True, slots=True)
+class ScenePart:
+    """What holds wheels, as it is made: a turned part, or a flat one; about its own z, its middle at `place`.
+
+    Attributes
+    ----------
+    body : int
+        Index of the body to which it belongs.
+    name, kind : str
+        Of a part list: arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, pin, plate; frame for a plate of
+        the frame, carrier for one that turns with a carrier or a ring, dial for one of dials.
+    place : tuple of float
+        Where it stands in the zero pose [mm].
+    direction, across : tuple of float
+        Unit vectors: its z and its x.
+    bands : sequence of (float, float, float, float)
+        Of a turned part, from below: from and to along z, outside and inside radius [mm].
+    outlines : sequence of sequence of float
+        Of a flat part: its edge, then its holes, as x and y in turn [mm].
+    height : float
+        Thickness of a flat part, half of it to either side [mm].
+
+    See Also
+    --------
+    build_scene : gives it, in `Scene.parts`.
+    """
+
+    body: int
+    name: str
+    kind: str
+    place: Vector
+    direction: Vector
+    across: Vector
+    bands: Sequence[tuple[float, float, float, float]] = ()
+    outlines: Sequence[Sequence[float]] = ()
+    height: float = 0.0

@@ -19,7 +19,15 @@ from typing import Any, Literal
 from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.count_formulas import SceneFormulas
-from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneShiftElement, SceneWheel, ToothProfile
+from geartrain.scene.elements import (
+    SceneBody,
+    SceneCoupling,
+    ScenePair,
+    ScenePart,
+    SceneShiftElement,
+    SceneWheel,
+    ToothProfile,
+)
 from geartrain.scene.error_steps import Movement
 from geartrain.scene.scene_run import SceneRun
 
@@ -51,6 +59,8 @@ class DialFace:
         ball, `normal` the direction of the axis about which it turns, through its middle.
     note : str
         As declared.
+    plate : float
+        Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made.
 
     See Also
     --------
@@ -69,6 +79,7 @@ class DialFace:
     divisions: int
     look: Literal["scale", "ball"] = "scale"
     note: str = ""
+    plate: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +163,10 @@ class Pointer:
         As declared.
     targets : sequence of PointerTarget
         What it should show, in the order declared; none where nothing is driven, or it is not determined.
+    level : float
+        How high the middle of its hand stands over its dial [mm].
+    seat : float
+        Diameter of the arbor or pipe on whose end the hand sits [mm]; 0 where none is made.
 
     See Also
     --------
@@ -172,6 +187,8 @@ class Pointer:
     wheels: Sequence[int]
     note: str = ""
     targets: Sequence[PointerTarget] = ()
+    level: float = 0.0
+    seat: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,6 +246,8 @@ class Scene:
         False where no output is declared, and links stand for outputs.
     run : SceneRun or None
         The simulated motion through time, which is then played; None where the train is turned by its crank.
+    parts : sequence of ScenePart
+        Plates, pillars, arbors, pipes and all else that holds the wheels, of a train as built; else none.
 
     See Also
     --------
@@ -263,6 +282,7 @@ class Scene:
     formulas: SceneFormulas | None = None
     asks: bool = True
     run: SceneRun | None = None
+    parts: Sequence[ScenePart] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 from urllib.parse import quote
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.scene import Scene, make_scene
+from geartrain.scene import Scene, build_scene
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -67,8 +67,8 @@ def page(
     Examples
     --------
     >>> import geartrain
-    >>> from geartrain.scene import make_scene
-    >>> html = page([make_scene(geartrain.load("planetary-24-18-60"))])
+    >>> from geartrain.scene import build_scene
+    >>> html = page([build_scene(geartrain.load("planetary-24-18-60"))])
     >>> "planetary-24-18-60" in html, "connect-src" in html, 'src="http' in html
     (True, True, False)
     """
@@ -110,7 +110,7 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
     """
     return page(
         [
-            make_scene(train, each, formulas=True)
+            build_scene(train, each, formulas=True)
             for each in ((state,) if state is not None else train.states or (None,))
         ]
     )

@@ -101,7 +101,7 @@ def asked(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterato
     def show(name: str) -> Shown:
         if name not in pages:
             path = tmp_path_factory.mktemp(name) / "page.html"
-            path.write_text(page([shipped.scene(name)], teeth=False), encoding="utf-8")
+            path.write_text(page([shipped.built(name)], teeth=False), encoding="utf-8")
             pages[name] = _opened(context.new_page(), path)
         return pages[name]
 

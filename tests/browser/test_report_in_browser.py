@@ -13,7 +13,7 @@ from playwright.sync_api import Browser, Locator, Page
 from geartrain import load
 from geartrain.report import Document, Picture, Section, Table, collect_report, describe_shared_page, to_html
 from geartrain.report.document import Branch, PageExtras, SceneText
-from geartrain.scene import make_scene
+from geartrain.scene import build_scene
 from geartrain.viewer import page as viewer_page
 
 EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
@@ -209,7 +209,7 @@ def test_the_train_turns_in_its_frame_within_the_policy_of_the_page(open_report:
 
 def test_a_click_on_a_rank_shows_its_train_turning(open_report: Opened) -> None:
     trains = [shipped.train(name) for name in ("planetary-24-18-60", "worm", "bevel-differential")]
-    viewer = viewer_page([make_scene(train) for train in trains])
+    viewer = viewer_page([build_scene(train) for train in trains])
     cells = [[SceneText(str(rank), rank), EVIL] for rank in (1, 2, 3)]
     sections = [Section("The best", (), [Table(("rank", "name"), cells)], [Branch(SceneText("the third", 3))])]
     page, wrong = open_report(to_html([Document("Trains", (), sections, PageExtras(viewer=viewer))]))

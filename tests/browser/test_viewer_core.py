@@ -18,7 +18,7 @@ from matplotlib.image import imread, imsave
 from viewing import wait
 
 from geartrain import load
-from geartrain.scene import make_scene
+from geartrain.scene import build_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
@@ -261,7 +261,7 @@ def test_a_tap_on_a_wheel_tells_which_one(open_page: OpenPage, tmp_path: Path, a
     ],
 )
 def test_trains_that_cannot_turn_are_shown_standing(open_page: OpenPage, tmp_path: Path, rest: str, kind: str) -> None:
-    scene = make_scene(load(THREE + rest))
+    scene = build_scene(load(THREE + rest))
     assert scene.verdict["kind"] == kind
     path = tmp_path / "page.html"
     path.write_text(page([scene]), encoding="utf-8")

@@ -12,7 +12,7 @@ from viewing import DESK, tab, wait
 
 from geartrain import load
 from geartrain.dynamics import TimeRun
-from geartrain.scene import Scene, make_scene
+from geartrain.scene import Scene, build_scene
 from geartrain.viewer import page
 
 Played = tuple[TimeRun, Scene]
@@ -23,7 +23,7 @@ def played() -> Played:
     """Half a turn of the heavy train to the Moon, where teeth part and strike."""
     train = shipped.train("moon-triangular-inertia")
     run = train.dynamics(rate="1 turn/s", turns=0.25, skip=0.25, steps=3000, restitution=0.3, samples=10**6, fast=False)
-    return run, make_scene(train, run=run)
+    return run, build_scene(train, run=run)
 
 
 @pytest.fixture
@@ -181,7 +181,7 @@ def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(
     train = load(PLANETARY)
     run = train.dynamics(rate="1 turn/s", turns=1, skip=0, steps=1000, fast=False)
     path = tmp_path / "run.html"
-    path.write_text(page([make_scene(train, run=run)], teeth=False), encoding="utf-8")
+    path.write_text(page([build_scene(train, run=run)], teeth=False), encoding="utf-8")
     shown = open_page(path, **DESK)
     rows = shown.run(
         """() => {

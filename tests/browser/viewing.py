@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import shipped
 
 from geartrain import load
-from geartrain.scene import make_scene
+from geartrain.scene import build_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
@@ -51,8 +51,8 @@ def _scenes(train: str) -> list[Scene]:
     """Of a declaration as text, or of a shipped train, whose scenes other tests may have made."""
     if "\n" in train:
         declared = load(train)
-        return [make_scene(declared, state) for state in declared.states or (None,)]
-    return [shipped.scene(train, state) for state in shipped.train(train).states or (None,)]
+        return [build_scene(declared, state) for state in declared.states or (None,)]
+    return [shipped.built(train, state) for state in shipped.train(train).states or (None,)]
 
 
 def tab(shown: Shown, name: str) -> None:

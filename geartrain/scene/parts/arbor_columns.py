@@ -18,6 +18,7 @@ HEAD_OVER = 1.0  # mm that a head is wider than its stud, all round
 APART = 0.2  # mm between a column and a wheel of another axis
 HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what turns before its head
 INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
+HAND = 1.6  # mm that an arbor stands out beyond the pipe round it where both bear hands
 _LEAST = 0.8  # mm: the thinnest arbor
 _USUAL = 2 / 3  # of the root radius of the smallest wheel: the diameter of an arbor
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way
@@ -119,9 +120,9 @@ class ColumnProblem:
     pivot: float | None = None
     head: float = SHAKE + HEAD
 
-    def columns(self, places: FramePlaces) -> list[AxisColumn]:
+    def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
         """Ways to bear the axis, the better first; each says what is in its way."""
-        return [self._thinned(bearing, places) for bearing in self._bearings(places)]
+        return (self._thinned(bearing, places) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
         """Borne in a bridge alone, between two collars."""
@@ -166,7 +167,7 @@ class ColumnProblem:
         order, tangled = nested(links) or tuple(links), clash(links)
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
         core = self._core(order, stud)
-        members = tuple(self._members(order, core, stud))
+        members = self._stepped(list(self._members(order, core, stud)))
         low = min((each.low for each in members), default=places.back[1])
         high = max((each.high for each in members), default=places.front[0])
         head = self.head
@@ -183,6 +184,16 @@ class ColumnProblem:
         pivot = core if bearing is AxisBearing.BRIDGE else pivot
         column = AxisColumn(self.axis, self.at, bearing, core, pivot, low, high, members, (), tangled)
         return with_hits(column, self.others)
+
+    def _stepped(self, members: Sequence[ColumnMember]) -> tuple[ColumnMember, ...]:
+        """What goes out to hands goes the further out the further inside it is."""
+        found, steps = [], [0, 0]
+        for each in reversed(members):
+            below, above = self.ends.get(each.link, (False, False))
+            low, high = each.low - HAND * steps[0] * below, each.high + HAND * steps[1] * above
+            found.append(replace(each, low=low, high=high))
+            steps = [steps[0] + below, steps[1] + above]
+        return tuple(reversed(found))
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
         """Diameter of the core: as given, or so that every pipe fits into the roots of its smallest wheel."""
@@ -225,8 +236,10 @@ def with_hits(column: AxisColumn, others: Iterable[StackDisc]) -> AxisColumn:
 
 def _hits(column: AxisColumn, others: Iterable[StackDisc]) -> Iterator[tuple[StackDisc, float]]:
     """Discs of other axes at heights of the column that leave too little room."""
+    widest = max([column.core, *(each.outer for each in column.members)]) / 2
     for disc in others:
-        if disc.axis != column.axis and (radius := column.radius(disc.low, disc.high)):
-            room = disc.room_for(column.at, radius)
-            if room < APART:
-                yield disc, room
+        # most discs are too far off for any part of the column, and its radius at their height is not asked for
+        if disc.axis == column.axis or (free := disc.room_for(column.at, 0.0)) - widest >= APART:
+            continue
+        if (radius := column.radius(disc.low, disc.high)) and free - radius < APART:
+            yield disc, free - radius

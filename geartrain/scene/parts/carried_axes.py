@@ -146,7 +146,7 @@ def _carried_column(
     faces = seat.low, seat.high
     others = _others(axis, seat, discs)
     problem = ColumnProblem(axis.label, axis.at, axis.discs, others, ends, faces, "", process, core, head=head)
-    return problem.columns(FramePlaces(faces, faces))[0]
+    return next(problem.columns(FramePlaces(faces, faces)))
 
 
 def _others(axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc]) -> tuple[StackDisc, ...]:

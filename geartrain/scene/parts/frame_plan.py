@@ -18,7 +18,7 @@ from geartrain.scene.parts.carried_axes import (
     ring_seats,
 )
 from geartrain.scene.parts.frame_stack import FrameStack
-from geartrain.scene.parts.plate_places import PlateChoice, best_column, obstacles, plate_choices, with_discs
+from geartrain.scene.parts.plate_places import PlateChoice, best_column, best_places, obstacles, with_discs
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
 from geartrain.scene.parts.stack_heights import BEHIND, StackHeights, stack_up
@@ -59,11 +59,7 @@ class FramePlan:
     def choice(self) -> PlateChoice:
         """Places of plates with the fewest obstacles, then the fewest studs."""
         axes = list(self._axes(self.stack.discs, self._slabs))
-        asked = axes, self.stack.discs, list(self._seats()), self._gaps, self._blocked, self._cut
-        best = min(plate_choices(*asked), key=lambda choice: choice.cost)
-        if not best.cost[0]:
-            return best
-        return min([best, *plate_choices(*asked, inside=True)], key=lambda choice: choice.cost)
+        return best_places(axes, self.stack.discs, list(self._seats()), self._gaps, self._blocked, self._cut)
 
     def _axes(self, discs: Sequence[StackDisc], taken: Sequence[tuple[float, float]]) -> Iterator[ColumnProblem]:
         span = taken[0][0] - _DIAL, taken[-1][1] + _DIAL

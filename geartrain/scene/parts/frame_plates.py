@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import cos, dist, pi, sin
 
@@ -14,12 +14,13 @@ from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnM
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.sleeves import sleeves
-from geartrain.scene.parts.stack_discs import Point, StackDisc
+from geartrain.scene.parts.stack_discs import Point, StackDisc, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour
 
-PILLAR = 4.0  # mm: radius of a pillar
+_PILLAR_MOST, _PILLAR_LEAST = 4.0, 1.5  # mm: radius of a pillar
+_PILLAR_PART = 0.04  # of the width of all that turns between the plates
 _TENON = 0.6  # of the radius of a pillar or a post: what stands in a plate
 _LAND = 3.0  # mm of plate round a hole
 _POSTS, _TRIED = 3, 72
@@ -74,15 +75,34 @@ class FlatPlate:
 
 @dataclass(frozen=True)
 class FramePlates:
-    """Plates, pillars and posts of a plan."""
+    """Plates, pillars and posts of a plan.
+
+    feet   of dials, each in one of the plates
+    tabs   points that a plate reaches out to, by the name of its side: there brackets stand
+    """
 
     plan: FramePlan
+    feet: tuple[TurnedPart, ...] = ()
+    tabs: Mapping[str, Sequence[Point]] = field(default_factory=dict)
+
+    @cached_property
+    def pillar(self) -> float:
+        """Radius of a pillar (mm)."""
+        turning = [(each.at, each.radius(*self._between)) for each in self.plan.columns] + self.circles
+        low, high = (
+            [way(at[k] + side * reach for at, reach in turning) for k in (0, 1)] for way, side in ((min, -1), (max, 1))
+        )
+        return round(min(_PILLAR_MOST, max(_PILLAR_LEAST, _PILLAR_PART * dist(low, high))), 2)
+
+    @property
+    def _between(self) -> tuple[float, float]:
+        return self.plan.places.back[1], self.plan.places.front[0]
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
         """What turns between the plates, as circles that hold it wherever it is carried."""
         low, high = self.plan.places.back[0], self.plan.places.front[1]
-        return [_swept(disc) for disc in self.plan.discs if low < disc.middle < high]
+        return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
     def _across(self, low: float, high: float) -> list[tuple[Point, float]]:
         """The same of wheels that do not stand upright."""
@@ -95,10 +115,10 @@ class FramePlates:
         places = self.plan.places
         across = self._across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
-        found = pillar_places(axes, self.circles, PILLAR)
-        if all(clear_of(at, across) > PILLAR for at in found):  # plates are the smaller the nearer pillars are
+        found = pillar_places(axes, self.circles, self.pillar)
+        if all(clear_of(at, across) > self.pillar for at in found):  # plates are the smaller the nearer pillars are
             return found
-        return pillar_places(axes, [*self.circles, *across], PILLAR)
+        return pillar_places(axes, [*self.circles, *across], self.pillar)
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:
@@ -107,21 +127,21 @@ class FramePlates:
         if bridge is None:
             return []
         low, high = min(bridge[0], self.plan.bridged_plate[1]), max(bridge[0], self.plan.bridged_plate[1])
-        circles = [_swept(disc) for disc in self.plan.discs if low < disc.middle < high] + self._across(low, high)
+        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high] + self._across(low, high)
         circles += [(column.at, column.radius(low, high)) for column in self.plan.columns]
-        circles += [(at, PILLAR) for at in self.pillars]
-        return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, PILLAR)
+        circles += [(at, self.pillar) for at in self.pillars]
+        return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)
 
     def plates(self) -> Iterator[FlatPlate]:
         """Both plates of the frame, then those that turn."""
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
-            points = [*self.pillars, *(hole.at for hole in holes)]
-            edge = around(points, PILLAR + _LAND)
+            points = [*self.pillars, *(hole.at for hole in holes), *self.tabs.get(side, ())]
+            edge = around(points, self.pillar + _LAND)
             yield FlatPlate(self.plan.stack.frame, f"{self.plan.stack.frame} {side} plate", edge, holes, *faces)
         if self.plan.bridge is not None:
             holes = tuple(self._frame_holes(self.plan.bridge))
-            edge = around([hole.at for hole in holes], PILLAR + _LAND)
+            edge = around([hole.at for hole in holes], self.pillar + _LAND)
             yield FlatPlate(self.plan.stack.frame, f"{self.plan.stack.frame} bridge", edge, holes, *self.plan.bridge)
         for plate in self.plan.turning:
             low, high = self.plan.heights.plates[plate.disc.name]
@@ -149,10 +169,10 @@ class FramePlates:
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
             pillars = [*pillars, *self.bridge_pillars]
-        reaching = [post for post in self.posts if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]]
+        reaching = [post for post in (*self.posts, *self.feet) if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]]
         return [
-            *(Hole("pillar", at, 2 * _TENON * PILLAR + press) for at in pillars),
-            *(Hole("post", post.at, 2 * post.bands[0].radius + press) for post in reaching),
+            *(Hole("pillar", at, 2 * _TENON * self.pillar + press) for at in pillars),
+            *(Hole(post.kind, post.at, 2 * post.bands[0].radius + press) for post in reaching),
         ]
 
     def _bearings(self, faces: tuple[float, float]) -> list[Hole]:
@@ -221,11 +241,12 @@ class FramePlates:
             pairs.append(("bridge pillar", self.bridge_pillars, below, above))
         for name, spots, below, above in pairs:
             for number, at in enumerate(spots, 1):
-                ends = Band(*below, _TENON * PILLAR), Band(*above, _TENON * PILLAR)
-                bands = ends[0], Band(below[1], above[0], PILLAR), ends[1]
+                ends = Band(*below, _TENON * self.pillar), Band(*above, _TENON * self.pillar)
+                bands = ends[0], Band(below[1], above[0], self.pillar), ends[1]
                 joint = f"in both plates, {plan.process.joint}"
                 yield TurnedPart(plan.stack.frame, f"{name} {number}", "pillar", at, bands, joint)
         yield from self.posts
+        yield from self.feet
 
     @cached_property
     def posts(self) -> tuple[TurnedPart, ...]:
@@ -265,7 +286,7 @@ class FramePlates:
         """Three places on a rim that no axis, and nothing between it and the plate, comes near to; evenly if free."""
         low, high = sorted((sum(plate) / 2, ring.middle))
         between = [disc for disc in self.plan.discs if low < disc.middle < high and disc.name != ring.name]
-        circles = [_swept(disc) for disc in between]
+        circles = [swept_circle(disc) for disc in between]
         reach = min(plate[0], ring.low), max(plate[1], ring.high)
         circles += [(column.at, column.radius(*reach)) for column in self.plan.columns]
         tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
@@ -295,16 +316,10 @@ class FramePlates:
             for disc in (each for each in inside if low < each.middle < high and each.hub):
                 if (
                     post.link == self.plan.stack.frame
-                    and (room := clear_of(post.at, [_swept(disc)]) - post.diameter / 2) < 0
+                    and (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0
                 ):
                     what = f"{post.name} has no way past '{disc.name}'"
                     yield Problem(what, f"they overlap by {-room:.3f} mm", "hold the ring by a bracket from its side")
-
-
-def _swept(disc: StackDisc) -> tuple[Point, float]:
-    if disc.carrier is None:
-        return disc.at, disc.outer
-    return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
 
 
 def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:

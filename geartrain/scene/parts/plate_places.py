@@ -6,7 +6,7 @@ Of the places with the fewest obstacles the one with the fewest studs and arbors
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, product
 
@@ -45,34 +45,54 @@ class PlateChoice:
         return _PASSING * len(passing)
 
 
-def plate_choices(
+def best_places(
     axes: Sequence[ColumnProblem],
     discs: Sequence[StackDisc],
     seats: Sequence[Sequence[CarrierSeat]],
     slab_gaps: Sequence[float],
     blocked: Callable[[Sequence[CarrierSeat]], int],
     cut: Callable[[float], int],
-    inside: bool = False,
-) -> Iterator[PlateChoice]:
-    """Places of the plates with every way to seat carriers: one plate at an end of the stack, or both `inside` it.
+) -> PlateChoice:
+    """The best places of the plates with every way to seat carriers, by branch and bound.
+
+    One plate stands at an end of the stack; only if something is in the way then, both may stand inside it.
 
     blocked   counts the obstacles on axes that carriers bear
     cut       counts wheels across that a plate at some height would cut
     """
     count = len(slab_gaps)
+    best: PlateChoice | None = None
+    crossed = [cut(height) for height in slab_gaps]
     pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
+    pairs.sort(key=lambda pair: pair[0] > 0 and pair[1] < count - 1)
+    ways = []
     for chosen in islice(product(*seats), _TRIED):
         every = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
-        problems = [with_discs(axis, every) for axis in axes]
-        bad = blocked(chosen)
-        for low, high in pairs:
-            if (low > 0 and high < count - 1) != inside:
-                continue
-            places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
-            columns = tuple(best_column(problem.columns(places)) for problem in problems)
-            outside = (high < count - 1) - (low > 0)
-            crossed = cut(slab_gaps[low]) + cut(slab_gaps[high])
-            yield PlateChoice(places, chosen, columns, outside, bad + crossed)
+        ways.append((chosen, [with_discs(axis, every) for axis in axes], blocked(chosen)))
+    for inside in (False, True):
+        for chosen, problems, bad in ways:
+            for low, high in pairs:
+                if (low > 0 and high < count - 1) == inside:
+                    places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
+                    start = PlateChoice(
+                        places, chosen, (), (high < count - 1) - (low > 0), bad + crossed[low] + crossed[high]
+                    )
+                    best = _extended(start, problems, best) or best
+        if best is not None and not best.cost[0]:
+            break
+    assert best is not None
+    return best
+
+
+def _extended(choice: PlateChoice, problems: Sequence[ColumnProblem], best: PlateChoice | None) -> PlateChoice | None:
+    """The choice with the best column of every axis; None as soon as it cannot become better than the best one."""
+    if best is not None and choice.cost >= best.cost:
+        return None
+    for problem in problems:
+        choice = replace(choice, columns=(*choice.columns, best_column(problem.columns(choice.places))))
+        if best is not None and choice.cost >= best.cost:
+            return None
+    return choice
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
@@ -87,6 +107,12 @@ def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem
     return replace(axis, discs=own, others=others)
 
 
-def best_column(columns: Sequence[AxisColumn]) -> AxisColumn:
-    """The first without an obstacle, else the first."""
-    return next((each for each in columns if not each.hit and not each.tangled), columns[0])
+def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
+    """The first without an obstacle, else the first; no more of them are made than are looked at."""
+    first = None
+    for each in columns:
+        if not each.hit and not each.tangled:
+            return each
+        first = first or each
+    assert first is not None
+    return first

@@ -81,6 +81,13 @@ def gaps(taken: Sequence[tuple[float, float]]) -> list[float]:
     return [taken[0][0] - EDGE, *between, taken[-1][1] + EDGE]
 
 
+def swept_circle(disc: StackDisc) -> tuple[Point, float]:
+    """The circle that holds a disc wherever it is carried."""
+    if disc.carrier is None:
+        return disc.at, disc.outer
+    return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
+
+
 def by_link(discs: Iterable[StackDisc]) -> Mapping[str, list[StackDisc]]:
     """Discs of each link, in order."""
     found: dict[str, list[StackDisc]] = {}

@@ -77,23 +77,27 @@ def _bevel(wheel: SceneWheel, profile: ToothProfile) -> Solid:
 
 
 def _crown(wheel: SceneWheel, profile: ToothProfile) -> Solid:
-    """A hoop whose teeth stand along the axis as those of the profile stand outwards."""
+    """A disc with a rim whose teeth stand along the axis as those of the profile stand outwards."""
     r, turn = _polar(wheel, profile)
     count, side = len(r), wheel.facing or 1
     rise = side * (r - wheel.radius)
-    base = -side * max(wheel.thickness, 2 * wheel.module)
+    back = max(wheel.thickness, 2 * wheel.module)
+    base, web = -side * back, -side * max(0.5 * back, 1.3 * wheel.module)
     rows = []
-    for radius, height in ((_WEB, base), (1.0, base), (1.0, rise), (_WEB, rise)):
+    for radius, height in ((1.0, base), (1.0, rise), (_WEB, rise), (_WEB, web)):
         edge = wheel.radius * radius
         rows.append(np.column_stack([edge * np.cos(turn), edge * np.sin(turn), np.broadcast_to(height, count)]))
-    faces = []
     here, after = np.arange(count), (np.arange(count) + 1) % count
-    for k in range(4):
-        low, high = k * count, (k + 1) % 4 * count
+    faces = []
+    for low, high in pairwise(range(0, 4 * count, count)):
         faces.append(np.stack([low + here, low + after, high + after], axis=1))
         faces.append(np.stack([low + here, high + after, high + here], axis=1))
+    outer, inner = 4 * count, 4 * count + 1  # middles of the back and of the web
+    faces.append(np.stack([after, here, np.full(count, outer)], axis=1))
+    faces.append(np.stack([3 * count + here, 3 * count + after, np.full(count, inner)], axis=1))
     found = np.concatenate(faces)
-    return Solid(np.concatenate(rows), found if side > 0 else found[:, ::-1])
+    vertices = np.concatenate([*rows, [[0.0, 0.0, base], [0.0, 0.0, web]]])
+    return Solid(vertices, found if side > 0 else found[:, ::-1])
 
 
 def _worm(wheel: SceneWheel, profile: ToothProfile, hand: int) -> Solid:

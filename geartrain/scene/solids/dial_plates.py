@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from math import dist, hypot
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import cos, dist, hypot, pi, sin
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.vectors import dot
+import numpy as np
+
+from geartrain.numerics.vectors import cross, dot
 from geartrain.scene.dial_scale import DialScale, clock_point
 from geartrain.scene.layout.swept_overlap import segment_distance
+from geartrain.scene.parts.dial_feet import RADIUS as FOOT
+from geartrain.scene.parts.dial_feet import dial_feet
 from geartrain.scene.parts.stack_discs import Point
+from geartrain.scene.solids.bearing_plates import around
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.arbor_columns import AxisColumn
-    from geartrain.scene.parts.frame_plates import FramePlates
+    from geartrain.scene.parts.frame_plan import FramePlan
+    from geartrain.scene.parts.turned_parts import TurnedPart
     from geartrain.scene.train_scene import DialFace, Scene
 
 THICKNESS = 1.5
@@ -27,54 +33,38 @@ _ROOM = 0.5  # mm round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
 _SCALE, _NUMBER, _TICK, _LETTER = 0.84, 1.075, 0.05, 0.055  # of the radius of a dial
 _SMALLEST = 1.2  # mm: letters
+_LAND = 1.0  # mm of plate round the end of a foot
+_SIDES = 48  # points of a circle whose convex hull is an edge
 _SAME = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class DialPlate:
-    """A disc with the scales of all dials about one axis, on one side.
+class DialCircle:
+    """The scales of all dials about one axis.
 
     Attributes
     ----------
-    name : str
-        "dial", and the names of the dials.
     at : tuple of float
         Its middle, in the coordinates of the stack [mm].
-    low, high : float
-        Its faces along the plates' normal [mm].
     radius, hole : float
-        Of the disc; diameter of the hole for the arbors of its pointers [mm].
+        Of all that is engraved; diameter of the hole for the arbors of its pointers [mm].
     scales : mapping of str to DialScale
         By dial, radii in mm.
     """
 
-    name: str
     at: Point
-    low: float
-    high: float
     radius: float
     hole: float
     scales: dict[str, DialScale]
 
-    @property
-    def contours(self) -> tuple[Contour, ...]:
-        """Its edge and its hole, about its middle."""
-        return Contour.circle(self.radius), Contour.circle(self.hole / 2)
+    def lines(self) -> Iterator[Floats]:
+        """What is engraved of circles, spirals and borders of cells, about its middle."""
+        for scale in self.scales.values():
+            yield scale.line()
+            yield from (np.array(mark) for mark in scale.marks(_TICK * self.radius))
 
-    def drawing(self) -> FlatDrawing:
-        """As its reader sees it, zero marks above; what is engraved are scales, numbers and names."""
-        title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, as its reader sees it; "
-        title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in self.scales.items())
-        lines = tuple(line for scale in self.scales.values() for line in self._lines(scale))
-        return FlatDrawing(title, self.contours, marks=tuple(self._marks()), lines=lines)
-
-    def _lines(self, scale: DialScale) -> Iterator[Floats]:
-        import numpy as np
-
-        yield scale.line()
-        yield from (np.array(mark) for mark in scale.marks(_TICK * self.radius))
-
-    def _marks(self) -> Iterator[EngravedText]:
+    def marks(self) -> Iterator[EngravedText]:
+        """Numbers and names, about its middle."""
         height = max(_LETTER * self.radius, _SMALLEST)
         for depth, (name, scale) in enumerate(self.scales.items()):
             band = (scale.outer - scale.inner) / scale.turns  # of one turn of a spiral: marks take its upper part
@@ -88,17 +78,94 @@ class DialPlate:
             yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)
 
 
-def dial_plates(scene: Scene, frame: FramePlates, thickness: float = THICKNESS) -> list[DialPlate]:
+@dataclass(frozen=True, slots=True)
+class DialPlate:
+    """A plate with all dials of one side.
+
+    Attributes
+    ----------
+    name : str
+        "dial", and the names of the dials.
+    low, high : float
+        Its faces along the plates' normal [mm].
+    circles : tuple of DialCircle
+        Its dials, by axis.
+    feet : tuple of TurnedPart
+        Pins on which it stands before a plate of the frame.
+    right, up : tuple of float
+        Unit vectors of one who reads it, in the coordinates of the stack.
+    """
+
+    name: str
+    low: float
+    high: float
+    circles: tuple[DialCircle, ...]
+    feet: tuple[TurnedPart, ...]
+    right: Point
+    up: Point
+
+    @property
+    def at(self) -> Point:
+        """What its coordinates are counted from (mm): the middle of its first dial."""
+        return self.circles[0].at
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """Its edge, and holes for pointers and feet, in the coordinates of the stack, counted from `at`."""
+        return self._contours(self._own)
+
+    def _own(self, point: Point) -> Point:
+        return point[0] - self.at[0], point[1] - self.at[1]
+
+    def _seen(self, point: Point) -> Point:
+        """A point of the stack as its reader has it, right and up."""
+        x, y = self._own(point)
+        return x * self.right[0] + y * self.right[1], x * self.up[0] + y * self.up[1]
+
+    def _contours(self, place: Callable[[Point], Point]) -> tuple[Contour, ...]:
+        holes = [(each.at, each.hole / 2) for each in self.circles]
+        holes += [(each.at, each.bands[0].radius) for each in self.feet]
+        return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
+
+    def _edge(self, place: Callable[[Point], Point]) -> Contour:
+        """A disc where that holds all, else the convex curve about all dials and feet."""
+        first, wide = self.circles[0], FOOT + _LAND
+        if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
+            return Contour.circle(first.radius, place(first.at))
+        turns = [2 * pi * k / _SIDES for k in range(_SIDES)]
+        rims = [
+            (each.at[0] + (each.radius - wide) * cos(turn), each.at[1] + (each.radius - wide) * sin(turn))
+            for each in self.circles
+            for turn in turns
+        ]
+        return around([place(point) for point in (*rims, *(foot.at for foot in self.feet))], wide)
+
+    def drawing(self) -> FlatDrawing:
+        """As its reader sees it, zero marks above; what is engraved are scales, numbers and names."""
+        title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, as its reader sees it; "
+        scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
+        title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in scales.items())
+        marks: list[EngravedText] = []
+        lines: list[Floats] = []
+        for circle in self.circles:
+            x, y = self._seen(circle.at)
+            marks += (replace(each, at=(each.at[0] + x, each.at[1] + y)) for each in circle.marks())
+            lines += (line + np.array([x, y]) for line in circle.lines())
+        return FlatDrawing(title, self._contours(self._seen), marks=tuple(marks), lines=tuple(lines))
+
+
+def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
     """Of all dials that stand on the frame, across its normal, and that the arbor of a pointer reaches."""
-    stack, columns = frame.plan.stack, {column.axis: column for column in frame.plan.columns}
+    stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     assert stack.normal is not None
-    groups: dict[tuple[str, int], list[DialFace]] = {}
+    groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:
         side = dot(face.normal, stack.normal)
         axis = next((label for label, column in columns.items() if _same(column.at, stack.flat(face.centre))), None)
-        if scene.bodies[face.body].id == stack.frame and axis is not None and abs(abs(side) - 1) < _SAME:
-            groups.setdefault((axis, 1 if side > 0 else -1), []).append(face)
-    found = (_plate(columns[axis], side, faces, frame, thickness) for (axis, side), faces in groups.items())
+        upright = face.look == "scale" and abs(abs(side) - 1) < _SAME
+        if scene.bodies[face.body].id == stack.frame and axis is not None and upright:
+            groups.setdefault(1 if side > 0 else -1, {}).setdefault(axis, []).append(face)
+    found = (_plate(side, by_axis, columns, plan, thickness) for side, by_axis in groups.items())
     return [plate for plate in found if plate is not None]
 
 
@@ -106,11 +173,11 @@ def _same(one: Point, other: Point) -> bool:
     return dist(one, other) < _SAME
 
 
-def _across(at: Point, faces: tuple[float, float], frame: FramePlates) -> Iterator[float]:
+def _across(at: Point, faces: tuple[float, float], plan: FramePlan) -> Iterator[float]:
     """How far from an axis wheels stand that reach between two heights and do not stand upright."""
-    stack, layout = frame.plan.stack, frame.plan.layout
+    stack, layout = plan.stack, plan.layout
     assert stack.normal is not None
-    upright = {disc.name for disc in frame.plan.discs}
+    upright = {disc.name for disc in plan.discs}
     for place in layout.wheels.values():
         height, outer = dot(place.centre, stack.normal), place.radius + place.module
         if place.wheel not in upright and height - outer < faces[1] and faces[0] < height + outer:
@@ -121,21 +188,39 @@ def _across(at: Point, faces: tuple[float, float], frame: FramePlates) -> Iterat
 
 
 def _plate(
-    column: AxisColumn, side: int, faces: Sequence[DialFace], frame: FramePlates, thickness: float
+    side: int,
+    by_axis: Mapping[str, Sequence[DialFace]],
+    columns: Mapping[str, AxisColumn],
+    plan: FramePlan,
+    thickness: float,
 ) -> DialPlate | None:
-    plan = frame.plan
+    """The plate of one side; None where no pointer's arbor reaches it."""
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     near = (max(ends) if side > 0 else min(ends)) + side * _AWAY
     low, high = sorted((near, near + side * thickness))
-    through = column.radius(low, high)
+    found = (_circle(columns[axis], faces, plan, (low, high)) for axis, faces in by_axis.items())
+    circles = tuple(circle for circle in found if circle is not None)
+    if not circles:
+        return None
+    name = f"dial {' and '.join(name for circle in circles for name in circle.scales)}"
+    feet = dial_feet(plan, name, [(each.at, each.radius) for each in circles], (low, high))
+    first = next(iter(by_axis.values()))[0]
+    right, up = (plan.stack.flat(way) for way in (cross(first.zero, first.normal), first.zero))
+    return DialPlate(name, low, high, circles, tuple(feet), right, up)
+
+
+def _circle(
+    column: AxisColumn, faces: Sequence[DialFace], plan: FramePlan, heights: tuple[float, float]
+) -> DialCircle | None:
+    through = column.radius(*heights)
     if not through:
         return None
     radius = max(face.radius for face in faces)
     for other in plan.columns:
-        if other.axis != column.axis and (rod := other.radius(low, high)):
+        if other.axis != column.axis and (rod := other.radius(*heights)):
             radius = min(radius, dist(other.at, column.at) - rod - _BESIDE)
-    radius = min([radius, *(away - _BESIDE for away in _across(column.at, (low, high), frame))])
+    radius = min([radius, *(away - _BESIDE for away in _across(column.at, heights, plan))])
     hole = 2 * (through + _ROOM)
     if radius <= hole:
         return None
@@ -144,4 +229,4 @@ def _plate(
         face.id: DialScale(face.turns, face.divisions, share * face.radius, share * face.inner)
         for face in sorted(faces, key=lambda each: -each.radius)
     }
-    return DialPlate(f"dial {' and '.join(scales)}", column.at, low, high, radius, hole, scales)
+    return DialCircle(column.at, radius, hole, scales)

@@ -17,8 +17,10 @@ from geartrain.scene.parts.frame_plates import FramePlates
 from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.processes import Process, process_named
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs, pin_diameter, slotted_bar
+from geartrain.scene.solids.bearing_plates import Plates, around, basis, coupling_discs, pin_diameter, slotted_bar
 from geartrain.scene.solids.bevel_solids import likeness_solid
+from geartrain.scene.solids.brackets import Bracket, find_brackets
+from geartrain.scene.solids.carrier_cages import Cage, find_cages
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
 from geartrain.scene.solids.pin_couplings import (
@@ -30,7 +32,7 @@ from geartrain.scene.solids.pin_couplings import (
     slot_frame,
 )
 from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
-from geartrain.scene.solids.triangle_solids import plate_solid, wheel_solid
+from geartrain.scene.solids.triangle_solids import wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks
 from geartrain.teeth.outlines.contour import Contour
 
@@ -87,7 +89,7 @@ class SolidModel:
     @cached_property
     def layout(self) -> Layout:
         """Places of axes and wheels, at the sizes asked for, with room for plates."""
-        return self._spread if self.frame is None else self.frame.plan.layout
+        return self._spread if self.plan is None else self.plan.layout
 
     @cached_property
     def process(self) -> Process:
@@ -95,15 +97,32 @@ class SolidModel:
         return process_named(self.making.process)
 
     @cached_property
-    def frame(self) -> FramePlates | None:
-        """Plates, arbors and pillars; None where no axis stands on the frame, or arbors are not wanted."""
+    def plan(self) -> FramePlan | None:
+        """Where plates and arbors stand; None where no axis stands on the frame, or arbors are not wanted."""
         stack = FrameStack(self.sized, self._spread, self._toothed.wheels)
         if self.making.bore == 0 or stack.normal is None:
             return None
         stack = stack.with_head_room()
         ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
-        plan = FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
-        return FramePlates(plan)
+        return FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
+
+    @cached_property
+    def frame(self) -> FramePlates | None:
+        """Plates, arbors and pillars, and brackets on the plates; None where there is no plan."""
+        if self.plan is None:
+            return None
+        tabs = {side: [each.foot for each in self.brackets if each.side == side] for side in ("back", "front")}
+        return FramePlates(self.plan, tuple(foot for dial in self.dials for foot in dial.feet), tabs)
+
+    @cached_property
+    def brackets(self) -> tuple[Bracket, ...]:
+        """What bears arbors across the plates."""
+        return () if self.plan is None else find_brackets(self.scene, self.plan, bores(self.layout, self.making))
+
+    @cached_property
+    def cages(self) -> tuple[Cage, ...]:
+        """What bears axes that carriers carry round at an angle to their own."""
+        return () if self.plan is None else find_cages(self.scene, self.plan, bores(self.layout, self.making))
 
     @cached_property
     def blanks(self) -> Blanks:
@@ -124,7 +143,7 @@ class SolidModel:
         """Diameter of the hole of each wheel (mm)."""
         rods = bores(self._spread, self.making)
         found = {name: rods[place.axis] for name, place in self._spread.wheels.items()}
-        return found if self.frame is None else found | self.frame.plan.bores
+        return found if self.plan is None else found | self.plan.bores
 
     def _own_holes(self, name: str) -> list[Contour]:
         """Holes in a wheel for studs, posts and pins, and its slots, in its own coordinates."""
@@ -157,7 +176,7 @@ class SolidModel:
     def dials(self) -> list[DialPlate]:
         """Plates of dials; none without plates of the frame."""
         thickness = self.making.thickness or THICKNESS
-        return [] if self.frame is None else dial_plates(self.scene, self.frame, thickness)
+        return [] if self.plan is None else dial_plates(self.scene, self.plan, thickness)
 
     @cached_property
     def _spread(self) -> Layout:
@@ -177,7 +196,12 @@ class SolidModel:
     @cached_property
     def parts(self) -> tuple[SolidPart, ...]:
         """All solids: wheels, arbors, plates of the frame and of carriers, pins and slots."""
-        return tuple(_Parts(self).all())
+        return tuple(_Parts(self).wheels()) + self.structure
+
+    @cached_property
+    def structure(self) -> tuple[SolidPart, ...]:
+        """What holds the wheels: arbors, pipes, studs, plates, pillars, dials, pins and slots."""
+        return tuple(_Parts(self).structure())
 
     @cached_property
     def _laid(self) -> Layout:
@@ -189,10 +213,14 @@ class _Parts:
         self.work, self.scene = work, work.scene
         self.bodies = {body.id: at for at, body in enumerate(self.scene.bodies)}
 
-    def all(self) -> Iterator[SolidPart]:
+    def wheels(self) -> Iterator[SolidPart]:
         for wheel in self.scene.wheels:
             yield self.wheel(wheel)
+
+    def structure(self) -> Iterator[SolidPart]:
         yield from self.rods()
+        yield from (each.part for each in self.work.brackets)
+        yield from (part for each in self.work.cages for part in each.parts)
         if self.work.frame is not None:
             yield from self.turned(self.work.frame)
             yield from self.plates(self.work.frame)
@@ -206,16 +234,16 @@ class _Parts:
         if blank is None:
             declared = self.work.train.declaration.wheels[wheel.id][1]
             drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile], -1 if declared.hand == "left" else 1)
-            return SolidPart(wheel.body, wheel.id, "wheel", drawn, turn, place, wheel.status)
-        solid = wheel_solid(blank)
-        return SolidPart(
-            wheel.body, wheel.id, "wheel", solid, turn, place, wheel.status, blank.contours, blank.thickness
-        )
+            return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)
+        flat = SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, blank.contours, blank.thickness)
+        return replace(flat, drawn=wheel_solid(blank))
 
     def rods(self) -> Iterator[SolidPart]:
         """An arbor without bearings for every body whose axis no plate bears, from its lowest wheel to the highest."""
         frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
         borne = set() if frame is None else {column.axis for column in frame.plan.all_columns}
+        reach = [(each.body, each.reach) for each in self.work.brackets]
+        reach += [(each.body, each.reach) for each in self.work.cages]
         for at, body in enumerate(self.scene.bodies):
             own = [wheel for wheel in self.scene.wheels if wheel.body == at and wheel.kind != "ring"]
             radius = radii.get(body.axis, 0.0) / 2
@@ -227,10 +255,11 @@ class _Parts:
                 for wheel in own
                 for side in (-1, 1)
             ]
-            bands = (Band(min(ends) - _GAP, max(ends) + _GAP, radius),)
+            ends = [min(ends) - _GAP, max(ends) + _GAP, *(end for bearer, end in reach if bearer == at)]
+            bands = (Band(min(ends), max(ends), radius),)
             part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), bands)
             turn = np.column_stack([*basis(body.direction), body.direction])
-            yield SolidPart(at, part.name, "arbor", part.solid(), turn, point, turned=part)
+            yield SolidPart(at, part.name, "arbor", turn, point, turned=part)
 
     def _thick(self, wheel: SceneWheel) -> float:
         blank = self.work.blanks.wheels.get(wheel.id)
@@ -241,7 +270,7 @@ class _Parts:
         for part in frame.turned():
             body = self.bodies[part.link]
             turn, place = frame.plan.stack.turn, np.array(frame.plan.stack.in_space(part.at))
-            yield SolidPart(body, part.name, part.kind, part.solid(), turn, place, turned=part)
+            yield SolidPart(body, part.name, part.kind, turn, place, turned=part)
 
     def plates(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Plates of the frame and those that turn."""
@@ -249,17 +278,15 @@ class _Parts:
             height = (plate.low + plate.high) / 2
             cut, thickness = plate.contours, plate.high - plate.low
             place = np.array(frame.plan.stack.in_space(plate.at, height))
-            solid = plate_solid(cut, thickness)
             body, turn = self.bodies[plate.link], frame.plan.stack.turn
-            yield SolidPart(body, plate.name, "plate", solid, turn, place, "", cut, thickness)
+            yield SolidPart(body, plate.name, "plate", turn, place, "", cut, thickness)
 
     def dials(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Plates of dials, which the frame holds."""
         body, turn = self.bodies[frame.plan.stack.frame], frame.plan.stack.turn
         for dial in self.work.dials:
             thickness, place = dial.high - dial.low, frame.plan.stack.in_space(dial.at, (dial.low + dial.high) / 2)
-            solid = plate_solid(dial.contours, thickness)
-            yield SolidPart(body, dial.name, "plate", solid, turn, np.array(place), "", dial.contours, thickness)
+            yield SolidPart(body, dial.name, "plate", turn, np.array(place), "", dial.contours, thickness)
 
     def couplings(self) -> Iterator[SolidPart]:
         """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
@@ -280,8 +307,9 @@ class _Parts:
                 name = f"{coupling.id} pin" + (f" {at + 1}" if coupling.pins_at else "")
                 part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
                 middle = axis + np.array(place) - first
-                yield SolidPart(coupling.pin, name, part.kind, part.solid(), turn, middle, turned=part)
+                yield SolidPart(coupling.pin, name, part.kind, turn, middle, turned=part)
             if cut is None:
+                yield self._pin_arm(coupling, turn, levels[0])
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
@@ -291,12 +319,24 @@ class _Parts:
         ]
         return min(ends), max(ends)
 
+    def _pin_arm(self, coupling: SceneCoupling, turn: Floats, level: float) -> SolidPart:
+        """From the axis of the pin's link out to the pin."""
+        body = self.scene.bodies[coupling.pin]
+        along, pin = turn[:, 2], np.array(coupling.pin_at)
+        hub = np.array(body.point) + along * (level - float(np.array(body.point) @ along))
+        aside = pin - hub - along * float((pin - hub) @ along)
+        away = float(np.linalg.norm(aside))
+        x = aside / away
+        cut = (around([(0.0, 0.0), (away, 0.0)], 0.9 * pin_width(coupling)),)
+        name, own = f"{coupling.id} pin arm", np.column_stack([x, np.cross(along, x), along])
+        return SolidPart(coupling.pin, name, "plate", own, hub, "", cut, _GAP)
+
     def _bar(self, coupling: SceneCoupling, along: Floats) -> SolidPart:
         hub, turn = np.array(coupling.slot_at), slot_frame(self.scene, coupling)
         level = self._level(coupling.slot, float(coupling.pin_at @ along), along)
         cut = slotted_bar(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
-        place, solid = hub + along * (level - hub @ along), plate_solid(cut, _GAP)
-        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", solid, turn, place, "", cut, _GAP)
+        place = hub + along * (level - hub @ along)
+        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", cut, _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
         """The face, nearest to a height, of the wheels of a body."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.scene.parts.turned_parts import TurnedPart
-from geartrain.scene.solids.triangle_solids import Solid
+from geartrain.scene.solids.triangle_solids import Solid, plate_solid
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneWheel
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SolidPart:
     """One solid of a body: a point p of it stands at turn p + place.
 
@@ -28,10 +29,8 @@ class SolidPart:
         Index of its body in the scene.
     name : str
         Of the wheel, or what it belongs to.
-    kind : {"wheel", "arbor", "pipe", "stud", "collar", "spacer", "collet", "pillar", "post", "pin", "plate"}
+    kind : {"wheel", "arbor", "pipe", "stud", "collar", "spacer", "collet", "pillar", "post", "foot", "pin", "plate"}
         What it is.
-    solid : Solid
-        A closed surface of triangles about its own origin [mm].
     turn, place : array of float, (3, 3) and (3,)
         Rotation and shift [mm] that put it into the zero pose.
     status : str
@@ -42,6 +41,8 @@ class SolidPart:
         Thickness over the flat shape [mm].
     turned : TurnedPart or None
         What it is turned to, about its own z, if it is a body of revolution.
+    drawn : Solid or None
+        Its surface where that follows from neither of these: helical teeth, and likenesses.
 
     See Also
     --------
@@ -51,13 +52,20 @@ class SolidPart:
     body: int
     name: str
     kind: str
-    solid: Solid
     turn: Floats
     place: Floats
     status: str = ""
     contours: tuple[Contour, ...] = ()
     height: float = 0.0
     turned: TurnedPart | None = None
+    drawn: Solid | None = None
+
+    @cached_property
+    def solid(self) -> Solid:
+        """A closed surface of triangles about its own origin (mm), made when it is first asked for."""
+        if self.drawn is not None:
+            return self.drawn
+        return plate_solid(self.contours, self.height) if self.turned is None else self.turned.solid()
 
     @property
     def placed(self) -> Solid:

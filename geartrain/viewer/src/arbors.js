@@ -1,6 +1,7 @@
 // Arbors, and the arms of carriers: what holds the wheels.
 
 import { PARTS } from "./colours.js";
+import { rodsOf } from "./parts.js";
 import { bar, plate, roundEnded, Shape, swept, band } from "./shape.js";
 import { across, along, foot, frameAt, isParallel, offAxis, onAxis, sharesAxis } from "./space.js";
 
@@ -36,8 +37,9 @@ export function spans(scene) {
     places[slot].push(along(scene.bodies[slot], slot_at));
   }
   for (const { body, dial } of scene.pointers) {
-    if (dial !== null && scene.dials[dial].look !== "ball") places[body].push(along(scene.bodies[body], scene.dials[dial].centre));
+    if (dial !== null && !scene.dials[dial].plate && scene.dials[dial].look !== "ball") places[body].push(along(scene.bodies[body], scene.dials[dial].centre));
   }
+  scene.bodies.forEach((_, index) => rodsOf(scene, index).forEach(([low, high]) => places[index].push(low, high)));
   return places.map((list) => (list.length ? [Math.min(...list), Math.max(...list)] : null));
 }
 
@@ -61,7 +63,7 @@ export function hubs(scene, reach, size) {
   return radii;
 }
 
-/** What holds the wheels: {body, colour, shape, matrix, at}, `at` being null for bars, which stretch; arms are plates. */
+/** What holds the wheels of a train that is not built: {body, colour, shape, matrix, at}, `at` being null for bars, which stretch; arms are plates. */
 export function supports(scene, reach, radii, size) {
   const parts = [];
   const thick = typical(scene.wheels.map(({ thickness }) => thickness)) || 0.01 * size;

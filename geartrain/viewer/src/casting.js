@@ -42,6 +42,7 @@ export class Casting {
       }
       this.parts.push({ body: job.body, slot: job.slot, from, to: next, ball: around(data.position.array, began, first) });
     }
+    this.slots = [...new Set(this.jobs.map(({ slot }) => slot))];
     this.jobs = [];
     const geometry = new BufferGeometry();
     for (const [name, attribute] of Object.entries(data)) geometry.setAttribute(name, attribute);

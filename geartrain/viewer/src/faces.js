@@ -14,11 +14,12 @@ export function dialParts(scene, index) {
   const dial = scene.dials[index];
   if (dial.look === "ball") return [socket(scene, index)];
   const { inner, pitch } = scaleOf(dial);
-  const matrix = frameAt(dial.centre, dial.normal, dial.zero);
+  const thick = 0.012 * dial.radius;
+  const centre = vector(dial.centre).addScaledVector(vector(dial.normal), dial.plate ? 0.5 * thick : 0).toArray();
+  const matrix = frameAt(centre, dial.normal, dial.zero);
   const hole = Math.max(0.05 * dial.radius, inner - pitch - 0.02 * dial.radius);
-  const thick = 0.02 * dial.radius;
   const face = swept(new Shape(), band(hole, dial.radius * 1.03, -thick, 0), 72);
-  const bezel = swept(new Shape(), band(dial.radius * 1.03, dial.radius * 1.075, -thick, 0.6 * thick), 72);
+  const bezel = swept(new Shape(), band(dial.radius * 1.03, dial.radius * 1.075, -thick, 1.2 * thick), 72);
   const common = { body: dial.body, matrix, at: vector(dial.centre), dial: index, plate: true };
   return [
     { ...common, colour: PARTS.face, gloss: 0.05, shape: face },
@@ -115,11 +116,11 @@ function needlePart(scene, index, order) {
   const dial = scene.dials[pointer.dial];
   const length = dial.radius * (0.97 - 0.07 * (order % 4));
   const width = 0.016 * dial.radius;
-  const low = 0.012 * dial.radius * (1 + 1.5 * order);
-  const high = low + 0.012 * dial.radius;
+  const thick = Math.min(0.012 * dial.radius, pointer.seat ? 0.9 : Infinity);
+  const [low, high] = [pointer.level - thick / 2, pointer.level + thick / 2];
   const blade = [[-0.16, 1.5], [-0.12, 1.7], [0, 1.1], [0.86, 0.75], [0.88, 1.5], [1, 0.06]].map(([x, w]) => [x * length, w * width]);
   const shape = plate(new Shape(), blade, low, high);
-  swept(shape, band(0, 0.05 * dial.radius, low, high + 0.004 * dial.radius), 14);
+  swept(shape, band(0, Math.max(0.05 * dial.radius, 0.75 * pointer.seat), low, high + 0.004 * dial.radius), 20);
   const at = vector(dial.centre);
   return { colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, shape, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
 }

@@ -6,6 +6,7 @@ import { BROKEN, CHOSEN, colours } from "./colours.js";
 import { vector } from "./space.js";
 
 const GHOST = 0.14; // opacity of what is not highlighted
+const GLASS = 0.07; // of a plate before the wheels
 const GLOSS = 0.75;
 
 export class Looks {
@@ -55,7 +56,19 @@ export class Looks {
     });
     const bodies = new Set([...(chosen?.wheels ?? [])].map((index) => this.scene.wheels[index].body));
     const kept = ({ body, plate }) => !chosen || (bodies.has(body) && !plate);
-    for (const part of this.parts) this.palette.paint(part.slot, { opacity: kept(part) ? 1 : GHOST });
+    for (const part of this.parts) this.palette.paint(part.slot, { opacity: kept(part) ? (this.isGlass(part) ? GLASS : 1) : GHOST });
+  }
+
+  /** towards   from the middle to the camera: covers on that side are of glass */
+  glaze(towards, middle) {
+    const glass = this.parts.filter(({ cover, at }) => cover && towards.dot(cover) * at.clone().sub(middle).dot(cover) > 0);
+    if (this.glass?.length === glass.length && glass.every((part, n) => part === this.glass[n])) return;
+    this.glass = glass;
+    this.recolour();
+  }
+
+  isGlass(part) {
+    return Boolean(this.glass?.includes(part));
   }
 
   /** What stands before the middle, as seen along `front`, is out of the way: dials, then wheels; null: nothing is. */
@@ -66,7 +79,7 @@ export class Looks {
     const before = ({ at }) => front !== null && at !== null && at.dot(front) > (low + high) / 2 + 1e-9;
     const level = high - low < 1e-6; // all in one layer: only dials go
     this.wheels.forEach((part) => part.show(level || !before(part), this.toothed));
-    for (const part of this.parts) if (part.dial !== undefined) this.palette.paint(part.slot, { shown: !before(part) });
+    for (const part of this.parts) if (part.dial !== undefined || part.cover) this.palette.paint(part.slot, { shown: !before(part) });
   }
 
   showTeeth(toothed) {

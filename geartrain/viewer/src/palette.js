@@ -22,9 +22,9 @@ export class Palette {
     this.stale = true;
   }
 
-  /** True where something is half seen. */
-  get ghosts() {
-    return this.looks.some(({ opacity, shown }) => shown && opacity < 1);
+  /** True where one of some slots is half seen. */
+  hasGhosts(slots) {
+    return slots.some((slot) => this.looks[slot].shown && this.looks[slot].opacity < 1);
   }
 
   /** Two texels a slot: colour and opacity (0 where it is hidden), then gloss. */

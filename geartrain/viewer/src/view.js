@@ -180,6 +180,7 @@ export class Stage {
     const began = performance.now();
     if (this.turned) this.world.turn();
     this.turned = false;
+    this.world.glaze(this.camera.position.clone().sub(this.world.ball.center));
     this.world.refresh();
     this.renderer.render(this.setting, this.camera);
     const took = performance.now() - began;

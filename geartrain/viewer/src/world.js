@@ -1,13 +1,15 @@
 // A train in space: its parts, cast into one geometry, each of which finds its body's pose when it is drawn.
 
-import { hubs, spans, supports } from "./arbors.js";
+import { barBetween, hubs, spans, supports } from "./arbors.js";
 import { Casting } from "./casting.js";
+import { PARTS } from "./colours.js";
 import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
 import { dialParts, pointerParts } from "./faces.js";
 import { couplingParts, crankOf } from "./joints.js";
 import { Looks } from "./looks.js";
 import { metals } from "./metal.js";
 import { Palette } from "./palette.js";
+import { builtParts, cornersOf, rodsOf } from "./parts.js";
 import { Poses } from "./poses.js";
 import { along, isParallel, onAxis, sharesAxis, vector } from "./space.js";
 import { Sparks } from "./sparks.js";
@@ -17,7 +19,8 @@ export class World {
   constructor(machine) {
     this.scene = machine.scene;
     this.circles = circlesOf(this.scene);
-    this.ball = ballOf(this.scene, this.circles);
+    this.corners = cornersOf(this.scene);
+    this.ball = ballOf(this.scene, this.circles, this.corners);
     this.size = 2 * this.ball.radius;
     this.main = mainDirection(this.scene);
     this.poses = new Poses(machine, this.main, this.ball.center);
@@ -26,13 +29,13 @@ export class World {
     this.palette = new Palette();
     this.materials = metals(this.nodes.length, this.main, this.ball.center, this.size);
     this.uniforms = this.materials[0].uniforms;
-    this.castings = [new Casting(), new Casting()]; // teeth come later, when the rest is seen
+    this.castings = [new Casting(), new Casting(), new Casting()]; // teeth come later, when the rest is seen; covers
     this.parts = [];
     this.build();
     this.looks = new Looks(this.scene, this.palette, this.wheels, this.parts);
     this.looks.showTeeth(false);
     this.looks.paint("plain");
-    this.root.add(...this.castings[0].cast(this.materials));
+    this.root.add(...this.castings[0].cast(this.materials), ...this.castings[2].cast(this.materials));
     this.machine = machine;
     if (machine.simulated) {
       this.sparks = new Sparks(machine.scene, this.poses, machine.run);
@@ -45,10 +48,20 @@ export class World {
     const { scene, size, palette } = this;
     const reach = spans(scene);
     const radii = hubs(scene, reach, size);
-    this.wheels = scene.wheels.map((wheel, index) => new WheelPart(scene, index, radii[wheel.body], size, palette));
+    const built = builtParts(scene, this.main);
+    const rods = scene.bodies.map((_, index) => rodsOf(scene, index));
+    const hub = (wheel) => {
+      const height = along(scene.bodies[wheel.body], wheel.centre);
+      const rod = rods[wheel.body].find(([low, high]) => low <= height && height <= high);
+      return rod ? rod[2] : radii[wheel.body];
+    };
+    this.wheels = scene.wheels.map((wheel, index) => new WheelPart(scene, index, hub(wheel), size, palette));
     for (const part of this.wheels) part.castBody(this.adder(this.castings[0], part));
-    for (const part of supports(scene, reach, radii, size)) this.put(part);
-    for (const coupling of scene.couplings) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
+    for (const part of built.length ? built : supports(scene, reach, radii, size)) this.put(part);
+    const slotted = new Set(scene.parts.map(({ name }) => name));
+    for (const coupling of scene.couplings) {
+      if (!slotted.has(`${coupling.id} slot`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
+    }
     scene.dials.forEach((_, index) => dialParts(scene, index).forEach((part) => this.put(part)));
     const orders = new Map();
     scene.pointers.forEach(({ dial }, index) => {
@@ -63,26 +76,36 @@ export class World {
     this.crank?.parts.forEach((part) => this.put(part));
   }
 
+  /** At the end of its arbor that is the less in the way of what runs in it; lengthened past that. */
   buildCrank(reach) {
     const { scene, size } = this;
     if (scene.crank === null || scene.bodies[scene.crank].parent === null) return null;
     const body = scene.bodies[scene.crank];
     const coaxial = scene.bodies.map((_, at) => at).filter((at) => reach[at] && sharesAxis(scene, scene.crank, at, size));
     const ends = coaxial.flatMap((at) => reach[at].map((end) => along(body, onAxis(scene.bodies[at], end))));
-    const [low, high] = [Math.min(...ends, 0), Math.max(...ends, 0)];
+    const own = reach[scene.crank] ?? [0, 0];
+    const [low, high] = [Math.min(...ends, ...own), Math.max(...ends, ...own)];
+    const past = [own[0] - low, high - own[1]];
     const off = (end) => onAxis(body, end).distanceTo(this.ball.center);
-    const outward = isParallel(body.direction, this.main.toArray())
-      ? vector(body.direction).dot(this.main) * scene.front
-      : off(high) - off(low);
+    const outward = Math.abs(past[0] - past[1]) > 1e-6 * size
+      ? past[0] - past[1]
+      : isParallel(body.direction, this.main.toArray())
+        ? vector(body.direction).dot(this.main) * scene.front
+        : off(high) - off(low);
     const side = outward < 0 ? -1 : 1;
-    const end = (side > 0 ? high : low) + side * 0.025 * size;
-    return crankOf(scene, scene.crank, end, side, 0.12 * size, size);
+    const end = (side > 0 ? high : low) + side * 0.02 * size;
+    const foot = own[side > 0 ? 1 : 0];
+    const rod = rodsOf(scene, scene.crank).sort((one, other) => side * (other[0] - one[0]))[0];
+    const crank = crankOf(scene, scene.crank, end, side, 0.12 * size, size);
+    const bar = barBetween(onAxis(body, foot - side * 0.01 * size), onAxis(body, end), rod ? rod[2] : 0.009 * size);
+    crank.parts.push({ body: scene.crank, colour: PARTS.arbor, ...bar, at: null });
+    return crank;
   }
 
-  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate }) {
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover }) {
     const slot = this.palette.slot(colour, gloss);
-    this.castings[0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
-    this.parts.push({ slot, body, at, dial, plate });
+    this.castings[cover ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
+    this.parts.push({ slot, body, at, dial, plate, cover });
   }
 
   adder(casting, { wheel: { body }, at }) {
@@ -116,7 +139,7 @@ export class World {
   outline() {
     const { crank, poses } = this;
     const swing = crank ? [{ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }] : [];
-    return [...this.circles, ...swing].flatMap(pointsOf).map((point) => poses.apart(point, poses.height(point)));
+    return [...[...this.circles, ...swing].flatMap(pointsOf), ...this.corners].map((point) => poses.apart(point, poses.height(point)));
   }
 
   /** Where a point of the crank (its foot or its knob) is now. */
@@ -140,10 +163,15 @@ export class World {
     return wheel < 0 ? null : wheel;
   }
 
+  /** Covers between a camera and the wheels are of glass: `towards`, the camera, from the middle. */
+  glaze(towards) {
+    this.looks.glaze(towards, this.ball.center);
+  }
+
   /** What the materials read, up to date. */
   refresh() {
     this.uniforms.palette.value = this.palette.refresh();
-    for (const { meshes } of this.castings) if (meshes) meshes[1].visible = this.palette.ghosts;
+    for (const { meshes, slots } of this.castings) if (meshes) meshes[1].visible = this.palette.hasGhosts(slots);
   }
 
   dispose() {

@@ -1,0 +1,160 @@
+"""The scene of a train as it is built: with its plates, arbors and dials, and with its hands on the ends of arbors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import GearTrainError
+from geartrain.numerics.vectors import Vector, dot, minus
+from geartrain.scene.construction import make_scene
+from geartrain.scene.dial_pointers import with_balls
+from geartrain.scene.elements import ScenePart
+from geartrain.scene.parts.frame_plan import FramePlan
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
+from geartrain.scene.solids.solid_assembly import SolidModel
+from geartrain.scene.solids.solid_part import SolidPart
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import TimeRun
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.train_scene import DialFace, Pointer, Scene
+
+_FINE = 0.05  # mm that chords of plates may leave their curves
+_DIGITS = 4  # decimals of a mm
+_HAND = 1.0  # mm of an arbor's end that a hand takes
+_SAME = 1e-6
+
+
+def build_scene(
+    train: GearTrain, state: str | None = None, run: TimeRun | None = None, formulas: bool = False
+) -> Scene:
+    """The scene of a train with what holds its wheels: the parts that exports make, in the same places.
+
+    Parameters
+    ----------
+    train : GearTrain
+        Loaded or declared.
+    state : str, optional
+        One of its states; by default the first, or that of the run.
+    run : TimeRun, optional
+        What `train.dynamics(...)` gave in that state: then this is what moves.
+    formulas : bool
+        As `make_scene` has it.
+
+    Returns
+    -------
+    Scene
+        As `make_scene` gives it, wheels moved along their axes so that plates have room, with `parts`. Where nothing
+        can be built, as `make_scene` gives it.
+
+    Raises
+    ------
+    GearTrainError
+        If there is no such state, or the run is of another train or state.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> scene = build_scene(geartrain.load("planetary-24-18-60"))
+    >>> sorted({part.kind for part in scene.parts})
+    ['arbor', 'carrier', 'frame', 'pillar', 'pipe', 'post', 'stud']
+    """
+    state = train.state_or_first(run.state if state is None and run is not None else state)
+    model = SolidModel(train, ManufacturingSizes(), state)
+    try:
+        parts = tuple(_told(each, model) for each in model.structure)
+    except GearTrainError:
+        return make_scene(train, state, run=run, formulas=formulas)
+    # play that makers add is none of the declaration: the scene moves without it
+    plain = run is None and not formulas and model.sized is model.train
+    scene = model.scene if plain else make_scene(train, state, model.layout, run, formulas)
+    dials, pointers = _engraved(scene, model), scene.pointers
+    if model.plan is not None:
+        pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
+    return replace(scene, parts=parts, dials=with_balls(dials, pointers), pointers=pointers)
+
+
+def _told(part: SolidPart, model: SolidModel) -> ScenePart:
+    """A part without its triangles."""
+    kind = part.kind
+    if kind == "plate" and model.frame is not None:
+        turning = {plate.disc.name for plate in model.frame.plan.turning}
+        frame = model.frame.plan.stack.frame
+        if part.name in (dial.name for dial in model.dials):
+            kind = "dial"
+        elif part.name in (f"{frame} back plate", f"{frame} front plate", f"{frame} bridge"):
+            kind = "frame"
+        elif part.name in turning:
+            kind = "carrier"
+    bands = () if part.turned is None else part.turned.bands
+    return ScenePart(
+        part.body,
+        part.name,
+        kind,
+        _vector(part.place),
+        _vector(part.turn[:, 2]),
+        _vector(part.turn[:, 0]),
+        tuple((_round(each.low), _round(each.high), _round(each.radius), _round(each.bore)) for each in bands),
+        tuple(tuple(_numbers(each.flattened(_FINE))) for each in part.contours),
+        part.height,
+    )
+
+
+def _round(value: float) -> float:
+    return round(float(value), _DIGITS)
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.round(9).tolist()
+    return x, y, z
+
+
+def _numbers(points: Floats) -> Iterator[float]:
+    for x, y in points.tolist():
+        yield _round(x)
+        yield _round(y)
+
+
+def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
+    """Dials as large as they are on their plates, on the face that is read."""
+    faces = list(scene.dials)
+    if model.plan is None:
+        return tuple(faces)
+    stack = model.plan.stack
+    for plate in model.dials:
+        for circle in plate.circles:
+            for at, face in enumerate(faces):
+                scale = circle.scales.get(face.id)
+                if scale is None or np.hypot(*np.subtract(stack.flat(face.centre), circle.at)) > _SAME:
+                    continue
+                height = plate.high if dot(face.normal, stack.normal or face.normal) > 0 else plate.low
+                faces[at] = replace(
+                    face,
+                    centre=stack.in_space(circle.at, height),
+                    radius=scale.outer,
+                    inner=scale.inner,
+                    plate=circle.radius,
+                )
+    return tuple(faces)
+
+
+def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:
+    """A pointer whose hand sits on the end of its arbor or pipe."""
+    face = None if pointer.dial is None else dials[pointer.dial]
+    if face is None or not face.plate:
+        return pointer
+    link = scene.bodies[pointer.body].id
+    own = [(column, each) for column in plan.columns for each in column.members if each.link == link]
+    for column, member in own:
+        ends = [
+            dot(minus(plan.stack.in_space(column.at, end), face.centre), face.normal)
+            for end in (member.low, member.high)
+        ]
+        if max(ends) > _HAND:
+            return replace(pointer, level=max(ends) - _HAND / 2, seat=member.outer)
+    return pointer

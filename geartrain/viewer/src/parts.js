@@ -1,0 +1,107 @@
+// What holds the wheels, as it is made: turned parts and flat ones, straight from the scene.
+
+import { ShapeUtils, Vector2 } from "three";
+
+import { PARTS } from "./colours.js";
+import { Shape, swept } from "./shape.js";
+import { along, frameAt, isParallel, offAxis, vector } from "./space.js";
+
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, pin: PARTS.pin };
+const FLAT_GLOSS = 0.5;
+const COVERS = ["frame", "carrier", "dial"];
+
+/** All of them: {body, colour, gloss, shape, matrix, at, kind, cover}; `cover`, the way across of what stands before wheels or behind them, else null. */
+export function builtParts(scene, main) {
+  return scene.parts.map((part) => {
+    const { body, kind, place, direction, across } = part;
+    const flat = part.outlines.length > 0;
+    const upright = isParallel(direction, main.toArray());
+    const cover = COVERS.includes(kind) ? vector(direction) : null;
+    const shape = flat ? flatShape(part) : turnedShape(part.bands);
+    // what stands along the way layers move is stretched when they do
+    const at = upright && !flat ? null : vector(place);
+    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat };
+  });
+}
+
+/** Half a section from its bands, counter-clockwise; bands that do not meet make several. */
+function turnedShape(bands) {
+  const shape = new Shape();
+  let run = [];
+  bands.forEach((band, n) => {
+    run.push(band);
+    if (n + 1 < bands.length && bands[n + 1][0] - band[1] < 1e-6) return;
+    const outside = run.flatMap(([low, high, radius]) => [[radius, low], [radius, high]]);
+    const inside = run.toReversed().flatMap(([low, high, , bore]) => [[bore, high], [bore, low]]);
+    swept(shape, chamfered([...outside, ...inside]), Math.max(14, Math.min(40, Math.round(10 * Math.max(...run.map(([, , radius]) => radius))))));
+    run = [];
+  });
+  return shape;
+}
+
+/** Sharp outer edges of the ends broken, which catch the light. */
+function chamfered(outline) {
+  const heights = outline.map(([, z]) => z);
+  const [low, high] = [Math.min(...heights), Math.max(...heights)];
+  return outline.flatMap(([r, z], n) => {
+    const before = outline.at(n - 1);
+    const after = outline[(n + 1) % outline.length];
+    const edge = Math.min(0.15 * r, 0.1 * (high - low));
+    if (z === low && before[1] === low && before[0] < r - 2 * edge && after[1] > low) return [[r - edge, z], [r, z + edge]];
+    if (z === high && after[1] === high && after[0] < r - 2 * edge && before[1] < high) return [[r, z - edge], [r - edge, z]];
+    return [[r, z]];
+  });
+}
+
+/** A flat part with its holes. */
+function flatShape({ outlines, height }) {
+  const shape = new Shape();
+  const rings = outlines.map((line) => {
+    const points = [];
+    for (let n = 0; n < line.length; n += 2) points.push(new Vector2(line[n], line[n + 1]));
+    if (points.length > 1 && points[0].distanceTo(points.at(-1)) < 1e-9) points.pop();
+    return points;
+  });
+  rings.forEach((ring, n) => {
+    if (ShapeUtils.isClockWise(ring) === (n === 0)) ring.reverse();
+  });
+  const triangles = ShapeUtils.triangulateShape(rings[0], rings.slice(1));
+  const points = rings.flat();
+  for (const side of [-1, 1]) {
+    const first = shape.corners;
+    for (const { x, y } of points) shape.corner([x, y, (side * height) / 2], [0, 0, side], [1, 0, 0]);
+    for (const [a, b, c] of triangles) shape.indices.push(first + a, first + b, first + c);
+  }
+  for (const ring of rings) wall(shape, ring, height / 2);
+  return shape;
+}
+
+function wall(shape, ring, half) {
+  ring.forEach(({ x, y }, n) => {
+    const next = ring[(n + 1) % ring.length];
+    const [dx, dy] = [next.x - x, next.y - y];
+    const length = Math.hypot(dx, dy) || 1;
+    shape.face([[x, y, -half], [next.x, next.y, -half], [next.x, next.y, half], [x, y, half]], [dy / length, -dx / length, 0], [dx / length, dy / length, 0]);
+  });
+}
+
+/** Turned parts of a body about its own axis: [from, to, radius] along it, one for each band. */
+export function rodsOf(scene, index) {
+  const body = scene.bodies[index];
+  return scene.parts
+    .filter(({ body: own, bands, direction, place }) => own === index && bands.length && isParallel(direction, body.direction) && offAxis(body, place) < 1e-6)
+    .flatMap(({ bands, direction, place }) => {
+      const [middle, way] = [along(body, place), Math.sign(vector(direction).dot(vector(body.direction)))];
+      return bands.map(([low, high, radius]) => [...[middle + way * low, middle + way * high].sort((a, b) => a - b), radius]);
+    });
+}
+
+/** Points that hold all parts, where these stand in the zero pose. */
+export function cornersOf(scene) {
+  return scene.parts.flatMap(({ place, direction, across, bands, outlines, height }) => {
+    const matrix = frameAt(place, direction, across);
+    const flat = (outlines[0] ?? []).flatMap((x, n, all) => (n % 2 ? [] : [[x, all[n + 1], height / 2], [x, all[n + 1], -height / 2]]));
+    const round = bands.flatMap(([low, high, r]) => [low, high].flatMap((z) => [[r, 0, z], [-r, 0, z], [0, r, z], [0, -r, z]]));
+    return [...flat, ...round].map((point) => vector(point).applyMatrix4(matrix));
+  });
+}

@@ -1,0 +1,135 @@
+"""Trains as they are built: every link is one body, borne by the link that bears its axis; hands sit on arbors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pytest
+import shipped
+from networkx.utils import UnionFind
+
+import geartrain
+from geartrain.scene import ManufacturingSizes, Scene, ScenePart, SolidModel, SolidPart, build_scene
+
+RUNS = 0.35  # mm: what runs in something, or is pressed into it, is no further off
+APART = {
+    # links without a wheel or a pin: nothing says how they look
+    "cycloidal-reducer": {"flange"},
+    "ford-10r80": {"MID"},
+}
+LOOSE = {
+    # suns that stand still on an arbor inside turning pipes: no plate reaches it
+    "freeth-2021",
+    "freeth-2021-cut",
+    "freeth-2021-teeth",
+    "freeth-jones-2012",
+    "freeth-jones-2012-shambaugh",
+}
+
+
+@dataclass(frozen=True)
+class Body:
+    """A solid in the library manifold3d, and its box."""
+
+    solid: Any
+    low: Any
+    high: Any
+
+    @classmethod
+    def of(cls, part: SolidPart) -> Body:
+        library = pytest.importorskip("manifold3d", reason="the extra proof is not installed")
+        placed = part.placed
+        mesh = library.Mesh(
+            np.ascontiguousarray(placed.vertices, dtype=np.float32), np.ascontiguousarray(placed.faces, dtype=np.uint32)
+        )
+        solid = library.Manifold(mesh)
+        assert solid.status() == library.Error.NoError, part.name
+        return cls(solid, placed.vertices.min(0), placed.vertices.max(0))
+
+    def meets(self, other: Body) -> bool:
+        """True if no more than a running fit is between them."""
+        if (np.maximum(self.low, other.low) - np.minimum(self.high, other.high) > RUNS).any():
+            return False
+        return bool(self.solid.min_gap(other.solid, RUNS) < RUNS)
+
+
+def groups(bodies: Sequence[Body]) -> list[set[int]]:
+    """Which of them hang together."""
+    found = UnionFind(range(len(bodies)))
+    for one, other in combinations(range(len(bodies)), 2):
+        if found[one] != found[other] and bodies[one].meets(bodies[other]):
+            found.union(one, other)
+    return list(found.to_sets())
+
+
+@pytest.mark.parametrize("name", shipped.trains())
+def test_every_link_is_one_solid_body_and_is_borne_by_the_one_that_bears_its_axis(name: str) -> None:
+    model = SolidModel(shipped.train(name), ManufacturingSizes())
+    links = model.scene.bodies
+    parts: dict[int, list[Body]] = {}
+    for part in model.parts:
+        parts.setdefault(part.body, []).append(Body.of(part))
+    assert {links[at].id for at in range(len(links)) if at not in parts} == APART.get(name, set())
+    for at, own in parts.items():
+        loose = name in LOOSE and links[at].parent is None
+        assert len(groups(own)) == 1 + loose, links[at].id
+        # it runs in or on the link that bears its axis, or one that turns about the same axis
+        near = [each for each, link in enumerate(links) if each == links[at].parent or link.axis == links[at].axis]
+        about = [body for each in near if each != at for body in parts.get(each, [])]
+        if links[at].parent is not None and about:
+            assert any(one.meets(other) for one in own for other in about), f"{links[at].id} floats"
+
+
+def of_kind(scene: Scene, kind: str) -> list[ScenePart]:
+    return [part for part in scene.parts if part.kind == kind]
+
+
+def test_a_scene_as_built_has_the_parts_that_exports_have_in_the_same_places() -> None:
+    train = shipped.train("longcase-clock")
+    scene, model = build_scene(train), SolidModel(train, ManufacturingSizes())
+    assert [part.name for part in scene.parts] == [part.name for part in model.structure]
+    for told, made in zip(scene.parts, model.structure, strict=True):
+        assert told.place == pytest.approx(made.place, abs=1e-8)
+        assert bool(told.bands) != bool(told.outlines)
+    assert [wheel.centre for wheel in scene.wheels] == [wheel.centre for wheel in model.scene.wheels]
+    assert len(of_kind(scene, "frame")) == 2
+    assert len(of_kind(scene, "dial")) == 1, "all dials of one side stand on one plate"
+
+
+def test_hands_sit_on_the_ends_of_their_own_arbors_and_the_inner_one_is_the_outermost() -> None:
+    scene = build_scene(shipped.train("longcase-clock"))
+    minute, hour = (next(each for each in scene.pointers if each.output == name) for name in ("centre", "hour"))
+    assert minute.level - hour.level > 1, "the minute hand goes over the hour hand"
+    assert 0 < minute.seat < hour.seat, "the hour pipe runs on the centre arbor"
+    for pointer in (minute, hour):
+        assert pointer.dial is not None
+        face = scene.dials[pointer.dial]
+        hand = face.centre[2] + face.normal[2] * pointer.level
+        rods = [part for part in scene.parts if part.body == pointer.body and part.kind in ("arbor", "pipe")]
+        ends = [
+            part.place[2] + part.direction[2] * height for part in rods for band in part.bands for height in band[:2]
+        ]
+        assert min(abs(hand - end) for end in ends) == pytest.approx(0.5)
+
+
+def test_the_ball_of_the_moon_stands_in_the_middle_of_the_moon_s_hand() -> None:
+    scene = build_scene(shipped.train("freeth-2021"))
+    ball = next(face for face in scene.dials if face.look == "ball")
+    moon = next(each for each in scene.pointers if each.output == "moon")
+    assert moon.dial is not None
+    zodiac = scene.dials[moon.dial]
+    away = np.subtract(ball.centre, zodiac.centre)
+    assert away @ np.array(zodiac.normal) == pytest.approx(moon.level)
+    assert np.linalg.norm(away - (away @ np.array(zodiac.normal)) * np.array(zodiac.normal)) == pytest.approx(
+        zodiac.radius / 2
+    )
+    assert ball.radius < 0.1 * zodiac.radius, "its size is that of what it stands on"
+
+
+def test_a_train_that_declares_no_axis_on_its_frame_has_no_parts() -> None:
+    text = "name: t\nframe: f\nlinks: {f: {}, a: {}}\nrevolutes: [{pair: [f, a], axis: A}]\ninputs: {a: 1}\n"
+    assert build_scene(geartrain.load(text)).parts == ()

@@ -195,7 +195,7 @@ def test_the_train_turns_in_its_frame_within_the_policy_of_the_page(open_report:
     from geartrain.viewer import page as viewer
 
     page, wrong = open_report(
-        to_html([describe_shared_page(shipped.report("worm"), viewer=viewer([shipped.scene("worm")]))])
+        to_html([describe_shared_page(shipped.report("worm"), viewer=viewer([shipped.built("worm")]))])
     )
     (frame,) = [each for each in page.frames if each.parent_frame]
     # asked again and again from outside: the policy forbids the page to evaluate what it is given to wait for

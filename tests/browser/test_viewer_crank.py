@@ -29,7 +29,7 @@ def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Openin
 
 def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
     shown = show("clock-10000-years")
-    step = Fraction(shipped.scene("clock-10000-years").step)
+    step = Fraction(shipped.built("clock-10000-years").step)
     shown.page.get_by_label("one unit of the input forward").click(click_count=3)
     assert turns(shown) == 3 * step
     shown.page.get_by_label("one unit of the input back").click()

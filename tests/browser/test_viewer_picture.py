@@ -108,7 +108,7 @@ def test_what_stands_before_the_middle_is_hidden_and_comes_back(show: Opening) -
     seen = "geartrain.stages[0].world.wheels.map(({own}) => geartrain.stages[0].world.palette.looks[own].shown)"
     assert all(shown.run(seen))
     shown.page.get_by_label("Hide front").check()
-    scene = shipped.scene(ANTIKYTHERA)
+    scene = shipped.built(ANTIKYTHERA)
     heights = [scene.front * wheel.centre[2] for wheel in scene.wheels]
     middle = (min(heights) + max(heights)) / 2
     assert shown.run(seen) == [height <= middle + 1e-9 for height in heights]

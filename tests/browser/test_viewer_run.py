@@ -162,7 +162,7 @@ def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
 
 def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(open_page: OpenPage, tmp_path: Path) -> None:
     path = tmp_path / "page.html"
-    path.write_text(page([shipped.scene("planetary-24-18-60")], teeth=False), encoding="utf-8")
+    path.write_text(page([shipped.built("planetary-24-18-60")], teeth=False), encoding="utf-8")
     plain = open_page(path, **DESK)
     assert plain.page.get_by_role("slider", name="crank").count() == 1
     assert plain.page.get_by_role("tab", name="Contacts").count() == 0

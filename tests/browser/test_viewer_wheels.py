@@ -28,7 +28,7 @@ def test_the_wheel_panel_tells_all_that_is_declared(show: Opening) -> None:
 def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show: Opening) -> None:
     shown = show(SIMPLE)
     shown.run("geartrain.stages[0].onPick(1)")
-    wheel = shipped.scene(SIMPLE).wheels[1]
+    wheel = shipped.built(SIMPLE).wheels[1]
     assert f"Wheel {wheel.id}" in shown.page.locator(".detail").inner_text()
 
 
@@ -54,7 +54,7 @@ def test_losses_are_told_where_they_are_known(show: Opening) -> None:
     shown.page.get_by_label("Colours").select_option("loss")
     assert "of the power put in" in shown.page.locator(".legend").inner_text()
     tab(shown, "Wheels")
-    wheel = next(wheel for wheel in shipped.scene("norton-compound").wheels if wheel.loss)
+    wheel = next(wheel for wheel in shipped.built("norton-compound").wheels if wheel.loss)
     shown.page.locator(f"[data-wheel='{wheel.id}']").click()
     assert f"{100 * float(wheel.loss or 0):.3g} % of the power put in" in shown.page.locator(".detail").inner_text()
     shown = show(SIMPLE)

@@ -64,10 +64,29 @@ class _Steps:
             [f"{base} {self.high} plate"],
         )
         yield from self._bridge()
+        yield from self._across()
         if self.work.dials:
             names = [dial.name for dial in self.work.dials]
-            yield self._step(f"Hold {', '.join(names)} on feet where there is room, and put hands on the arbors", names)
+            feet = [foot.name for dial in self.work.dials for foot in dial.feet]
+            yield self._step(
+                f"Press the feet into {', '.join(names)} and into the plate before which each stands, and put hands "
+                "on the arbors",
+                [*names, *feet],
+            )
         yield AssemblyStep("Turn it by the lead through a whole turn of the slowest wheel before it is oiled", ())
+
+    def _across(self) -> Iterator[AssemblyStep]:
+        """Arms of pins, cages of carriers and brackets of arbors that lie across the plates."""
+        arms = sorted(name for name in self.known if name.endswith(" pin arm"))
+        cages = [part.name for cage in self.work.cages for part in cage.parts]
+        brackets = [bracket.part.name for bracket in self.work.brackets]
+        for names, text in (
+            (arms, "Fix the arms to the arbors of their links, pins outwards"),
+            (cages, "Fix the posts of the cages to their carriers, and hang the arbors across in the eyes"),
+            (brackets, "Screw the brackets to the plates, arbors between them"),
+        ):
+            if names:
+                yield self._step(text, names)
 
     def _step(self, text: str, parts: Sequence[str]) -> AssemblyStep:
         return AssemblyStep(text, tuple(name for name in parts if name in self.known))

@@ -9,6 +9,7 @@ from math import atan2, hypot, pi
 from xml.etree import ElementTree
 
 import ezdxf
+import numpy as np
 import pytest
 from shipped import train as load
 
@@ -34,13 +35,28 @@ def engraved(work: SolidModel, file: str) -> list[list[tuple[float, float]]]:
     ]
 
 
+def about(work: SolidModel, lines: list[list[tuple[float, float]]], dial: str) -> list[list[tuple[float, float]]]:
+    """Lines of one dial, counted from its middle, where its reader has it from that of the plate's first dial."""
+    (plate,) = [each for each in work.dials if any(dial in circle.scales for circle in each.circles)]
+    own, first = (
+        next(face for face in work.scene.dials if face.id == name)
+        for name in (dial, next(iter(plate.circles[0].scales)))
+    )
+    away, right = np.subtract(own.centre, first.centre), np.cross(own.zero, own.normal)
+    x, y = float(away @ right), float(away @ np.array(own.zero))
+    radius = next(circle.radius for circle in plate.circles if dial in circle.scales)
+    moved = [[(u - x, v - y) for u, v in line] for line in lines]
+    return [line for line in moved if hypot(*line[0]) <= radius]
+
+
 def clockwise(point: tuple[float, float]) -> float:
     """Turns from above."""
     return (atan2(*point) / (2 * pi)) % 1
 
 
 def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours() -> None:
-    lines = engraved(model("longcase-clock-cycloidal"), "dial-minutes-and-hours")
+    work = model("longcase-clock-cycloidal")
+    lines = about(work, engraved(work, "dial-minutes-and-hours-and-seconds"), "minutes")
     marks = [line for line in lines if len(line) == 2]
     outer, inner = (max(hypot(*line[0]) for line in lines if len(line) > 2), min(hypot(*mark[0]) for mark in marks))
     minutes = [mark for mark in marks if hypot(*mark[0]) == pytest.approx(outer, abs=1e-3)]
@@ -51,7 +67,8 @@ def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours() -> None:
 
 
 def test_the_metonic_spiral_has_235_months_in_five_turns() -> None:
-    lines = engraved(model("freeth-2008"), "dial-metonic")
+    work = model("freeth-2008")
+    lines = about(work, engraved(work, "dial-metonic-and-games-and-callippic-and-saros-and-exeligmos"), "metonic")
     marks = [line[0] for line in lines if len(line) == 2]
     assert len(marks) == 236, "the last cell has an end too"
     assert [clockwise(mark) for mark in marks] == pytest.approx([5 * k / 235 % 1 for k in range(236)], abs=1e-4)
@@ -68,25 +85,25 @@ def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
         for dial in work.dials:
             plate = parts[dial.name].placed.vertices
             low, high = plate[:, 2].min(), plate[:, 2].max()
-            middle = parts[dial.name].place[:2]
-            rods = [
-                part
-                for part in parts.values()
-                if part.kind in ("arbor", "pipe")
-                and hypot(*(part.place[:2] - middle)) < 1e-6
-                and part.placed.vertices[:, 2].min() < low
-                and part.placed.vertices[:, 2].max() > high
-            ]
-            assert rods, f"nothing reaches '{dial.name}'"
-            assert all(part.turned is not None and part.turned.diameter < dial.hole for part in rods)
+            for circle in dial.circles:
+                rods = [
+                    part
+                    for part in parts.values()
+                    if part.kind in ("arbor", "pipe")
+                    and hypot(*(part.place[:2] - np.array(circle.at))) < 1e-6
+                    and part.placed.vertices[:, 2].min() < low
+                    and part.placed.vertices[:, 2].max() > high
+                ]
+                assert rods, f"nothing reaches {list(circle.scales)}"
+                assert all(part.turned is not None and part.turned.diameter < circle.hole for part in rods)
 
 
 def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
     work = model("longcase-clock-cycloidal")
-    (found,) = [each for each in export_files(work, ["dxf"]) if each.path.endswith("dial-seconds.dxf")]
+    (found,) = [each for each in export_files(work, ["dxf"]) if each.path.endswith("and-seconds.dxf")]
     space = ezdxf.read(io.StringIO(found.make().decode())).modelspace()
     lines = [each for each in space.query("LWPOLYLINE") if each.dxf.layer == "ENGRAVE"]
-    assert len(lines) == 61
+    assert len(lines) == 60 + 60 + 12 + 3, "marks of three scales, and their circles"
     assert not any(line.closed for line in lines)
 
 

@@ -42,7 +42,7 @@ export function pointsOf({ at, direction, radius }) {
 }
 
 /** The ball that holds all circles and corners; of a train without wheels, its axes. */
-export function ballOf(scene, circles, corners) {
+export function ballOf(scene, circles, corners = []) {
   const box = new Box3().setFromPoints([...circles.flatMap(pointsOf), ...corners]);
   if (box.isEmpty()) for (const { point } of scene.bodies) box.expandByPoint(vector(point).addScalar(10)).expandByPoint(vector(point).subScalar(10));
   return box.getBoundingSphere(new Sphere());

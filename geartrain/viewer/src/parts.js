@@ -96,12 +96,13 @@ export function rodsOf(scene, index) {
     });
 }
 
-/** Points that hold all parts, where these stand in the zero pose. */
-export function cornersOf(scene) {
-  return scene.parts.flatMap(({ place, direction, across, bands, outlines, height }) => {
+/** Points that hold all parts, where these stand in the zero pose: {point, body, at}, `at` as of the part. */
+export function cornersOf(scene, main) {
+  return scene.parts.flatMap(({ body, place, direction, across, bands, outlines, height }) => {
     const matrix = frameAt(place, direction, across);
     const flat = (outlines[0] ?? []).flatMap((x, n, all) => (n % 2 ? [] : [[x, all[n + 1], height / 2], [x, all[n + 1], -height / 2]]));
     const round = bands.flatMap(([low, high, r]) => [low, high].flatMap((z) => [[r, 0, z], [-r, 0, z], [0, r, z], [0, -r, z]]));
-    return [...flat, ...round].map((point) => vector(point).applyMatrix4(matrix));
+    const at = bands.length && isParallel(direction, main.toArray()) ? null : vector(place);
+    return [...flat, ...round].map((point) => ({ point: vector(point).applyMatrix4(matrix), body, at }));
   });
 }

@@ -19,10 +19,10 @@ export class World {
   constructor(machine) {
     this.scene = machine.scene;
     this.circles = circlesOf(this.scene);
-    this.corners = cornersOf(this.scene);
-    this.ball = ballOf(this.scene, this.circles, this.corners);
-    this.size = 2 * this.ball.radius;
     this.main = mainDirection(this.scene);
+    this.corners = cornersOf(this.scene, this.main);
+    this.ball = ballOf(this.scene, this.circles, this.corners.map(({ point }) => point));
+    this.size = 2 * this.ball.radius;
     this.poses = new Poses(machine, this.main, this.ball.center);
     this.root = this.poses.root;
     this.nodes = this.poses.nodes;
@@ -139,7 +139,12 @@ export class World {
   outline() {
     const { crank, poses } = this;
     const swing = crank ? [{ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }] : [];
-    return [...[...this.circles, ...swing].flatMap(pointsOf), ...this.corners].map((point) => poses.apart(point, poses.height(point)));
+    const moved = (point, body, at) => {
+      const lift = poses.lift(body, at);
+      return poses.apart(point, typeof lift === "number" ? lift : lift(point)).add(poses.shifts[body]);
+    };
+    const held = this.corners.map(({ point, body, at }) => moved(point, body, at));
+    return [...[...this.circles, ...swing].flatMap(pointsOf).map((point) => poses.apart(point, poses.height(point))), ...held];
   }
 
   /** Where a point of the crank (its foot or its knob) is now. */

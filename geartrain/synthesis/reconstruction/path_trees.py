@@ -22,7 +22,7 @@ _Drive = tuple[PlacedWheel | None, tuple[Limb, ...]]
 _ENDLESS = 1 << 20
 
 
-class _Path(NamedTuple):
+class DialPath(NamedTuple):
     """A dial's path, and what of it is still below.
 
     arbors               surviving ones, a bit each
@@ -50,7 +50,7 @@ class _Path(NamedTuple):
         return self.compounds + self.idlers + self.ends_new
 
 
-Paths = dict[str, _Path]
+Paths = dict[str, DialPath]
 """By dial, sorted by name."""
 
 
@@ -81,19 +81,22 @@ class PathTrees:
 
     def skeletons(self, choice: Mapping[str, int], added: int) -> Iterator[Skeleton]:
         """All with just so many added wheels and these rows of the lists."""
-        paths = {dial: self._path(dial, choice[dial]) for dial in self.lists}
-        roots = [root for root, left in self._joint(0, paths, _Left(added, self._new)) if not left.wheels]
+        roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
         if roots:
             wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
             yield from (Skeleton(root, wanted) for root in roots)
 
-    def _path(self, dial: str, row: int) -> _Path:
+    def roots(self, paths: Paths, added: int) -> list[Joint]:
+        """The input arbor of each tree that has these paths and just so many added wheels."""
+        return [root for root, left in self._joint(0, paths, _Left(added, self._new)) if not left.wheels]
+
+    def _path(self, dial: str, row: int) -> DialPath:
         paths = self.lists[dial]
         codes = paths.codes[row].tolist()
         passes = {at: paths.passes[at][code - 1] for at, code in enumerate(codes) if code}
         figures = (paths.arbors, paths.compounds, paths.idlers, paths.wheels)
         arbors, compounds, idlers, wheels = (int(each[row]) for each in figures)
-        return _Path(arbors, passes, compounds, idlers, wheels, bool(paths.ends_new[row]))
+        return DialPath(arbors, passes, compounds, idlers, wheels, bool(paths.ends_new[row]))
 
     # what hangs from a driving wheel
 
@@ -184,7 +187,7 @@ class PathTrees:
                 through.append(at)
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
-    def _leg(self, dial: str, path: _Path, left: _Left) -> Iterator[tuple[Limb, _Left]]:
+    def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Limb, _Left]]:
         """The only limb that leads to one dial alone."""
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
@@ -272,7 +275,7 @@ class PathTrees:
                 yield ((drivers[0], limbs), *drives), end
 
 
-def paths_first(paths: Paths) -> _Path:
+def paths_first(paths: Paths) -> DialPath:
     """Any of some paths, for what all of them have."""
     return next(iter(paths.values()))
 
@@ -307,7 +310,7 @@ def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) 
     }
 
 
-def _ways_from_added(path: _Path) -> Iterator[str]:
+def _ways_from_added(path: DialPath) -> Iterator[str]:
     if path.is_at_end and path.ends_new:
         yield HERE
     if path.compounds:

@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from geartrain.numerics.work import Execution
-from geartrain.synthesis.reconstruction.added_count_sums import OpenCounts
 from geartrain.synthesis.reconstruction.question_digest import question_digest
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
@@ -75,9 +74,8 @@ def timed_part(task: SkeletonTask, clock: Callable[[], float]) -> float:
 def _counted(task: SkeletonTask) -> list[tuple[Any, int, int]]:
     search, trains = _search(question_digest(task.problem), task.problem)
     found = []
-    for skeleton in search.skeletons(task.added, task.part, task.parts):
-        choices = trains.counts.total(OpenCounts(skeleton.added, skeleton.wanted))
-        if choices and (number := trains.count(skeleton)):
+    for skeleton, choices in search.skeletons(task.added, task.part, task.parts):
+        if number := trains.count(skeleton):
             found.append((plain_skeleton(skeleton), choices, number))
     return found
 
@@ -102,4 +100,5 @@ def _search(digest: str, problem: ReconstructionProblem) -> tuple[SkeletonSearch
 @lru_cache(maxsize=2)
 def _made_search(known: _Known) -> tuple[SkeletonSearch, SkeletonTrains]:
     """Lists of paths are made once a process."""
-    return SkeletonSearch(known.problem), SkeletonTrains(known.problem, [dial.name for dial in known.problem.dials])
+    trains = SkeletonTrains(known.problem, [dial.name for dial in known.problem.dials])
+    return SkeletonSearch(known.problem, trains.counts), trains

@@ -35,7 +35,11 @@ def tell_question(problem: ReconstructionProblem, options: RunOptions) -> Expect
 
     tell(f"asked: {AskedQuestion.of(problem)}")
     expected = expect_cost(problem)
-    tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in expected.paths.items())}")
+    if expected.placements is None:
+        tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in expected.paths.items())}")
+    else:
+        ways = plural(expected.placements, "way")
+        tell(f"{ways} to share out {plural(problem.additions.wheels, 'added wheel')} among the paths to dials")
     if seconds := rough(expected.whole):
         shared = f", shared by {options.workers}" if options.workers not in (None, 1) else ""
         timed = f"one part in {expected.parts} of the search was timed"

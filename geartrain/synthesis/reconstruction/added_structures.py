@@ -1,4 +1,4 @@
-"""Which added wheels there may be: below each which dials, whether it drives, and beside what surviving wheels it stands.
+"""Which added wheels there may be: which dials are below each, whether it drives, and beside what it stands.
 
 An added wheel is on a new arbor, as its driven wheel or as one that drives, or it drives beside surviving ones. So all
 are found by sharing out their number.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from typing import NamedTuple
 
 from geartrain.synthesis.reconstruction.arbor_roles import (
@@ -70,6 +70,7 @@ class AddedStructures:
         self._may_be_lost = sum(1 << at for at, dial in enumerate(dials) if dial.place in (None, NEW))
         self._cores: dict[tuple[tuple[int, ...], int], tuple[tuple[Core, int], ...]] = {}
 
+    @cache  # noqa: B019 -- lives as long as the search
     def of(self, wheels: int) -> dict[AddedSets, tuple[Core, ...]]:
         """All with just so many added wheels, sorted; with each the cores that it may have."""
         found: dict[AddedSets, dict[Core, None]] = defaultdict(dict)

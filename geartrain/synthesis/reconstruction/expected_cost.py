@@ -10,7 +10,13 @@ from time import perf_counter
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.skeleton_tasks import SkeletonTask, skeleton_tasks, timed_part, total_paths
+from geartrain.synthesis.reconstruction.skeleton_tasks import (
+    SkeletonTask,
+    skeleton_tasks,
+    timed_part,
+    total_paths,
+    total_placements,
+)
 
 _SAMPLES = {4096: 3, 512: 4, 64: 5}
 """One part in so many is timed, so many of them; then one in fewer, until that is long enough to judge by."""
@@ -36,7 +42,11 @@ class ExpectedCost(Result):
     Attributes
     ----------
     paths : dict of str to int
-        By dial, how many paths from the input to it are possible, with as many added wheels as may be.
+        By dial, how many paths from the input to it are possible, with as many added wheels as may be. Empty where
+        trains are searched as wholes, and not by paths.
+    placements : int or None
+        In how many ways as many wheels as may be added may be shared out among the paths to dials; None where paths are
+        searched.
     seconds : tuple of float
         How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
         three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top.
@@ -44,9 +54,10 @@ class ExpectedCost(Result):
         One part in so many of the search was timed; 0 if none was.
     """
 
-    KEYS = ("paths", Key("seconds", "whole", to=rough))
+    KEYS = ("paths", "placements", Key("seconds", "whole", to=rough))
 
     paths: dict[str, int]
+    placements: int | None
     seconds: tuple[float, ...]
     parts: int
 
@@ -65,7 +76,9 @@ def expect_cost(problem: ReconstructionProblem, clock: Callable[[], float] = per
     parted = dict.fromkeys(task.added for task in skeleton_tasks(problem) if task.parts > 1 and all(paths.values()))
     timed = {added: _sampled(problem, added, clock) for added in parted}
     seconds = tuple(timed[added][1] if added in timed else 0.0 for added in range(problem.additions.wheels + 1))
-    return ExpectedCost(paths, seconds, max((parts for parts, _ in timed.values()), default=0))
+    return ExpectedCost(
+        paths, total_placements(problem), seconds, max((parts for parts, _ in timed.values()), default=0)
+    )
 
 
 def _sampled(problem: ReconstructionProblem, added: int, clock: Callable[[], float]) -> tuple[int, float]:

@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.synthesis.reconstruction.added_structures import AddedSets
 
-States = NDArray[np.int64]
-_BITS = 6
-"""Of a power of one dial: from -31 to 31."""
+Ints = NDArray[np.int64]
+_BITS = 6  # of a power of one dial
+MOST_POWER = (1 << _BITS - 1) - 1
+"""The greatest power of a prime."""
 NO_STATE = 0
 """What cannot be shared out."""
 
@@ -28,7 +30,7 @@ def packed_powers(powers: Sequence[int]) -> int:
 
 
 class PrimeShares:
-    """States of some added wheels."""
+    """NDArray[np.int64] of some added wheels."""
 
     start = 1
 
@@ -43,7 +45,7 @@ class PrimeShares:
         self._numbers = {left: number for number, left in enumerate(self._left)}
         self._steps: dict[tuple[int, int], int] = {}
 
-    def after(self, states: States, powers: NDArray[np.int64]) -> States:
+    def after(self, states: Ints, powers: NDArray[np.signedinteger[Any]]) -> Ints:
         """Each state once a prime more has its packed powers."""
         some = np.flatnonzero((powers != 0) & (states != NO_STATE))
         if not len(some):

@@ -41,7 +41,8 @@ def find_reconstructions(
     execution : Execution, optional
         How the parts of the search are done; default one after the other in this process.
     listed : int
-        How many candidates are listed at least, where there are so many.
+        How many candidates are listed at least, where there are so many. With 0, parts of the search with many trains
+        are summed, and the skeletons of these are left out.
     per : {"mechanism", "class"}
         What has a weight of its own: every train, or every ratio class, whose trains then share it.
 
@@ -51,29 +52,34 @@ def find_reconstructions(
         If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
     """
     found: dict[int, list[CountedSkeleton]] = {added: [] for added in range(problem.additions.wheels + 1)}
+    summed = Counter[int]()
     whole: set[int] = set()
+    geometry = problem.geometry
+    one_by_one = per == "class" or bool(geometry.wheels or geometry.arbors)
     try:
-        for added, last, skeletons in count_skeletons(problem, execution):
-            found[added] += skeletons
-            if last:
-                whole.add(added)
+        for part in count_skeletons(problem, execution, None if listed or one_by_one else _TOLD_APART):
+            found[part.added] += part.skeletons
+            summed[part.added] += part.mechanisms
+            if part.last:
+                whole.add(part.added)
     except KeyboardInterrupt:
         found = {added: skeletons for added, skeletons in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
-    geometry = problem.geometry
-    if per == "class" or geometry.wheels or geometry.arbors:
+    if one_by_one:
         return _all_weighed(problem, found, complete, per)
-    counts = tuple(_count(added, skeletons, problem) for added, skeletons in found.items())
+    counts = tuple(_count(added, skeletons, summed[added], problem) for added, skeletons in found.items())
     every = tuple(each for some in found.values() for each in some)
     return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every)
 
 
-def _count(added: int, skeletons: Sequence[CountedSkeleton], problem: ReconstructionProblem) -> ExplanationCount:
-    mechanisms = sum(each.mechanisms for each in skeletons)
+def _count(
+    added: int, skeletons: Sequence[CountedSkeleton], summed: int, problem: ReconstructionProblem
+) -> ExplanationCount:
+    mechanisms = sum(each.mechanisms for each in skeletons) + summed
     # the order of arbors changes neither, but where a ring limits counts in some orders
     greatest = problem.additions.greatest
     told = [(each, not rings_limit(each.skeleton, problem.rings, greatest)) for each in skeletons]
-    if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
+    if summed or sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
         return ExplanationCount(added, mechanisms, None, None)
     some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
     return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))

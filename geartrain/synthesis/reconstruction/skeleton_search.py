@@ -16,8 +16,9 @@ from geartrain.synthesis.reconstruction.path_trees import PathTrees
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeletons import Skeleton
+from geartrain.synthesis.reconstruction.whole_tree_questions import are_whole_trees_asked
 from geartrain.synthesis.reconstruction.whole_tree_sums import WholeTreeSums
-from geartrain.synthesis.reconstruction.whole_trees import WholeTrees, are_whole_trees_asked
+from geartrain.synthesis.reconstruction.whole_trees import WholeTrees
 
 
 class SkeletonSearch:

@@ -29,18 +29,37 @@ class CountedSkeleton:
 
 
 class SkeletonTask(NamedTuple):
-    """A part of the search with a given number of added wheels."""
+    """A part of the search with a given number of added wheels.
+
+    most   choices of counts up to which skeletons are told; of more, only sums. None for no limit
+    """
 
     problem: ReconstructionProblem
     added: int
     part: int
     parts: int
+    most: int | None = None
 
 
-def skeleton_tasks(problem: ReconstructionProblem) -> list[SkeletonTask]:
+class CountedPart(NamedTuple):
+    """What a part of the search found.
+
+    last                  whether it is the last with so many added wheels
+    skeletons             each with its trains
+    choices, mechanisms   sums over those that are not told
+    """
+
+    added: int
+    last: bool
+    skeletons: list[CountedSkeleton]
+    choices: int
+    mechanisms: int
+
+
+def skeleton_tasks(problem: ReconstructionProblem, most: int | None = None) -> list[SkeletonTask]:
     """All parts, those with few added wheels first."""
     return [
-        SkeletonTask(problem, added, part, parts)
+        SkeletonTask(problem, added, part, parts, most)
         for added in range(problem.additions.wheels + 1)
         for parts in [1 if added <= _QUICK else _PARTS]
         for part in range(parts)
@@ -48,20 +67,29 @@ def skeleton_tasks(problem: ReconstructionProblem) -> list[SkeletonTask]:
 
 
 def count_skeletons(
-    problem: ReconstructionProblem, execution: Execution | None = None
-) -> Iterator[tuple[int, bool, list[CountedSkeleton]]]:
-    """By task: number of added wheels, whether it is the last with so many, and the skeletons that it found."""
-    tasks = skeleton_tasks(problem)
+    problem: ReconstructionProblem, execution: Execution | None = None, most: int | None = None
+) -> Iterator[CountedPart]:
+    """What each part of the search finds; with `most`, a part with more choices of counts than that only sums them."""
+    tasks = skeleton_tasks(problem, most)
     answers = (execution or Execution()).run(_counted, tasks)
-    for task, answer in zip(tasks, answers, strict=True):
-        found = [CountedSkeleton(skeleton_of(plain), choices, trains) for plain, choices, trains in answer]
-        yield task.added, task.part + 1 == task.parts, found
+    for task, (answer, choices, mechanisms) in zip(tasks, answers, strict=True):
+        found = [CountedSkeleton(skeleton_of(plain), own, trains) for plain, own, trains in answer]
+        yield CountedPart(task.added, task.part + 1 == task.parts, found, choices, mechanisms)
 
 
 def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
-    """By dial, how many paths to it are possible."""
+    """By dial, how many paths to it are possible; none where whole trees are searched."""
     search, _ = _search(question_digest(problem), problem)
+    if search.whole_trees is not None:
+        return {}
     return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
+
+
+def total_placements(problem: ReconstructionProblem) -> int | None:
+    """In how many ways the most wheels may be added to some dials, as paths to them; None where paths are searched."""
+    search, _ = _search(question_digest(problem), problem)
+    trees = search.whole_trees
+    return None if trees is None else len(trees.trees.structures.of(problem.additions.wheels))
 
 
 def timed_part(task: SkeletonTask, clock: Callable[[], float]) -> float:
@@ -71,13 +99,18 @@ def timed_part(task: SkeletonTask, clock: Callable[[], float]) -> float:
     return clock() - start
 
 
-def _counted(task: SkeletonTask) -> list[tuple[Any, int, int]]:
+def _counted(task: SkeletonTask) -> tuple[list[tuple[Any, int, int]], int, int]:
     search, trains = _search(question_digest(task.problem), task.problem)
-    found = []
-    for skeleton, choices in search.skeletons(task.added, task.part, task.parts):
-        if number := trains.count(skeleton):
-            found.append((plain_skeleton(skeleton), choices, number))
-    return found
+    if task.most is not None and search.whole_trees is not None and trains.may_be_summed:
+        solved = list(search.whole_trees.solved(task.added, task.part, task.parts))
+        choices = sum(one.all_choices for one in solved)
+        if choices > task.most:
+            return [], choices, sum(one.mechanisms for one in solved)
+        skeletons = [each for one in solved for each in search.whole_trees.skeletons(one)]
+    else:
+        skeletons = list(search.skeletons(task.added, task.part, task.parts))
+    found = [(plain_skeleton(each), choices, number) for each, choices in skeletons if (number := trains.count(each))]
+    return found, 0, 0
 
 
 class _Known:

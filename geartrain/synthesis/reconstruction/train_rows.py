@@ -1,19 +1,25 @@
-"""Trains that are put together arbor by arbor, millions at a time, as columns of arrays; and what each arbor changes."""
+"""Trains put together arbor by arbor, millions at a time, as columns of arrays; and what each arbor changes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
+from fractions import Fraction
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.synthesis.reconstruction.arbor_roles import RolesOfArbor, crossing_bits, in_sets, set_bits
-from geartrain.synthesis.reconstruction.prime_shares import packed_powers
+from geartrain.synthesis.reconstruction.prime_shares import Ints, packed_powers
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
 
-Ints = NDArray[np.int64]
+States = NDArray[np.int32]
+Words = NDArray[np.signedinteger[Any]]
+"""Whole numbers of any length."""
+_ODD = np.uint64(0x9E3779B97F4A7C15)
+"""By which words are mixed."""
 INPUT = -1
 """The end from which all paths start, among ends that are dials by number."""
 
@@ -26,21 +32,21 @@ class TrainRows:
     turned          bits of dials that an odd number of arbors leads to
     core, shares    states: roles of special arbors; how large primes may be shared out
     powers          by large prime that several arbors have, or a dial: its packed powers in what is to be added
-    keys            by dial: key of what is to be added
+    keys            by dial: key of what is to be added; left out until all arbors have roles
     checked         bits of pairs of ends whose quotient was looked up
     roles, reads    by arbor: number of its role, and of the reading of that
     """
 
-    sets: Ints
-    crossing: Ints
-    turned: Ints
-    core: Ints
-    shares: Ints
-    powers: Ints
+    sets: Words
+    crossing: Words
+    turned: NDArray[np.int8]
+    core: States
+    shares: States
+    powers: Words
     keys: NDArray[np.uint64]
-    checked: Ints
+    checked: States
     roles: NDArray[np.int16]
-    reads: NDArray[np.int32]
+    reads: States
 
     def __len__(self) -> int:
         return len(self.sets)
@@ -48,24 +54,6 @@ class TrainRows:
     def kept(self, rows: NDArray[np.bool_] | Ints | slice) -> TrainRows:
         """Some of them."""
         return TrainRows(*(getattr(self, each.name)[rows] for each in fields(self)))
-
-    def having(self, at: int, role: int | NDArray[np.int64] | None, read: NDArray[np.int64] | int | None) -> TrainRows:
-        """The same with a role of an arbor, or its reading."""
-        found = self
-        if role is not None:
-            roles = self.roles.copy()
-            roles[:, at] = role
-            found = replace(found, roles=roles)
-        if read is not None:
-            reads = self.reads.copy()
-            reads[:, at] = read
-            found = replace(found, reads=reads)
-        return found
-
-    @staticmethod
-    def joined(parts: Sequence[TrainRows]) -> TrainRows:
-        """All of some."""
-        return TrainRows(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(TrainRows)))
 
 
 @dataclass(frozen=True)
@@ -119,9 +107,7 @@ class CountTable:
         owners = [{prime for count in own for prime, _ in prime_powers(count)} for own in by_arbor]
         asked = {prime for number in others for prime, _ in prime_powers(number)}
         self.large = tuple(prime for prime in self.primes if prime * prime > greatest)
-        self.shared = tuple(
-            prime for prime in self.large if prime in asked or sum(prime in own for own in owners) > 1
-        )
+        self.shared = tuple(p for p in self.large if p in asked or sum(p in own for own in owners) > 1)
         self.owners = tuple(frozenset(own & set(self.large)) for own in owners)
 
     def columns(self, primes: Sequence[int]) -> Ints:
@@ -135,6 +121,12 @@ def powers_of(number: int, primes: Sequence[int]) -> list[int]:
     return [powers.get(prime, 0) for prime in primes]
 
 
+def ratio_powers(ratio: Fraction, primes: Sequence[int]) -> list[int]:
+    """The same in a quotient."""
+    up, down = powers_of(ratio.numerator, primes), powers_of(ratio.denominator, primes)
+    return [one - other for one, other in zip(up, down, strict=True)]
+
+
 def arbor_columns(arbor: RolesOfArbor, at: int, dials: int, table: CountTable) -> ArborColumns:
     """The columns of an arbor, the input at 0."""
     every = (1 << dials) - 1
@@ -144,7 +136,7 @@ def arbor_columns(arbor: RolesOfArbor, at: int, dials: int, table: CountTable) -
     counts, blocks, first = [], [], [0]
     for role in arbor.roles:
         reads = arbor.of(role)
-        teeth = [[1 if one.driven is None else one.driven.teeth, *(wheel.teeth for wheel in one.drivers)] for one in reads]
+        teeth = [[one.driven.teeth if one.driven else 1, *(wheel.teeth for wheel in one.drivers)] for one in reads]
         padded = [[table.place[count] for count in one] + [0] * (widest + 1 - len(one)) for one in teeth]
         counts.append(np.array(padded, dtype=np.int64).reshape(len(reads), widest + 1))
         sets = (role.on if at else 0, *role.blocks, *[0] * (widest - len(role.blocks)))
@@ -152,7 +144,7 @@ def arbor_columns(arbor: RolesOfArbor, at: int, dials: int, table: CountTable) -
         first.append(first[-1] + len(reads))
     places, inside = np.concatenate(counts), np.concatenate(blocks)
     signs = np.array([1, *[-1] * widest])[None, :, None] * inside
-    weights = packed_weights(dials)
+    weights = _packed_weights(dials)
     packed = np.einsum("nwd,nwp,d->np", signs, table.columns(table.large)[places], weights)
     lone = [table.large.index(prime) for prime in own]
     gone = [table.large.index(prime) for prime in own if prime > table.greatest]
@@ -171,7 +163,7 @@ def arbor_columns(arbor: RolesOfArbor, at: int, dials: int, table: CountTable) -
     )
 
 
-def packed_weights(dials: int) -> Ints:
+def _packed_weights(dials: int) -> Ints:
     """What a power of 1 of each dial is, packed."""
     return np.array([packed_powers([int(at == dial) for at in range(dials)]) for dial in range(dials)], dtype=np.int64)
 
@@ -187,3 +179,26 @@ def _squeezed(powers: Ints) -> Ints:
     order = np.argsort(powers == 0, axis=1, kind="stable")
     found = np.take_along_axis(powers, order, axis=1)
     return found[:, : int((powers != 0).sum(axis=1).max(initial=0))]
+
+
+# rows that are repeated, and rows that are alike
+
+
+def repeated(often: Ints, first: Ints) -> tuple[Ints, Ints]:
+    """Numbers from 0 on, each so often; beside them numbers that rise by 1 from the first of each on."""
+    which = np.repeat(np.arange(len(often)), often)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(often) - often, often) + first[which]
+
+
+def alike_rows(columns: Sequence[Words]) -> tuple[list[int], Ints]:
+    """Rows that stand for all that are alike in some columns, and by row for which of them it is."""
+    mixed = np.zeros(len(columns[0]), dtype=np.uint64)
+    for column in columns:
+        mixed = (mixed ^ column.astype(np.uint64)) * _ODD
+        mixed ^= mixed >> np.uint64(29)
+    _, first, which = np.unique(mixed, return_index=True, return_inverse=True)
+    if all((column == column[first][which]).all() for column in columns):
+        return first.tolist(), which
+    # two that differ were mixed to the same word
+    _, first, which = np.unique(np.stack(columns, axis=1), axis=0, return_index=True, return_inverse=True)
+    return first.tolist(), which.ravel()

@@ -13,8 +13,9 @@ from geartrain.synthesis.reconstruction.added_count_sums import AddedCountSums, 
 from geartrain.synthesis.reconstruction.added_structures import AddedSets
 from geartrain.synthesis.reconstruction.arbor_roles import Role
 from geartrain.synthesis.reconstruction.path_trees import DialPath, Paths, PathTrees
+from geartrain.synthesis.reconstruction.prime_shares import Ints
 from geartrain.synthesis.reconstruction.skeletons import AddedWheels, Skeleton
-from geartrain.synthesis.reconstruction.train_rows import Ints, TrainRows
+from geartrain.synthesis.reconstruction.train_rows import TrainRows
 from geartrain.synthesis.reconstruction.whole_trees import WholeTrees
 
 

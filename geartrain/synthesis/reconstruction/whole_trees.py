@@ -8,7 +8,7 @@ two ends is none that the few added wheels between them make. What is left is lo
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
@@ -19,43 +19,32 @@ from numpy.typing import NDArray
 
 from geartrain.errors import QuestionError
 from geartrain.synthesis.reconstruction.added_structures import AddedSets, AddedStructures, Core
-from geartrain.synthesis.reconstruction.arbor_roles import Role, crossing_bits, roles_of, set_bits
+from geartrain.synthesis.reconstruction.arbor_roles import crossing_bits, roles_of, set_bits
 from geartrain.synthesis.reconstruction.asked_question import too_wide
-from geartrain.synthesis.reconstruction.prime_shares import NO_STATE, PrimeShares, packed_powers
+from geartrain.synthesis.reconstruction.core_states import CoreStates
+from geartrain.synthesis.reconstruction.prime_shares import NO_STATE, Ints, PrimeShares, packed_powers
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.shared_readings import Readable, SharedReadings
 from geartrain.synthesis.reconstruction.train_rows import (
     INPUT,
     CountTable,
-    Ints,
+    States,
     TrainRows,
     arbor_columns,
-    powers_of,
+    ratio_powers,
 )
 
-_MOST_DIALS = 6
-"""Dials whose sets are bits of a whole number."""
+_MANY_DIALS = 6
+"""Dials from which on sets and powers need 64 bits."""
 _FEW_WAYS = 4
 """Readings of an arbor that are told apart at once where it has large primes; of others, when all arbors have roles."""
-_ALIKE = 2000
-"""Trains from which on a reading is tried once for all that are alike."""
 _PIECE = 1 << 18
 """Trains that are grown at once."""
 _MOST_ROWS = 3_000_000_000
 """Trains that are looked at: an hour."""
-_ODD = np.uint64(0x9E3779B97F4A7C15)
 _LOOKED_UP = 2
 """Added wheels between two ends up to which their quotient is looked up on the way; of one more, at the end."""
-
-
-def are_whole_trees_asked(problem: ReconstructionProblem) -> bool:
-    """Whether a question may be answered so: exact dials that turn, no idlers, no rings, no arbors without wheels."""
-    return (
-        all(dial.is_exact and dial.least for dial in problem.dials)
-        and 0 < len(problem.dials) <= _MOST_DIALS
-        and not (problem.idlers or problem.rings)
-        and all(arbor.wheels for arbor in (problem.input, *problem.arbors))
-    )
 
 
 class _Asked(NamedTuple):
@@ -63,7 +52,7 @@ class _Asked(NamedTuple):
 
     few, more   pairs of ends, by number, with the numbers of added wheels between them that drive and are driven
     roles       by arbor, the numbers of roles that it may have
-    allowed     readings that were found for trains that are alike
+    readable    by arbor and role, whether it has a reading by the primes that are known
     """
 
     added: AddedSets
@@ -72,7 +61,7 @@ class _Asked(NamedTuple):
     few: tuple[tuple[int, int, int], ...]
     more: tuple[tuple[int, int, int], ...]
     roles: tuple[tuple[int, ...], ...]
-    allowed: dict[tuple[int, ...], tuple[Ints, Ints]]
+    readable: Readable
 
 
 class WholeTrees:
@@ -95,26 +84,31 @@ class WholeTrees:
         self._looked_at = 0
 
     def _order(self) -> None:
-        """Arbors whose readings are told apart at once, then the others, and when each large prime is in no later one."""
+        """In which order arbors get roles and readings, and when each large prime is in no later reading."""
         ways = [arbor.ways for arbor in self.arbors]
-        size = [len(arbor.roles) for arbor in self.arbors]
         wide = {at for at, own in enumerate(ways) if own > (_FEW_WAYS if self.table.owners[at] else 1)}
-        self._at_once = sorted({*range(len(ways))} - wide, key=lambda at: (ways[at] > 1, size[at]))
+        size = [len(arbor.roles) for arbor in self.arbors]
+        # first what cores bind, then what large primes rule out most, last those that are read when all have roles
+        bound = {at for at, arbor in enumerate(self.arbors) if not at or all(role.is_special for role in arbor.roles)}
+        order = sorted(
+            range(len(ways)),
+            key=lambda at: (at not in bound, at in wide, size[at], -ways[at] if at in wide else ways[at]),
+        )
+        self._steps = [(at, at not in wide) for at in order]
         self._later = sorted(wide, key=lambda at: ways[at])
-        # of many roles those first whose large primes rule out most
-        self._roles_later = sorted(wide, key=lambda at: (size[at], -ways[at]))
-        order = [*self._at_once, *self._later]
-        self._closing: dict[int, list[int]] = defaultdict(list)
+        read = [*(at for at in order if at not in wide), *self._later]
+        closing: dict[int, list[int]] = defaultdict(list)
         for column, prime in enumerate(self.table.shared):
-            owners = [at for at in order if prime in self.table.owners[at]]
-            self._closing[owners[-1] if owners else INPUT].append(column)
+            owners = [at for at in read if prime in self.table.owners[at]]
+            closing[owners[-1] if owners else INPUT].append(column)
+        self._readings = SharedReadings(self.columns, self.table, closing, self._later)
 
     def found(self, added: AddedSets, cores: Sequence[Core]) -> Iterator[TrainRows]:
         """All trains with some added wheels for which counts are not ruled out."""
         asked = self._asked(added, cores)
         rows = self._closed(self._start(asked), INPUT, asked)
         for piece in self._grown(rows, 0, asked):
-            yield self._looked_up(piece, asked.more, asked)
+            yield self._looked_up(piece, asked.more)
 
     def _asked(self, added: AddedSets, cores: Sequence[Core]) -> _Asked:
         between = []
@@ -129,7 +123,7 @@ class WholeTrees:
         few = tuple(each for each in between if each[1] + each[2] <= _LOOKED_UP)
         more = tuple(each for each in between if each[1] + each[2] == _LOOKED_UP + 1)
         shares = PrimeShares(added, len(self.dials))
-        return _Asked(added, CoreStates(cores), shares, few, more, tuple(self._roles(added, cores)), {})
+        return _Asked(added, CoreStates(cores), shares, few, more, tuple(self._roles(added, cores)), defaultdict(dict))
 
     def _roles(self, added: AddedSets, cores: Sequence[Core]) -> Iterator[tuple[int, ...]]:
         """By arbor, the roles that go with some added wheels."""
@@ -149,14 +143,19 @@ class WholeTrees:
         turned = 0
         for wheel in asked.added:
             turned ^= 0 if wheel.drives else wheel.dials
-        up, down = ([powers_of(part, self.table.shared) for part in parts] for parts in zip(*map(_parts, self.wanted), strict=True))
-        powers = [packed_powers([one[at] - two[at] for one, two in zip(up, down, strict=True)]) for at in range(len(self.table.shared))]
-        whole = [set_bits(sets), crossing_bits(sets, (1 << len(self.dials)) - 1), turned, CoreStates.start, PrimeShares.start]
+        by_dial = [ratio_powers(each, self.table.shared) for each in self.wanted]
+        powers = [packed_powers(column) for column in zip(*by_dial, strict=True)]
+        every = (1 << len(self.dials)) - 1
+        family: type[np.signedinteger[Any]] = np.int32 if len(self.dials) < _MANY_DIALS else np.int64
         return TrainRows(
-            *(np.array([each], dtype=np.int64) for each in whole),
-            np.array([powers], dtype=np.int64),
-            np.array([[self.keys.key(each) for each in self.wanted]], dtype=np.uint64),
-            np.zeros(1, dtype=np.int64),
+            np.array([set_bits(sets)], dtype=family),
+            np.array([crossing_bits(sets, every)], dtype=family),
+            np.array([turned], dtype=np.int8),
+            np.array([CoreStates.start], dtype=np.int32),
+            np.array([PrimeShares.start], dtype=np.int32),
+            np.array([powers], dtype=family),
+            np.zeros((1, 0), dtype=np.uint64),
+            np.zeros(1, dtype=np.int32),
             np.zeros((1, len(self.arbors)), dtype=np.int16),
             np.zeros((1, len(self.arbors)), dtype=np.int32),
         )
@@ -173,48 +172,68 @@ class WholeTrees:
         self._looked_at += len(rows)
         if self._looked_at > _MOST_ROWS:
             raise QuestionError(too_wide(self.problem, f"more than {_MOST_ROWS} trains would have to be looked at"))
-        roles = len(self._at_once) + len(self._later)
-        if step < roles:
+        if step < len(self._steps):
             yield from self._grown(self._with_roles(rows, step, asked), step + 1, asked)
             return
-        unread = self._later[step - roles :]
-        rows = self._looked_up(rows, asked.few, asked, unread)
+        if step == len(self._steps):
+            rows = self._with_keys(rows)
+        unread = self._later[step - len(self._steps) :]
+        rows = self._looked_up(rows, asked.few, unread)
         if not unread:
             yield rows
-        else:
+        elif len(rows):
             yield from self._grown(self._with_readings(rows, unread[0], asked), step + 1, asked)
 
     def _with_roles(self, rows: TrainRows, step: int, asked: _Asked) -> TrainRows:
         """Trains in which one arbor more has a role; and a reading, if its readings are told apart at once."""
-        at_once = step < len(self._at_once)
-        at = self._at_once[step] if at_once else self._roles_later[step - len(self._at_once)]
-        last = step + 1 == len(self.arbors)
-        columns, parts = self.columns[at], []
-        may_be_read = None if at_once or last or not self.table.owners[at] else self._may_be_read(rows, at, asked)
+        at, at_once = self._steps[step]
+        columns = self.columns[at]
+        which, number, core = self._roles_for(rows, step, asked)
+        if at_once and len(which):
+            closing = rows.powers[which][:, self._readings.closing[at]]
+            again, read, shares = self._readings.of(at, number, rows.shares[which], closing, asked.shares)
+            which, number, core = which[again], number[again], core[again]
+            found = rows.kept(which)
+            found.reads[:, at] = read
+            found.shares[:] = shares
+            found.powers[:] += columns.powers[columns.first[number] + read]
+        else:
+            found = rows.kept(which)
+        found.roles[:, at] = number
+        found.core[:] = core
+        found.sets[:] |= np.array(columns.sets)[number]
+        found.crossing[:] |= np.array(columns.crossing)[number]
+        found.turned[:] ^= np.array(columns.on)[number]
+        return found
+
+    def _roles_for(self, rows: TrainRows, step: int, asked: _Asked) -> tuple[Ints, Ints, States]:
+        """Numbers of rows with the roles that an arbor may have in them, and states of cores after."""
+        at, at_once = self._steps[step]
+        last, columns = step + 1 == len(self._steps), self.columns[at]
+        readable = (
+            None
+            if at_once or last or not self.table.owners[at]
+            else self._readings.readable(rows, at, asked.shares, asked.readable)
+        )
+        parts = []
         for number in asked.roles[at]:
             role = self.arbors[at].roles[number]
             good = (rows.crossing & columns.sets[number] == 0) & (rows.sets & columns.crossing[number] == 0)
             if last:
                 good &= self._senses(rows.turned ^ columns.on[number])
-            if may_be_read is not None:
-                good &= may_be_read(number)
-            if not good.any():
-                continue
-            core = asked.cores.after(rows.core[good], role, at == 0)
-            good[good] = done = asked.cores.are_whole(core) if last else core != NO_STATE
-            some = rows.kept(good)
-            some = replace(
-                some,
-                sets=some.sets | columns.sets[number],
-                crossing=some.crossing | columns.crossing[number],
-                turned=some.turned ^ columns.on[number],
-                core=core[done],
-            )
-            parts.append(some.having(at, number, None))
-        found = TrainRows.joined(parts) if parts else rows.kept(slice(0))
-        return self._with_readings(found, at, asked) if at_once else found
+            if readable is not None:
+                good &= readable(number)
+            which = np.flatnonzero(good)
+            core = asked.cores.after(rows.core[which], role, at == 0)
+            done = asked.cores.are_whole(core) if last else core != NO_STATE
+            parts.append((which[done], np.full(int(done.sum()), number), core[done].astype(np.int32)))
+        if not parts:
+            none = np.zeros(0, dtype=np.int64)
+            return none, none, none.astype(np.int32)
+        first, second, third = (np.concatenate(column) for column in zip(*parts, strict=True))
+        return first, second, third
 
-    def _senses(self, turned: Ints) -> NDArray[np.bool_]:
+    def _senses(self, turned: NDArray[np.int8]) -> NDArray[np.bool_]:
         """Whether all dials turn the way they must."""
         signed = sum(1 << at for at, dial in enumerate(self.dials) if dial.signed)
         wanted = sum(
@@ -225,85 +244,38 @@ class WholeTrees:
     # readings
 
     def _with_readings(self, rows: TrainRows, at: int, asked: _Asked) -> TrainRows:
-        """Trains in which an arbor has each of the readings that leave large primes to be shared out."""
-        if not len(rows):
-            return rows
-        columns = self.columns[at]
-        if len(rows) < _ALIKE:
-            return self._with_each_reading(rows, at, asked)
-        closing = self._closing[at]
-        kinds, kind = _alike([rows.roles[:, at], rows.shares, *(rows.powers[:, each] for each in closing)])
-        allowed = [self._allowed(rows, first, int(rows.roles[first, at]), at, closing, asked) for first in kinds]
-        number = np.array([len(reads) for reads, _ in allowed])
-        which, place = _repeated(number[kind], (np.cumsum(number) - number)[kind])
-        read = np.concatenate([reads for reads, _ in allowed])[place]
-        found = self._read(rows.kept(which), at, read)
-        return replace(found, shares=np.concatenate([states for _, states in allowed])[place])
+        """Trains in which an arbor that has a role has each of the readings that leave primes to be shared out."""
+        number, columns = rows.roles[:, at], self.columns[at]
+        closing = rows.powers[:, self._readings.closing[at]]
+        which, read, shares = self._readings.of(at, number, rows.shares, closing, asked.shares)
+        found = rows.kept(which)
+        row = columns.first[number[which]] + read
+        found.reads[:, at] = read
+        found.shares[:] = shares
+        found.powers[:] += columns.powers[row]
+        found.keys[:] += columns.keys[row]
+        return found
 
-    def _with_each_reading(self, rows: TrainRows, at: int, asked: _Asked) -> TrainRows:
-        """The same where there are few readings."""
-        columns, roles = self.columns[at], rows.roles[:, at]
-        which, read = _repeated(np.diff(columns.first)[roles], np.zeros(len(rows), dtype=np.int64))
-        found = self._read(rows.kept(which), at, read)
-        row = columns.first[found.roles[:, at]] + read
-        states = np.where(columns.lost[row], NO_STATE, found.shares)
-        for powers in columns.own[row].T:
-            states = asked.shares.after(states, powers)
-        return self._closed(replace(found, shares=states), at, asked)
-
-    def _read(self, rows: TrainRows, at: int, read: Ints) -> TrainRows:
-        """Rows with a reading of an arbor."""
-        columns = self.columns[at]
-        row = columns.first[rows.roles[:, at]] + read
-        powers, keys = rows.powers + columns.powers[row], rows.keys + columns.keys[row]
-        return replace(rows.having(at, None, read), powers=powers, keys=keys)
-
-    def _allowed(
-        self, rows: TrainRows, row: int, role: int, at: int, closing: Sequence[int], asked: _Asked
-    ) -> tuple[Ints, Ints]:
-        """The readings of a role that leave primes to be shared out, each with the state after it."""
-        key = at, role, int(rows.shares[row]), len(closing), *rows.powers[row, closing].tolist()
-        if key in asked.allowed:
-            return asked.allowed[key]
-        columns = self.columns[at]
-        own = columns.readings(role)
-        states = np.where(columns.lost[own], NO_STATE, rows.shares[row])
-        for powers in columns.own[own].T:
-            states = asked.shares.after(states, powers)
-        for column in closing:
-            states = self._after(states, rows.powers[row, column] + columns.powers[own, column], column, asked)
-        reads = np.flatnonzero(states != NO_STATE)
-        asked.allowed[key] = reads, states[reads]
-        return asked.allowed[key]
-
-    def _may_be_read(self, rows: TrainRows, at: int, asked: _Asked) -> Callable[[int], NDArray[np.bool_]]:
-        """By role whether an arbor has a reading left, by the primes that no other arbor has that is not read."""
-        others = frozenset[int]().union(*(self.table.owners[each] for each in self._later if each != at))
-        closing = [column for column in self._closing[at] if self.table.shared[column] not in others]
-        kinds, kind = _alike([rows.shares, *(rows.powers[:, each] for each in closing)])
-
-        def by_role(role: int) -> NDArray[np.bool_]:
-            some = [len(self._allowed(rows, first, role, at, closing, asked)[0]) > 0 for first in kinds]
-            return np.array(some, dtype=bool)[kind]
-
-        return by_role
+    def _with_keys(self, rows: TrainRows) -> TrainRows:
+        """Trains with the keys of what is left to be added, as far as arbors are read."""
+        keys = np.array([[self.keys.key(each) for each in self.wanted]], dtype=np.uint64).repeat(len(rows), axis=0)
+        for at, at_once in self._steps:
+            if at_once:
+                columns = self.columns[at]
+                keys += columns.keys[columns.first[rows.roles[:, at]] + rows.reads[:, at]]
+        return replace(rows, keys=keys)
 
     def _closed(self, rows: TrainRows, at: int, asked: _Asked) -> TrainRows:
         """Rows in which the primes that no arbor has can be shared out."""
-        states = rows.shares
-        for column in self._closing[at]:
-            states = self._after(states, rows.powers[:, column], column, asked)
-        return replace(rows, shares=states).kept(states != NO_STATE)
-
-    def _after(self, states: Ints, powers: Ints, column: int, asked: _Asked) -> Ints:
-        if self.table.shared[column] > self.table.greatest:
-            return np.where(powers == 0, states, NO_STATE)
-        return asked.shares.after(states, powers)
+        states: Ints = rows.shares.astype(np.int64)
+        for column in self._readings.closing[at]:
+            states = self._readings.after(states, rows.powers[:, column], column, asked.shares)
+        return replace(rows, shares=states.astype(np.int32)).kept(np.flatnonzero(states != NO_STATE))
 
     # quotients of two ends
 
     def _looked_up(
-        self, rows: TrainRows, pairs: Sequence[tuple[int, int, int]], asked: _Asked, unread: Sequence[int] = ()
+        self, rows: TrainRows, pairs: Sequence[tuple[int, int, int]], unread: Sequence[int] = ()
     ) -> TrainRows:
         """Rows without those in which few added wheels cannot make the quotient of two ends."""
         for pair, drivers, driven in pairs:
@@ -317,7 +289,8 @@ class WholeTrees:
             keys = rows.keys[ready, other] - (rows.keys[ready, one] if one != INPUT else np.uint64(0))
             good = ~ready
             good[ready] = self.keys.may_be_quotients(keys, drivers, driven)
-            rows = replace(rows, checked=np.where(ready, rows.checked | 1 << pair, rows.checked)).kept(good)
+            checked = np.where(ready, rows.checked | 1 << pair, rows.checked)
+            rows = replace(rows, checked=checked).kept(np.flatnonzero(good))
         return rows
 
     # exactly
@@ -334,7 +307,7 @@ class WholeTrees:
                     top[dial] *= reading.driven.teeth
                 if label > 1:
                     bottom[dial] *= reading.drivers[label - 2].teeth
-        return tuple(wanted * Fraction(*each) for wanted, each in zip(self.wanted, zip(top, bottom, strict=True), strict=True))
+        return tuple(wanted * Fraction(*each) for wanted, *each in zip(self.wanted, top, bottom, strict=True))
 
     def whole_powers(self, rows: TrainRows) -> Ints:
         """By row, dial and prime, its power in what the surviving wheels leave to be added."""
@@ -345,71 +318,3 @@ class WholeTrees:
                 powers = self.table.powers[columns.counts[row, wheel]]
                 found += (1 if not wheel else -1) * columns.blocks[row, wheel][:, :, None] * powers[:, None, :]
         return found
-
-
-def _repeated(often: Ints, first: Ints) -> tuple[Ints, Ints]:
-    """Numbers from 0 on, each so often; beside them numbers that rise by 1 from the first of each on."""
-    which = np.repeat(np.arange(len(often)), often)
-    return which, np.arange(len(which)) - np.repeat(np.cumsum(often) - often, often) + first[which]
-
-
-def _alike(columns: Sequence[NDArray[np.signedinteger[Any]]]) -> tuple[list[int], Ints]:
-    """Rows that stand for all that are alike in some columns, and by row for which of them it is."""
-    mixed = np.zeros(len(columns[0]), dtype=np.uint64)
-    for column in columns:
-        mixed = (mixed ^ column.astype(np.uint64)) * _ODD
-        mixed ^= mixed >> np.uint64(29)
-    _, first, which = np.unique(mixed, return_index=True, return_inverse=True)
-    if all((column == column[first][which]).all() for column in columns):
-        return first.tolist(), which
-    # two that differ were mixed to the same word
-    _, first, which = np.unique(np.stack(columns, axis=1), axis=0, return_index=True, return_inverse=True)
-    return first.tolist(), which.ravel()
-
-
-def _parts(ratio: Fraction) -> tuple[int, int]:
-    return ratio.numerator, ratio.denominator
-
-
-class CoreStates:
-    """Special roles that are given out, as numbered states: those that some core has still."""
-
-    start = 1
-
-    def __init__(self, cores: Sequence[Core]) -> None:
-        self._known: list[tuple[Role | None, tuple[Role, ...], tuple[Core, ...]]] = [(None, (), ()), (None, (), tuple(cores))]
-        self._numbers: dict[tuple[Role | None, tuple[Role, ...]], int] = {(None, ()): 1}
-        self._steps: dict[tuple[int, Role, bool], int] = {}
-
-    def after(self, states: Ints, role: Role, is_input: bool) -> Ints:
-        """Each state once an arbor more has a role."""
-        if not (is_input or role.is_special):
-            return states
-        known, which = np.unique(states, return_inverse=True)
-        steps = [self._step(int(state), role, is_input) for state in known]
-        return np.array(steps, dtype=np.int64)[which]
-
-    def are_whole(self, states: Ints) -> NDArray[np.bool_]:
-        """Whether nothing of a core is left to be given out."""
-        known, which = np.unique(states, return_inverse=True)
-        whole = [any(core == self._known[state][:2] for core in self._known[state][2]) for state in known]
-        return np.array(whole, dtype=bool)[which]
-
-    def _step(self, state: int, role: Role, is_input: bool) -> int:
-        key = state, role, is_input
-        if key not in self._steps:
-            root, roles, cores = self._known[state]
-            if is_input:
-                root, left = role, tuple(core for core in cores if core[0] == role)
-            else:
-                roles = tuple(sorted((*roles, role)))
-                left = tuple(core for core in cores if core[1].count(role) >= roles.count(role))
-            self._steps[key] = self._number(root, roles, left) if left else NO_STATE
-        return self._steps[key]
-
-    def _number(self, root: Role | None, roles: tuple[Role, ...], cores: tuple[Core, ...]) -> int:
-        known = root, roles
-        if known not in self._numbers:
-            self._numbers[known] = len(self._known)
-            self._known.append((root, roles, cores))
-        return self._numbers[known]

@@ -11,7 +11,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 from studies.page import paragraphs
@@ -54,7 +54,7 @@ Twelve trains, as `geartrain export TRAIN --to FOLDER` writes them without furth
 TABLE = """
 "Meshes" are pairs of flat wheels, turned against each other on the outlines that were read back; {meshes} in all. Play
 is the least of any of them along the pitch circle, room the least distance of a tip from its mate's root. "Parts" are
-the solids, held against each other in eight poses. Seconds are those of the whole command on one core.
+the solids, held against each other in eight poses. Seconds are processor time of the whole command.
 """
 
 FOLDERS = """
@@ -81,16 +81,16 @@ def _proved(name: str, kind: str) -> dict[str, Any]:
     from geartrain.export.proof import prove_train
     from geartrain.scene import ManufacturingSizes, SolidModel
 
-    start = perf_counter()
+    start = process_time()
     train = geartrain.load(name)
     work = SolidModel(train, ManufacturingSizes(), train.state_or_first(None))
     proof = prove_train(work)
-    proved = perf_counter()
+    proved = process_time()
     kinds, _ = installed(list(KINDS))
     files = export_files(work, kinds, None, proof)
     for each in files:
         each.make()
-    ended = perf_counter()
+    ended = process_time()
     print(f"{name}: {proof.verdict}, {ended - start:.1f} s", flush=True)
     return {
         "train": name,

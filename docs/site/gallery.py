@@ -14,6 +14,7 @@ import re
 import shutil
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from fractions import Fraction
 from functools import cache
 from hashlib import sha256
 from multiprocessing import get_context
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parent.parent.parent
 KEPT = ROOT / "build" / "gallery"
 WORKERS = 2
-SHOT = Shot(size=(320, 240), fps=10, seconds=3)
+SHOT = Shot(size=(320, 240), at=Fraction(1, 3), fps=10, seconds=3)  # pointers stand apart then
 _log = logging.getLogger("mkdocs.hooks")
 _ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
 _WALL = re.compile(r"^<!-- all trains -->$", re.MULTILINE)

@@ -94,7 +94,7 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            draw(motion_figure(asked, bar.advance), picture)
+            draw(motion_figure(asked, bar.advance, f"{train.name}: what real teeth do to outputs"), picture)
 
 
 def _turns(text: str, motion: Motion) -> float:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from geartrain.drawing.backend import Figure
-from geartrain.drawing.style import BLUE, GREY, RED, WIDTH
+from geartrain.drawing.style import BLUE, GREY, RED, SMALL, TEXT, WIDTH
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 _ROW = 200  # pixels of a panel, at 100 to the inch
 _MOST = 6000  # points drawn in a panel: of each stretch the first, its least and its greatest
+_OUTPUTS, _STACKED = 12, 4  # outputs drawn, those that err most, and how many of them in one column
+_WIDE = 5.0  # inches of a panel beside others
+_TICKS = 6  # at most, between numbers below a panel
 _ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
 
 
@@ -33,7 +36,10 @@ class _Trace(NamedTuple):
     speed: Floats
 
 
-def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None) -> Figure:
+_Drawer = Callable[[Any, _Trace], None]
+
+
+def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
     """Of each output: its angle against its mean motion, its error and its speed; in red where it goes back.
 
     Parameters
@@ -42,11 +48,14 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
         What to follow: outputs, turns and positions; it need not have gone.
     on_done : callable
         Called with the number of positions that have been worked out since.
+    title : str
+        What stands above the picture.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Angles and errors [deg], speeds over that of the input, over turns of the input.
+        Angles and errors [deg], speeds over that of the input, over turns of the input; of the twelve outputs that
+        err most.
 
     Examples
     --------
@@ -56,22 +65,43 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     >>> motion_figure(run).axes[-1].get_xlabel()
     'turns of crank'
     """
-    traces = _traces(run, on_done)
-    panels_of = [_drawers(trace) for trace in traces]
-    rows = sum(map(len, panels_of))
-    figure = Figure(figsize=(WIDTH, max(2, rows) * _ROW / 100), dpi=100, layout="constrained")
-    panels = iter(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
-    for trace, drawers in zip(traces, panels_of, strict=True):
-        for drawer in drawers:
-            panel = next(panels)
-            drawer(panel, trace)
-            panel.grid(color=GREY, alpha=0.25)
-            panel.spines[["top", "right"]].set_visible(False)
-    panel.set_xlabel(f"turns of {run.motion.train.lead}")
+    found = _traces(run, on_done)
+    erring = {trace.name for trace in sorted(found, key=lambda trace: -float(np.ptp(trace.error)))[:_OUTPUTS]}
+    traces = [trace for trace in found if trace.name in erring]
+    figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
+    left = len(found) - len(traces)
+    rest = f"{left} outputs that err less are left out: name them with --output" if left else ""
+    figure.suptitle("; ".join(filter(None, (title, rest))), fontsize=TEXT, x=0.01, ha="left", parse_math=False)
     return figure
 
 
-def _drawers(trace: _Trace) -> list[Callable[[Any, _Trace], None]]:
+def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:
+    """Panels of few outputs below each other; of many, those of each in a row."""
+    across = 1 if len(parts) <= _STACKED else max(len(drawers) for _, drawers in parts)
+    rows = sum(len(drawers) for _, drawers in parts) if across == 1 else len(parts)
+    size = WIDTH if across == 1 else _WIDE * across, max(2, rows) * _ROW / 100 + 0.3
+    figure = Figure(figsize=size, dpi=100, layout="constrained")
+    grid = figure.subplots(rows, across, sharex=True, squeeze=False)
+    column = iter(grid[:, 0])
+    for row, (trace, drawers) in enumerate(parts):
+        for drawer, panel in zip(drawers, column if across == 1 else grid[row], strict=False):
+            _framed(panel, drawer, trace)
+        for panel in grid[row, len(drawers) :] if across > 1 else ():
+            panel.set_axis_off()
+    for panel in grid[-1]:
+        panel.set_xlabel(below, fontsize=SMALL, parse_math=False)
+        panel.locator_params(axis="x", nbins=_TICKS)
+    return figure
+
+
+def _framed(panel: Any, drawer: _Drawer, trace: _Trace) -> None:
+    """One panel of one output."""
+    drawer(panel, trace)
+    panel.grid(color=GREY, alpha=0.25)
+    panel.spines[["top", "right"]].set_visible(False)
+
+
+def _drawers(trace: _Trace) -> list[_Drawer]:
     """Over few rounds the pointer's whole way; over many, only where it goes back."""
     if np.ptp(trace.mean) <= _ROUNDS:
         return [_angle, _error, _speed]

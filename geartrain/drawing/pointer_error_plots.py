@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -18,8 +18,10 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
+_Given = TypeVar("_Given")
 PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)
 _ROW = 2.3  # inches of a panel
+_POINTERS = 12  # drawn: those that stray most
 _BINS = (12, 60)  # fewest and most of a histogram
 
 
@@ -60,8 +62,9 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the in
 
     The thin line is one trial. Raises `QuestionError` where there is none to draw.
     """
-    figure, panels = _panels(pointers, sharex=True)
-    for axes, (name, bands) in zip(panels, pointers.items(), strict=True):
+    shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
+    figure, panels = _panels(shown, sharex=True)
+    for axes, (name, bands) in zip(panels, shown.items(), strict=True):
         low, lower, middle, upper, high = bands.percentiles
         _between(axes, bands.turns, bands.least, bands.greatest, 0.12, "every trial")
         _between(axes, bands.turns, low, high, 0.25, "95 % of the trials")
@@ -72,7 +75,7 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the in
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
         axes.set_ylabel(f"{name}\nerror (deg)", fontsize=TEXT)
         axes.set_xlim(bands.turns[0], bands.turns[-1])
-    panels[-1].set_xlabel(f"turns of {lead}", fontsize=TEXT)
+    panels[-1].set_xlabel(f"turns of {lead}{left}", fontsize=TEXT)
     _legend(figure, panels[0])
     return figure
 
@@ -84,8 +87,9 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
     note     stands under the last panel, such as where in the cycle the errors are
     Raises `QuestionError` where there is nothing to draw.
     """
-    figure, panels = _panels(errors)
-    for axes, (name, given) in zip(panels, errors.items(), strict=True):
+    shown, left = _most(errors, _spread)
+    figure, panels = _panels(shown)
+    for axes, (name, given) in zip(panels, shown.items(), strict=True):
         values = np.asarray(given, dtype=float).ravel()
         values = values[np.isfinite(values)]
         if not values.size:
@@ -93,9 +97,24 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
         axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
         _percentiles(axes, values)
         axes.set_ylabel(f"{name}\ntrials of {values.size:,}", fontsize=TEXT)
-    panels[-1].set_xlabel(f"error (deg){'; ' if note else ''}{note}", fontsize=TEXT)
+    panels[-1].set_xlabel(f"error (deg){'; ' if note else ''}{note}{left}", fontsize=TEXT)
     _legend(figure, panels[0])
     return figure
+
+
+def _most(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
+    """The pointers that stray most, in the order given, and words on the others."""
+    names = set(sorted(what, key=lambda name: -spread(what[name]))[:_POINTERS])
+    left = len(what) - len(names)
+    words = f"\n{left} pointers that stray less are left out: name them with --output" if left else ""
+    return {name: each for name, each in what.items() if name in names}, words
+
+
+def _spread(given: ArrayLike) -> float:
+    """Of the trials that run; 0 where none does."""
+    values = np.asarray(given, dtype=float)
+    values = values[np.isfinite(values)]
+    return float(np.ptp(values)) if values.size else 0.0
 
 
 def _percentiles(axes: Axes, values: Floats) -> None:

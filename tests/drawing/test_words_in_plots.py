@@ -1,0 +1,79 @@
+"""In plots of results all words can be read too, and however many pointers a train has, a page holds them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import call
+from shipped import train as load
+
+pytest.importorskip("matplotlib")
+
+from test_words_in_pictures import faults_of
+from written_text import read_picture
+
+from geartrain.drawing import motion_figure
+from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.dynamics import MotionRun
+
+QUICK = [
+    ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05", "--vary", "friction=0:0.5:6"],
+    ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05"],
+    ["torques", "zf-8hp70", "--state", "1"],
+    ["torques", "norton-compound"],
+    ["sphere", "cube", "--teeth", "4=12"],
+    ["motion", "moon-triangular", "--turns", "0.2", "--samples", 101],
+    *(["montecarlo", "moon-triangular", "--set", "placement=2%", "--trials", 20, "--picture", picture]
+      for picture in ("errors", "convergence", "pairs")),
+]  # fmt: skip
+SLOW = [
+    ["budget", "freeth-2021"],
+    ["budget", "freeth-2008"],
+    ["mesh", "compare", "--teeth", 48, 24],
+    ["torques", "longcase-clock-loaded"],
+    ["torques", "zf-9hp48", "--state", "1"],
+    ["dynamics", "moon-triangular-inertia", "--rate", "1", "--turns", "0.02"],
+    ["posterior", "freeth-2008-doubt"],
+]
+
+
+def check(arguments: list[object], folder: Path) -> None:
+    target = folder / "plot.svg"
+    result = call(*arguments, "--plot", target)
+    assert target.exists(), result.output
+    found = read_picture(target.read_bytes())
+    assert found.texts
+    assert (found.overlaps(), found.clipped(), found.small(8.0)) == ([], [], [])
+    assert max(found.width, found.height) < 34 * 72
+
+
+@pytest.mark.parametrize("arguments", QUICK, ids=lambda words: " ".join(map(str, words)))
+def test_words_of_a_plot_can_be_read(arguments: list[object], tmp_path: Path) -> None:
+    check(arguments, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("arguments", SLOW, ids=lambda words: " ".join(map(str, words)))
+def test_words_of_a_plot_of_much_can_be_read(arguments: list[object], tmp_path: Path) -> None:
+    check(arguments, tmp_path)
+
+
+def test_many_pointers_fit_on_a_page_with_those_that_stray_most() -> None:
+    trials = np.random.default_rng(1).normal(size=50)
+    errors = {f"pointer {at}": trials * (at + 1) for at in range(70)}
+    figure = histogram_figure(errors, "at random positions")
+    assert not faults_of(figure)
+    assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == [f"pointer {at}" for at in range(58, 70)]
+    assert "58 pointers that stray less" in figure.axes[-1].get_xlabel()
+    bands = {name: ErrorBands.of([0.0, 1.0], np.stack([own, own], 1)) for name, own in errors.items()}
+    assert not faults_of(pointer_error_figure(bands))
+
+
+def test_many_outputs_of_a_motion_stand_in_rows() -> None:
+    train = load("pennestri-2002-teeth")
+    links = tuple(link for link in train.declaration.links if link != train.declaration.frame)
+    figure = motion_figure(MotionRun(train.motion(outputs=links), 0.02, 21), title=train.name)
+    assert not faults_of(figure)
+    assert "outputs that err less are left out" in figure.get_suptitle()

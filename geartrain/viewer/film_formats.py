@@ -115,6 +115,9 @@ def check_format(suffix: str, shot: Shot) -> None:
     if suffix not in FORMATS:
         why = f"the suffix says how it is packed, and '{suffix}' is none"
         raise QuestionError(Problem("no picture and no film", why, suggest(suffix, FORMATS)))
+    if suffix == ".mp4" and any(side % 2 for side in shot.size):
+        why = "an MP4 keeps colours for two by two points"
+        raise QuestionError(Problem(f"no MP4 has {shot.size[0]} by {shot.size[1]} points", why, "give even sides"))
     try:
         if suffix in (".gif", ".webp"):
             import PIL
@@ -123,6 +126,3 @@ def check_format(suffix: str, shot: Shot) -> None:
             import PIL  # noqa: F401
     except ImportError as error:
         raise MissingExtraError(str(error.name), "film", "a film") from None
-    if suffix == ".mp4" and any(side % 2 for side in shot.size):
-        why = "an MP4 keeps colours for two by two points"
-        raise QuestionError(Problem(f"no MP4 has {shot.size[0]} by {shot.size[1]} points", why, "give even sides"))

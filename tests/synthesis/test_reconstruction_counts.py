@@ -95,6 +95,36 @@ def test_back_wheels_in_doubt_ask_what_other_programs_were_asked_with_the_games_
     assert _plain(replace(problem, arbors=arbors, dials=dials)) == _plain(asked(question))
 
 
+@pytest.mark.slow
+def test_back_wheels_have_as_many_trains_with_five_added_as_another_program_found() -> None:
+    problem = evidence_question(read_evidence("back-wheels-sure")).problem
+    problem = replace(problem, additions=replace(problem.additions, wheels=5))
+    found = find_reconstructions(problem, listed=0)
+    assert [each.mechanisms for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
+
+
+def test_counts_in_doubt_have_the_trains_of_each_combination() -> None:
+    whole = _read(evidence_question(read_evidence("back-wheels")).problem, {"l1": (37, 38), "e3": (222, 223)})
+    each = [_read(whole, {"l1": (one,), "e3": (other,)}) for one in (37, 38) for other in (222, 223)]
+    counts = [[count.mechanisms for count in find_reconstructions(one, listed=0).counts] for one in (whole, *each)]
+    assert counts[0] == [sum(column) for column in zip(*counts[1:], strict=True)]
+    assert counts[0][3]
+
+
+def _read(problem: ReconstructionProblem, counts: dict[str, tuple[int, ...]]) -> ReconstructionProblem:
+    """The same with fewer readings of some wheels, and the best of others that are in doubt."""
+    best = {"m1": (96,), "e4": (188,), "f1": (53,), "g1": (54,), **counts}
+
+    def kept(arbor: SurvivingArbor) -> SurvivingArbor:
+        wheels = (
+            replace(wheel, counts=tuple(one for one in wheel.counts if one[0] in best.get(wheel.name, (one[0],))))
+            for wheel in arbor.wheels
+        )
+        return replace(arbor, wheels=tuple(wheels))
+
+    return replace(problem, arbors=tuple(map(kept, problem.arbors)))
+
+
 def _plain(problem: ReconstructionProblem) -> tuple[Any, ...]:
     """A question but for names of wheels, the order of its parts and how many wheels may be added."""
     wheels = {arbor.name: sorted(wheel.counts for wheel in arbor.wheels) for arbor in (problem.input, *problem.arbors)}

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 _LEAST, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
 _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
 _FAR, _NEAR = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))  # colours of the lowest and highest layer
+_ONLY = 0.7  # from the lowest layer's colour to the highest's, of a train in one layer
 _SIDE = 1.1  # inches: least width of the side view
 _TOLD = 8.5  # points: what is told above the plan
 _CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
@@ -215,7 +216,8 @@ def _draw_flat(page: ScaledPage, standing: ProjectedScene) -> None:
     heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
     for order, wheel in enumerate(wheels):
-        level = heights.index(round(float(standing.seen(standing.centre(wheel))[2]), 6)) / max(len(heights) - 1, 1)
+        place = heights.index(round(float(standing.seen(standing.centre(wheel))[2]), 6))
+        level = place / (len(heights) - 1) if len(heights) > 1 else _ONLY
         if not standing.faces(wheel):
             draw_across(page.axes, standing, wheel, page.at, red, 2 + order / len(wheels))
             continue

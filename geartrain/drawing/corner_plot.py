@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, PALE, RED, SMALL, TEXT
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, TEXT
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -95,19 +96,20 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
             panels[row, 0].set_ylabel(down, fontsize=TEXT)
     _key(figure, likely)
     if title:
-        figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK)
+        words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
+        figure.suptitle(words, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
     return figure
 
 
 def _key(figure: Figure, likely: CountProbabilities) -> None:
-    """What outlines and dashed lines are, in the free corner."""
+    """What outlines and dashed lines are, below."""
     handles: list[Any] = [Patch(color=BLUE, label="likely")]
     if likely.before:
         handles.append(Patch(fill=False, edgecolor=GREY, label="before"))
     if likely.declared:
         handles.append(Line2D([], [], color=RED, linewidth=1.2, linestyle=_DASHES, label="declared"))
     if len(handles) > 1:
-        figure.legend(handles=handles, loc="outside upper right", ncols=3, fontsize=SMALL, frameon=False)
+        figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
 
 
 def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:

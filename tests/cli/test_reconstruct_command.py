@@ -95,7 +95,9 @@ def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
     holds("reconstruct", found)
     assert found["original"] == [1, 8]
     assert [count["mechanisms"] for count in found["counts"]] == [0, 0, 8]
-    assert "ranks 1 to 8" in call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout
+    assert "ranks 1 to 8" in " ".join(
+        call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout.split()
+    )
     assert len(list(folder.iterdir())) == 10
     again = json.loads(call("reconstruct", folder / "evidence.yaml", "--json").stdout)
     assert again["counts"] == found["counts"]

@@ -16,7 +16,6 @@ from geartrain.cli.common import (
     Names,
     Out,
     Seed,
-    Theme,
     Without,
     check_distinct_outputs,
     draw,
@@ -27,6 +26,7 @@ from geartrain.cli.common import (
 from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import MOST_COUNT, quantity
 from geartrain.cli.option_values import turns as read_turns
+from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.budget.true_anomaly import Body

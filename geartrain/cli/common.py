@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.errors import GearTrainError, Problem, printable
-from geartrain.scene.palette import ThemeName
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.report.document import Document
+    from geartrain.scene.palette import ThemeName
 
 GOOD, VERDICT, NOT_USABLE, INTERRUPTED = 0, 1, 2, 130
 PICTURES = (".svg", ".png", ".pdf")
@@ -30,7 +30,6 @@ Out = Annotated[
     typer.Option("--output-file", "-o", help="Write to this file, or as into a file to standard output: -."),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
-Theme = Annotated[ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print without colour.")]
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
 Fast = Annotated[
     bool | None,

@@ -13,7 +13,6 @@ from geartrain.cli.common import (
     VERDICT,
     File,
     Force,
-    Theme,
     file_name,
     is_sound,
     picture_sink,
@@ -22,6 +21,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.common import draw as write_figure
 from geartrain.cli.option_values import turns as read_turns
+from geartrain.cli.theme import Theme
 
 
 def run(

@@ -18,7 +18,6 @@ from geartrain.cli.common import (
     Json,
     Names,
     Out,
-    Theme,
     Without,
     check_distinct_outputs,
     draw,
@@ -28,6 +27,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
+from geartrain.cli.theme import Theme
 from geartrain.cli.time_runs import (
     Rate,
     Restitution,

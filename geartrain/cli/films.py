@@ -57,7 +57,7 @@ def with_shot(run: Callable[..., None]) -> Callable[..., None]:
     parameters = [each.replace(kind=Parameter.KEYWORD_ONLY) for each in taken] + own
     command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {each.name: each.annotation for each in parameters}
-    command.__doc__ = run.__doc__
+    command.__doc__, command.__module__ = run.__doc__, run.__module__
     return command
 
 

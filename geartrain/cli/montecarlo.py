@@ -20,7 +20,6 @@ from geartrain.cli.common import (
     Seed,
     Sink,
     StateName,
-    Theme,
     Without,
     check_distinct_outputs,
     give,
@@ -29,6 +28,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
+from geartrain.cli.theme import Theme
 from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_findings
 
 if TYPE_CHECKING:

@@ -20,7 +20,6 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    Theme,
     Without,
     check_distinct_outputs,
     draw,
@@ -33,6 +32,7 @@ from geartrain.cli.common import (
 from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
+from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
     from geartrain.dynamics import ErrorSamples, Motion, MotionRun, SeparationRates

@@ -18,7 +18,6 @@ from geartrain.cli.common import (
     Json,
     Out,
     Sink,
-    Theme,
     check_distinct_outputs,
     draw,
     emit,
@@ -28,6 +27,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.best_sizes import read_free, read_limits
+from geartrain.cli.theme import Theme
 
 _YAML = (".yaml", ".yml")
 

@@ -18,7 +18,6 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    Theme,
     as_json,
     check_distinct_outputs,
     emit,
@@ -30,6 +29,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.theme import Theme
 from geartrain.cli.uncertainty_plots import Plot, check_plot, draw_counts
 from geartrain.errors import GearTrainError
 

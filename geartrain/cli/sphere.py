@@ -14,7 +14,6 @@ from geartrain.cli.common import (
     Json,
     Out,
     Sink,
-    Theme,
     check_distinct_outputs,
     draw,
     emit,
@@ -24,6 +23,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import decimal
+from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
     from geartrain.spherical import Configuration, GraphSet

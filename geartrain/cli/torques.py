@@ -20,7 +20,6 @@ from geartrain.cli.common import (
     Seed,
     Sink,
     StateName,
-    Theme,
     check_distinct_outputs,
     draw,
     emit,
@@ -32,6 +31,7 @@ from geartrain.cli.common import (
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run, progress
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
+from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:

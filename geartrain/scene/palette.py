@@ -14,7 +14,14 @@ from typing import Literal
 ThemeName = Literal["light", "dark", "print"]
 Dash = Literal["-"] | tuple[int, tuple[float, ...]]
 
-_DASHES: tuple[Dash, ...] = ("-", (0, (6, 2)), (0, (1.2, 1.4)), (0, (6, 1.6, 1.2, 1.6)), (0, (3, 1.2)))
+_DASHES: tuple[Dash, ...] = (
+    "-",
+    (0, (6, 2)),
+    (0, (1.2, 1.4)),
+    (0, (6, 1.6, 1.2, 1.6)),
+    (0, (3, 1.2)),
+    (0, (6, 1.6, 1.2, 1.6, 1.2, 1.6)),
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,6 @@ from geartrain.cli.common import (
     Force,
     Json,
     Out,
-    Theme,
     check_distinct_outputs,
     draw,
     give,
@@ -42,6 +41,7 @@ from geartrain.cli.mesh.wheel_profile import (
     write_profile,
 )
 from geartrain.cli.option_values import at_option, read_quantity
+from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError
 from geartrain.teeth.tooth_form import ToothForm
 

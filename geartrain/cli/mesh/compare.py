@@ -13,7 +13,6 @@ from geartrain.cli.common import (
     Force,
     Json,
     Out,
-    Theme,
     check_distinct_outputs,
     draw,
     give,
@@ -22,6 +21,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.mesh.form_options import read_wheels
 from geartrain.cli.option_values import read_quantity
+from geartrain.cli.theme import Theme
 from geartrain.teeth.form_comparison import USUAL, arcs_error, comparable_forms, compare_forms
 
 if TYPE_CHECKING:

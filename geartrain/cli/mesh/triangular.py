@@ -19,7 +19,6 @@ from geartrain.cli.common import (
     Json,
     Out,
     Sink,
-    Theme,
     as_json,
     check_distinct_outputs,
     draw,
@@ -43,6 +42,7 @@ from geartrain.cli.mesh.wheel_profile import (
     write_profile,
 )
 from geartrain.cli.option_values import at_option, quantity
+from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError
 from geartrain.teeth.triangular.triangular_form import FEWEST, Triangular
 

@@ -111,7 +111,7 @@ THEMES: dict[ThemeName, Theme] = {
         fill="#ffffff",
         shade="#d0d0d0",
         band="#d8d8d8",
-        series=("#000000", "#737373") * 5,
+        series=(*("#000000", "#737373") * 3, *("#737373", "#000000") * 2),  # the other grey where dashes come again
     ),
 }  # fmt: skip
 
@@ -123,5 +123,5 @@ def series_colour(at: int, theme: ThemeName = "light") -> str:
 
 
 def series_dash(at: int) -> Dash:
-    """Its dashes [line widths]: with the colour they repeat after fifty; in print, of two greys, after ten."""
+    """Its dashes [line widths]: with the colour they repeat after sixty; in print, of two greys, after ten."""
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

@@ -61,7 +61,7 @@ export class Looks {
 
   /** towards   from the middle to the camera: covers on that side are of glass */
   glaze(towards, middle) {
-    const glass = this.parts.filter(({ cover, at }) => cover && towards.dot(cover) * at.clone().sub(middle).dot(cover) > 0);
+    const glass = this.parts.filter(({ cover, at, middle: own }) => cover && towards.dot(cover) * at.clone().sub(own ?? middle).dot(cover) > 0);
     if (this.glass?.length === glass.length && glass.every((part, n) => part === this.glass[n])) return;
     this.glass = glass;
     this.recolour();

@@ -102,10 +102,10 @@ export class World {
     return crank;
   }
 
-  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover }) {
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, middle }) {
     const slot = this.palette.slot(colour, gloss);
     this.castings[cover ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
-    this.parts.push({ slot, body, at, dial, plate, cover });
+    this.parts.push({ slot, body, at, dial, plate, cover, middle });
   }
 
   adder(casting, { wheel: { body }, at }) {

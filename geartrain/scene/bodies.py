@@ -68,7 +68,7 @@ def find_profiles(stage: SceneContext) -> ToothProfiles:
     """The tooth of every wheel, as it is cut where nothing is said of play; of others a likeness."""
     toothed = find_train_teeth(stage.train, stage.layout.wheels, 0.0)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
-    return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(toothed)))
+    return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
 
 
 def _profile(stage: SceneContext, toothed: TrainTeeth, wheel: str) -> ToothProfile:
@@ -80,17 +80,32 @@ def _section(toothing: WheelTeeth) -> ToothProfile:
     return ToothProfile(toothing.form, toothing.section(), toothing.pins is not None)
 
 
-def _notices(toothed: TrainTeeth) -> Iterator[Problem]:
+_BENT = Problem(
+    "one of them is flexible",
+    "a wave bends it into its ring, and it is drawn round, as no rigid wheel could run there",
+    "read speeds and torques from the train, and what touches where from the maker of the set",
+)
+
+
+def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
     """Why wheels that lie in a plane are drawn otherwise than they could be cut, each reason once."""
     told: dict[tuple[str, str, str, bool], list[str]] = {}
+    bent = _bent(stage)
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
-            first = problems[0]
+            first = _BENT if wheel in bent else problems[0]
             told.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
     for (what, why, fix, of_first), wheels in told.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
         drawn = "drawn as their first pairs have them" if of_first else "drawn as a likeness"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
+
+
+def _bent(stage: SceneContext) -> set[str]:
+    """Flexible wheels, and those that mesh with them."""
+    wheels = stage.train.declaration.wheels
+    pairs = (circuit.wheels for circuit in stage.train.circuits if circuit.kind == "gear")
+    return {wheel for pair in pairs if any(wheels[each][1].flexible for each in pair) for wheel in pair}
 
 
 def _likeness(stage: SceneContext, name: str) -> ToothProfile:

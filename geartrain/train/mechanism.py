@@ -105,6 +105,10 @@ class Wheel(Declared):
         Field(description="Tooth count, or a count with its range; the starts of a worm")
     )
     internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
+    flexible: Boolean = Field(
+        False,
+        description="Bent into its ring by a wave generator: its teeth go in and out radially, and clear the ring's",
+    )
     kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
     facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
         1, description="Side of the axis to which the cone opens, -1 for the negative one (bevel, contrate)"
@@ -148,6 +152,19 @@ class Wheel(Declared):
                 "helix_angle",
                 "a {kind} wheel has a helix angle",
                 {"kind": self.kind, "fix": "leave it out: teeth that lean are known of spur wheels, rings and worms"},
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _bends_where_it_may(self) -> Wheel:
+        if self.flexible and (self.internal or self.kind != "spur"):
+            raise PydanticCustomError(
+                "flexible",
+                "a {kind} is flexible",
+                {
+                    "kind": "ring" if self.internal else f"{self.kind} wheel",
+                    "fix": "write it at the spur wheel that the wave bends into its ring",
+                },
             )
         return self
 

@@ -9,6 +9,7 @@ import pytest
 from commands import call, imported_by
 
 from geartrain import load, shipped
+from geartrain.errors import GearTrainError
 
 PAIR = """
 links: {{frame: {{}}, a: {{wheels: {{a20: {first}}}}}, b: {{wheels: {{b40: {second}}}}}}}
@@ -266,6 +267,29 @@ def test_standard_tips_pass_the_tips_of_the_ring(planet: int, ring: int, said: s
 
 def test_declared_teeth_are_judged_by_their_own_outlines() -> None:
     assert found(RING.format(planet=53, ring=60, more="tooth_form: {form: involute}")) == []
+
+
+@pytest.mark.parametrize("planet", [198, 92])
+def test_tips_of_a_bent_wheel_clear_its_ring(planet: int) -> None:
+    """A rigid wheel of 198 in 200 runs into the ring (R2), one of 92 in 100 needs a way in along the axis (R3)."""
+    ring = 200 if planet == 198 else 100
+    rigid = RING.format(planet=planet, ring=ring, more="")
+    assert found(rigid) == [("R2" if planet == 198 else "R3", "note")]
+    assert found(rigid.replace(f"p: {planet}", f"p: {{teeth: {planet}, flexible: true}}")) == []
+
+
+def test_a_bent_wheel_still_has_fewer_teeth_than_its_ring() -> None:
+    assert found(RING.format(planet="{teeth: 200, flexible: true}", ring=200, more="")) == [("R1", "error")]
+
+
+@pytest.mark.parametrize(("keys", "what"), [("internal: true", "a ring is"), ("kind: bevel", "a bevel wheel is")])
+def test_only_a_spur_wheel_is_bent(keys: str, what: str) -> None:
+    with pytest.raises(GearTrainError, match=f"{what} flexible"):
+        load(pair(f"{{teeth: 20, flexible: true, {keys}}}"))
+
+
+def test_the_shipped_strain_wave_has_no_remark_on_its_tips() -> None:
+    assert [each.rule for each in load("strain-wave").build_findings if each.rule in ("R1", "R2", "R3")] == []
 
 
 # --------------------------------------------------------------------------------------------------------------- K1, K2

@@ -14,7 +14,7 @@ from shapely.geometry import Point, Polygon
 from shapely.ops import unary_union
 from test_scene_movement import Reader
 
-from geartrain import GearTrain
+from geartrain import GearTrain, load
 from geartrain.scene import make_scene
 
 
@@ -208,3 +208,11 @@ def touching(first: Mapping[str, Any], second: Mapping[str, Any]) -> tuple[list[
         best = np.unravel_index(int(apart.argmin()), apart.shape)
         middle, reach = np.array([grid[0][best[0]], grid[1][best[1]]]), reach / 4
     return middle.tolist(), float(apart.min())
+
+
+def test_a_bent_wheel_is_drawn_as_a_likeness_that_says_so() -> None:
+    """That tips of rigid wheels would run into each other is no fault of a wave."""
+    notices = [notice["what"] for notice in make_scene(load("strain-wave")).to_dict()["notices"]]
+    (told,) = [what for what in notices if "'spline'" in what]
+    assert told == "the teeth of 'ring' and 'spline' are drawn as a likeness: one of them is flexible"
+    assert not [what for what in notices if "tips" in what]

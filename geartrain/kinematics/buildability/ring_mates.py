@@ -74,12 +74,14 @@ def least_ring(planet: int) -> int:
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Rules R1 to R3: a ring has more teeth than its mate, and standard ones enough more."""
+    """Rules R1 to R3: a ring has more teeth than its mate, and standard ones of a rigid mate enough more."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
         ring, planet = pair.counts[pair.ring], pair.counts[1 - pair.ring]
         name, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
+        # a bent wheel's teeth go in and out along the radius, and clear the ring's on its short side
+        judged = pair.form is None and not pair.declared[1 - pair.ring].flexible
         if ring <= planet:
             why = (
                 f"the distance of their axes would be ({ring} - {planet})/2 modules, and a ring is larger than its mate"
@@ -87,14 +89,14 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
             fix = f"make the other wheel the ring, or write a ring of at least {least_ring(planet)}"
             what = f"pair '{pair.name}': ring '{name}' {ring} does not hold '{mate}' {planet}"
             yield BuildFinding("R1", "error", Problem(what, why, fix, pair.place))
-        elif pair.form is None and 33 < ring < least_ring(planet):
+        elif judged and 33 < ring < least_ring(planet):
             what = f"pair '{pair.name}': tips of '{mate}' {planet} run into tips of the ring '{name}' {ring}"
             why = "standard teeth of 20 degrees cross outside the mesh (trochoid interference)"
             fix = (
                 f"declare a tooth form with shorter addenda or a larger angle, or write a ring of {least_ring(planet)}"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
-        elif pair.form is None and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
+        elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
             what = f"pair '{pair.name}': '{mate}' {planet} must be pushed into the ring '{name}' {ring} along its axis"
             why = "across it tips of standard teeth run into each other (trimming interference)"
             fix = f"leave a way in from the side, or write a ring of {_radial_ring(planet)}"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from math import pi
+
+import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab
 
@@ -60,3 +63,28 @@ def test_losses_are_told_where_they_are_known(show: Opening) -> None:
     shown = show(SIMPLE)
     shown.page.get_by_label("Colours").select_option("loss")
     assert "declares no loads" in shown.page.locator(".legend").inner_text()
+
+
+# area of the face of a disc with holes (mm2), by its triangles; null of a wheel that has none
+FACE = """((id) => {
+  const { world } = geartrain.stages[0];
+  const shape = world.wheels[geartrain.scenes[0].wheels.findIndex((wheel) => wheel.id === id)].holed();
+  if (!shape) return null;
+  const { points, normals, indices } = shape;
+  const at = (corner) => points.slice(3 * corner, 3 * corner + 3);
+  let doubled = 0;
+  for (let n = 0; n < indices.length; n += 3) {
+    const [[ax, ay], [bx, by], [cx, cy]] = indices.slice(n, n + 3).map(at);
+    if (normals[3 * indices[n] + 2] > 0) doubled += Math.abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay));
+  }
+  return doubled / 2;
+})"""
+
+
+def test_a_disc_has_holes_for_its_pins_in_place_of_arms(show: Opening) -> None:
+    """Its root stands at 25 - 3 - 1.5 mm; a hole is as wide as its pin of 4 mm and two eccentricities of 1.5 mm."""
+    shown = show("cycloidal-reducer")
+    assert shown.run(f"{FACE}('lobes')") == pytest.approx(pi * (20.5**2 - 6 * 3.5**2), rel=2e-3)
+    shown = show("rv-reducer")
+    assert shown.run(f"{FACE}('lobes')") is not None
+    assert [shown.run(f"{FACE}('{wheel}')") for wheel in ("z1", "z2")] == [None, None]

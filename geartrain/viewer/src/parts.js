@@ -55,8 +55,8 @@ function chamfered(outline) {
   });
 }
 
-/** A flat part with its holes. */
-function flatShape({ outlines, height }) {
+/** A flat part, its outlines lists of x and y by turns: its rim, then its holes. */
+export function flatShape({ outlines, height }) {
   const shape = new Shape();
   const rings = outlines.map((line) => {
     const points = [];

@@ -122,6 +122,8 @@ class _Steps:
 
     def _pins(self) -> Iterator[AssemblyStep]:
         for name, cut in self.work.cut_couplings.items():
+            if cut.pin is None:
+                continue
             pins = [f"{name} pin {at + 1}" for at in range(len(cut.coupling.pins_at))] or [f"{name} pin"]
             yield self._step(f"Press the pin{'s'[: len(pins) - 1]} of '{name}' into {cut.pin.id}", pins)
 

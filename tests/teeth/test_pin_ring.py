@@ -226,6 +226,25 @@ def test_holes_are_cut_where_both_links_have_wheels() -> None:
     assert sum(contour.is_circle for contour in disc.contours) >= 6
 
 
+def test_the_disc_has_its_holes_where_no_wheel_bears_the_pins() -> None:
+    """Six on 12 mm, each free for a pin of 4 mm that goes round in it on 1.5 mm, with the play of what runs."""
+    from geartrain.scene import ManufacturingSizes, SolidModel
+
+    model = SolidModel(geartrain.load("cycloidal-reducer"), ManufacturingSizes())
+    disc = next(part for part in model.parts if part.name == "lobes")
+    middles = [(contour, contour.points.mean(axis=0)) for contour in disc.contours if contour.is_circle]
+    holes = [(contour, at) for contour, at in middles if np.hypot(*at) > 1]
+    assert [float(np.hypot(*at)) for _, at in holes] == pytest.approx([12] * 6)
+    turns = sorted(float(np.arctan2(*at[::-1])) for _, at in holes)
+    assert np.diff(turns) == pytest.approx([pi / 3] * 5)
+    for contour, at in holes:
+        reach = float(np.hypot(*(contour.points - at).T).max())
+        assert reach == pytest.approx(2 + 1.5 + model.process.running / 2)
+    assert model.process.running > 0
+    assert [each.what for each in model.couplings.notices] == ["the pins of 'holes' are in no part"]
+    assert not [part.name for part in model.parts if part.kind == "pin"]
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [

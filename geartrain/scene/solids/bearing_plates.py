@@ -42,10 +42,12 @@ class Plates:
     notices: tuple[Problem, ...]
 
 
-def coupling_discs(couplings: Sequence[Coupling], bores: Mapping[str, float]) -> Plates:
-    """Discs of pins and slots; `bores` are holes (mm) for arbors, by link."""
+def coupling_discs(
+    couplings: Sequence[Coupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
+) -> Plates:
+    """Discs of pins and slots; `bores` are holes (mm) for arbors, by link; `holed`, whose holes are in a wheel."""
     notices: list[Problem] = []
-    plates = tuple(_discs(couplings, bores, notices))
+    plates = tuple(_discs(couplings, bores, holed, notices))
     return Plates(plates, tuple(notices))
 
 
@@ -101,14 +103,17 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 # ------------------------------------------------------------------------------------------------------ pins and slots
 
 
-def _discs(couplings: Sequence[Coupling], diameters: Mapping[str, float], notices: list[Problem]) -> Iterator[Plate]:
+def _discs(
+    couplings: Sequence[Coupling], diameters: Mapping[str, float], holed: frozenset[str], notices: list[Problem]
+) -> Iterator[Plate]:
     for coupling in couplings:
         if isinstance(coupling, Parallel):
             what, why = f"'{coupling.name}' is in no part", "what keeps its two links parallel is not declared"
             notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
             continue
         if isinstance(coupling, PinsInHoles):
-            what = f"the pins and holes of '{coupling.name}' are in no part"
+            lacking = "pins" if coupling.name in holed else "pins and holes"
+            what = f"the {lacking} of '{coupling.name}' are in no part"
             why = "they are cut into wheels of both links, wide enough for them, where sizes are declared"
             fix = "give pin_radius, offset and pin_diameter, and both links a wheel; else add them by hand"
             notices.append(Problem(what, why, fix))

@@ -19,6 +19,7 @@ from geartrain.teeth.outlines.contour import Contour
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneCoupling, SceneWheel
+    from geartrain.scene.parts.processes import Process
     from geartrain.scene.solids.wheel_blanks import Blank
     from geartrain.scene.train_scene import Scene
 
@@ -29,10 +30,10 @@ _WEB = 0.6  # mm of a wheel that stay round a pin and round a slot, at least
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """A pin in one wheel, and its slot in another."""
+    """A pin in one wheel, and its slot in another; None where no wheel bears the pins of round holes."""
 
     coupling: SceneCoupling
-    pin: SceneWheel
+    pin: SceneWheel | None
     slot: SceneWheel
 
 
@@ -44,7 +45,9 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
         far = coupling.hole / 2 if coupling.hole else e + half
         pins = _roomy(scene, coupling.pin, blanks, bores, (r - half, r + half))
         slots = _roomy(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
-        if coupling.drawn and pins and slots:
+        if coupling.drawn and slots and not pins and coupling.hole:
+            found[coupling.id] = CutCoupling(coupling, None, slots[0])
+        elif coupling.drawn and pins and slots:
             along = np.array(scene.bodies[coupling.slot].direction)
             near = min(
                 ((pin, slot) for pin in pins for slot in slots), key=lambda both: _apart(both[0], both[1], along)
@@ -94,16 +97,19 @@ def pin_axis(scene: Scene, coupling: SceneCoupling) -> tuple[Floats, Floats]:
     return np.column_stack([*basis(direction), along]), at - along * (at @ along)
 
 
-def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, press: float) -> list[Contour]:
+def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
     """What a wheel, whose own axes are `turn` at `place`, has cut out for a pin and for a slot."""
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
-    if wheel == cut.pin.id:
+    if cut.pin is not None and wheel == cut.pin.id:
         found += [
-            Contour.circle((thick + press) / 2, _flat(at, turn, place)) for at in coupling.pins_at or (coupling.pin_at,)
+            Contour.circle((thick + process.press) / 2, _flat(at, turn, place))
+            for at in coupling.pins_at or (coupling.pin_at,)
         ]
     if wheel == cut.slot.id and coupling.hole:
-        found += [Contour.circle(coupling.hole / 2, _flat(at, turn, place)) for at in coupling.holes_at]
+        found += [
+            Contour.circle((coupling.hole + process.running) / 2, _flat(at, turn, place)) for at in coupling.holes_at
+        ]
     elif wheel == cut.slot.id:
         x = slot_frame(scene, coupling)[:, 0]
         ends = abs(coupling.pin_radius - coupling.offset), coupling.pin_radius + coupling.offset

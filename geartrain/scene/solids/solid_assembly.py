@@ -151,7 +151,7 @@ class SolidModel:
         turn, place = wheel_frame(wheel)
         found = []
         for cut in self.cut_couplings.values():
-            found += holes(self.scene, cut, name, turn, place, self.process.press)
+            found += holes(self.scene, cut, name, turn, place, self.process)
         if self.frame is None:
             return found
         stack = self.frame.plan.stack
@@ -169,8 +169,10 @@ class SolidModel:
     def couplings(self) -> Plates:
         """Discs of pins and slots that are not cut into wheels."""
         of = {place.link: name for name, place in self.layout.wheels.items()}
-        loose = [each for each in self.sized.declaration.couplings if each.name not in self.cut_couplings]
-        return coupling_discs(loose, {link: self._bores[wheel] for link, wheel in of.items()})
+        cut = self.cut_couplings
+        whole = {name for name, each in cut.items() if each.pin is not None}
+        loose = [each for each in self.sized.declaration.couplings if each.name not in whole]
+        return coupling_discs(loose, {link: self._bores[wheel] for link, wheel in of.items()}, frozenset(cut))
 
     @cached_property
     def dials(self) -> list[DialPlate]:
@@ -293,9 +295,9 @@ class _Parts:
         for coupling in self.scene.couplings:
             turn, axis = pin_axis(self.scene, coupling)
             along, cut = turn[:, 2], self.work.cut_couplings.get(coupling.id)
-            if cut is None and coupling.hole:
+            if coupling.hole and (cut is None or cut.pin is None):
                 continue  # no wheel bears such pins
-            if cut is None:
+            if cut is None or cut.pin is None:
                 height = float(coupling.pin_at @ along)
                 levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
                 low, high = min(levels) - _GAP, max(levels) + _GAP

@@ -168,11 +168,10 @@ class SolidModel:
     @cached_property
     def couplings(self) -> Plates:
         """Discs of pins and slots that are not cut into wheels."""
-        of = {place.link: name for name, place in self.layout.wheels.items()}
-        cut = self.cut_couplings
-        whole = {name for name, each in cut.items() if each.pin is not None}
+        whole = {name for name, each in self.cut_couplings.items() if each.pin is not None}
         loose = [each for each in self.sized.declaration.couplings if each.name not in whole]
-        return coupling_discs(loose, {link: self._bores[wheel] for link, wheel in of.items()}, frozenset(cut))
+        own = {place.link: self._bores[wheel] for wheel, place in self.layout.wheels.items()}
+        return coupling_discs(loose, own, frozenset(self.cut_couplings))
 
     @cached_property
     def dials(self) -> list[DialPlate]:

@@ -76,6 +76,15 @@ class LoadedPair:
         right = self.b * (self.forward if side > 0 else Fraction(1))
         return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
 
+    def signs_beside(self, lead: LoadedPair, alike: bool) -> tuple[int, int]:
+        """Signs of the torques on both links beside those of a pair that bears as much, for one unknown of both.
+
+        alike   both name their links in the same order; a planet whose axis points the other way has another sign
+        """
+        led = (lead.a, lead.b) if alike else (lead.b, lead.a)
+        first, second = (-1 if own * other < 0 else 1 for own, other in zip((self.a, self.b), led, strict=True))
+        return first, second
+
     def power(self, multiplier: Fraction) -> Fraction:
         """Power p that flows from i to j in the carrier's frame, before losses where i drives: equation (4)."""
         return -multiplier * self.rolling

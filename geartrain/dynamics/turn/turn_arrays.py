@@ -51,6 +51,7 @@ class ContactArrays(NamedTuple):
     flank           which of the flanked pairs it is; -1 for none
     end, carrier    rows of links: of the law's driver, of the carrier; `links`, the circuit's own two, (contacts, 2)
     lead, alike     the contact whose torques it has, and whether that names its links in the same order
+    signs           of its torques on both links beside the lead's, (contacts, 2)
     column          of its multiplier
     """
 
@@ -71,6 +72,7 @@ class ContactArrays(NamedTuple):
     links: Ints
     lead: Ints
     alike: Ints
+    signs: Ints
     column: Ints
 
 
@@ -188,8 +190,16 @@ def _contacts(train: TurnBalance, tables: Mapping[str, int]) -> ContactArrays | 
         links=np.array([[links[each.circuit.i], links[each.circuit.j]] for each in own], dtype=np.int64).reshape(-1, 2),
         lead=_ints(leads),
         alike=_ints(each.first == own[lead].first for each, lead in zip(own, leads, strict=True)),
+        signs=np.array([_signs(train, each.name) for each in own], dtype=np.int64).reshape(-1, 2),
         column=_ints(train.of_pair[each.name] for each in own),
     )
+
+
+def _signs(train: TurnBalance, name: str) -> tuple[int, int]:
+    """Of a contact's torques beside those of the contact that leads its column."""
+    meshes = train.columns[train.of_pair[name]].meshes
+    mesh = next(each for each in meshes if each.id == name)
+    return mesh.signs_beside(meshes[0], train.contacts[name].first == train.contacts[meshes[0].id].first)
 
 
 def contact_losses(contact: PairContact) -> tuple[int, float, float, float, float] | None:
@@ -247,9 +257,9 @@ def _entries(train: TurnBalance, column: TorqueUnknown) -> dict[int, Floats]:
 def _members(train: TurnBalance, column: TorqueUnknown, mesh: LoadedPair) -> tuple[Sequence[int], Sequence[int]]:
     """What the torques on the lead's first and second link add to the three links of a mesh."""
     i, j, k = mesh.senses
-    own = (i, 0, -k), (0, j, -k)
-    alike = train.contacts[mesh.id].first == train.contacts[column.meshes[0].id].first
-    return own if alike else own[::-1]
+    at_first, at_second = _signs(train, mesh.id)
+    own = (i * at_first, 0, -k * at_first), (0, j * at_second, -k * at_second)
+    return own if train.contacts[mesh.id].first == train.contacts[column.meshes[0].id].first else own[::-1]
 
 
 def _bearings(train: TurnBalance) -> BearingArrays:

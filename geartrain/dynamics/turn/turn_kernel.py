@@ -340,6 +340,7 @@ def _lose(
         for at in range(size):
             pressed = values[column, at]
             side = 1 if pressed < 0 and two_sided else 0
-            power = force[lead, side, own, at] * pressed * _seen(speed[link, at], speed[carrier, at], still[at])
+            torque = contacts.signs[pair, end] * force[lead, side, own, at] * pressed
+            power = torque * _seen(speed[link, at], speed[carrier, at], still[at])
             lost[0, at] -= power
             lost[1, at] += max(-power, 0.0)

@@ -15,6 +15,7 @@ from scipy.optimize import linear_sum_assignment
 from geartrain.drawing.arrangement import spread
 from geartrain.drawing.backend import Axes, Circle
 from geartrain.drawing.style import BLACK, FINE, GREY, write
+from geartrain.errors import printable
 
 Box = tuple[float, float, float, float]
 """Middle, width and height, in inches."""
@@ -33,7 +34,8 @@ PITCH = _LINE * FINE / 72 + 0.02
 def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
     """Inches that a line of words takes in the font that is drawn with."""
     font = FontProperties(size=size, weight=weight)
-    return float(_PATHS.get_text_width_height_descent(text, font, ismath=False)[0]) / 72 if text else 0.0
+    shown = printable(text)  # as it is drawn
+    return float(_PATHS.get_text_width_height_descent(shown, font, ismath=False)[0]) / 72 if text else 0.0
 
 
 def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str = "normal") -> Box:

@@ -531,11 +531,11 @@ def test_every_key_of_the_json_is_documented() -> None:
 
 
 def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:
-    page = call("report", "moon-triangular").stdout
+    page = call("report", "moon-triangular", "-o", "-").stdout
     assert "## Motion" in page
     data = json.loads(call("report", "moon-triangular", "--json").stdout)[0]["motion"]
     assert data[0]["outputs"]["moon"]["transmission_error"]["peak_to_peak"] > 0.1
-    assert "## Motion" not in call("report", "pennestri-2002").stdout
+    assert "## Motion" not in call("report", "pennestri-2002", "-o", "-").stdout
     assert json.loads(call("report", "pennestri-2002", "--json").stdout)[0]["motion"] == []
 
 

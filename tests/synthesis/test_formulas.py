@@ -495,7 +495,7 @@ def test_formulas_are_a_mapping_plain_data_and_can_be_sent_to_other_processes() 
     assert list(found) == ["OUT"]
     assert len(found) == 1
     plain = json.loads(json.dumps(found.to_dict()))
-    assert plain["outputs"]["OUT"]["text"] == "(-s2 s3 s4 - r2 s3 s4) / (r4 r2 r3 - r2 s3 s4)"
+    assert plain["outputs"]["OUT"]["text"] == "(s2 s3 s4 + s3 s4 r2) / (s3 s4 r2 - r4 r2 r3)"
     assert plain["conditions"] == []
     again = pickle.loads(pickle.dumps(found))
     assert again == found

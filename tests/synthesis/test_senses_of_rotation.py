@@ -199,7 +199,7 @@ def test_reports_say_where_only_a_magnitude_was_compared() -> None:
     train = stepped({"targets": [way["-"], way["retrograde"], way["either"], {"speed": 0}]})
     text = to_markdown([describe_train(collect_report(train))])
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if "| carrier" in line]
-    assert [row[3] for row in rows if row[1].startswith(("speed", "period"))] == [
+    assert [row[6] for row in rows if row[1].startswith(("speed", "period"))] == [
         "sense too",
         "sense too",
         "magnitude",

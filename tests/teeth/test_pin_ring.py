@@ -276,7 +276,7 @@ def test_the_command_tells_of_one_pair() -> None:
 
 def test_the_command_takes_clearance_deflection_and_play() -> None:
     def row(*options: str) -> list[str]:
-        done = ended("mesh", "pin_ring", "--teeth", 11, 12, *options)
+        done = ended("mesh", "pin_ring", "--teeth", 11, 12, *options, "-o", "-")
         assert done.returncode == 0, done.stderr
         return next(line for line in done.stdout.splitlines() if "wheel 1 -> wheel 2" in line).strip("| ").split("|")
 

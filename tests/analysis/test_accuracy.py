@@ -146,7 +146,7 @@ def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(tr
     done = call("bench", "moon-triangular", "--positions", 100)
     assert done.exit_code == 0
     for stage in (SPEEDS, VARIANTS, LAWS, MOTION, OPTIMISATION):
-        assert f"## {stage}\n" in done.stdout
+        assert f"\n{stage}\n{'-' * len(stage)}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")
     path = train_file(states.replace("{expect: 1/2}", "{}"))  # type: ignore[operator]

@@ -158,10 +158,11 @@ export class World {
     const rays = this.nodes.map(() => null);
     const seenBy = (body) => (rays[body] ??= ray.clone().applyMatrix4(this.nodes[body].matrixWorld.clone().invert()));
     const shift = (lift) => this.main.clone().multiplyScalar(this.poses.share * lift);
+    const glass = new Set(this.looks.glass?.map((part) => part.slot)); // one taps through it
     let [nearest, slot] = [Infinity, null];
     for (const casting of this.castings) {
       for (const [distance, part] of casting.met(seenBy, shift)) {
-        if (distance < nearest && this.palette.looks[part.slot].shown) [nearest, slot] = [distance, part.slot];
+        if (distance < nearest && this.palette.looks[part.slot].shown && !glass.has(part.slot)) [nearest, slot] = [distance, part.slot];
       }
     }
     const wheel = this.wheels.findIndex((part) => part.slots.includes(slot));

@@ -172,6 +172,7 @@ def _contacts(train: TurnBalance, tables: Mapping[str, int]) -> ContactArrays | 
     columns = [train.columns[train.of_pair[each.name]] for each in own]
     leads = [numbers[column.meshes[0].id] for column in columns]
     lost = np.array([each for each in losses if each is not None]).reshape(-1, 5).T
+    beside = [train.beside_lead[each.name] for each in own]
     return ContactArrays(
         source=_ints(-1 if each.source is None else sources[each.name] for each in own),
         table=_ints(tables.get(each.name, -1) for each in own),
@@ -189,17 +190,10 @@ def _contacts(train: TurnBalance, tables: Mapping[str, int]) -> ContactArrays | 
         carrier=_ints(links[each.circuit.carrier] for each in own),
         links=np.array([[links[each.circuit.i], links[each.circuit.j]] for each in own], dtype=np.int64).reshape(-1, 2),
         lead=_ints(leads),
-        alike=_ints(each.first == own[lead].first for each, lead in zip(own, leads, strict=True)),
-        signs=np.array([_signs(train, each.name) for each in own], dtype=np.int64).reshape(-1, 2),
+        alike=_ints(alike for alike, _ in beside),
+        signs=np.array([signs for _, signs in beside], dtype=np.int64).reshape(-1, 2),
         column=_ints(train.of_pair[each.name] for each in own),
     )
-
-
-def _signs(train: TurnBalance, name: str) -> tuple[int, int]:
-    """Of a contact's torques beside those of the contact that leads its column."""
-    meshes = train.columns[train.of_pair[name]].meshes
-    mesh = next(each for each in meshes if each.id == name)
-    return mesh.signs_beside(meshes[0], train.contacts[name].first == train.contacts[meshes[0].id].first)
 
 
 def contact_losses(contact: PairContact) -> tuple[int, float, float, float, float] | None:
@@ -247,19 +241,19 @@ def _entries(train: TurnBalance, column: TorqueUnknown) -> dict[int, Floats]:
     if not column.meshes:
         return {row: np.array([float(value), 0.0, 0.0]) for row, value in column.pieces[0].items()}
     for mesh in column.meshes:
-        first, second = _members(train, column, mesh)
+        first, second = _members(train, mesh)
         for row, member, factor in train.balance.places(mesh):
             part = float(factor) * np.array([0.0, first[member], second[member]])
             found[row] = found.get(row, np.zeros(3)) + part
     return found
 
 
-def _members(train: TurnBalance, column: TorqueUnknown, mesh: LoadedPair) -> tuple[Sequence[int], Sequence[int]]:
+def _members(train: TurnBalance, mesh: LoadedPair) -> tuple[Sequence[int], Sequence[int]]:
     """What the torques on the lead's first and second link add to the three links of a mesh."""
     i, j, k = mesh.senses
-    at_first, at_second = _signs(train, mesh.id)
+    alike, (at_first, at_second) = train.beside_lead[mesh.id]
     own = (i * at_first, 0, -k * at_first), (0, j * at_second, -k * at_second)
-    return own if train.contacts[mesh.id].first == train.contacts[column.meshes[0].id].first else own[::-1]
+    return own if alike else own[::-1]
 
 
 def _bearings(train: TurnBalance) -> BearingArrays:

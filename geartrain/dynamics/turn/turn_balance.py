@@ -23,7 +23,7 @@ from geartrain.numerics.named_arrays import joined, some
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance, TorqueUnknown
+    from geartrain.dynamics.torques.torque_balance import TorqueBalance, TorqueUnknown
     from geartrain.dynamics.turn.pair_contact import PairContact
     from geartrain.dynamics.turn.position_motion import LinkMotion, PositionMotion
     from geartrain.dynamics.turn.train_contacts import BearingTorques
@@ -254,19 +254,26 @@ class TurnBalance:
     def _rows(self, column: TorqueUnknown, force: PairForce) -> dict[int, Floats]:
         found: dict[int, Floats] = {}
         for mesh in column.meshes:
-            first, second = self._like(mesh, column, force)
+            first, second = self._like(mesh.id, force)
             i, j, k = mesh.senses
             members = i * first, j * second, -k * (first + second)
             for row, member, factor in self.balance.places(mesh):
                 found[row] = found.get(row, 0.0) + float(factor) * members[member]
         return found
 
-    def _like(self, mesh: LoadedPair, column: TorqueUnknown, force: PairForce) -> tuple[Floats, Floats]:
+    @cached_property
+    def beside_lead(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
+        """By pair: whether it names its links as the one that leads its column, and signs of its torques beside it."""
+        found = {}
+        for lead, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
+            alike = self.contacts[mesh.id].first == self.contacts[lead.id].first
+            found[mesh.id] = alike, mesh.signs_beside(lead, alike)
+        return found
+
+    def _like(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
         """What the first of equal planets has on its two links, for another, whose axes may point apart."""
-        lead = column.meshes[0]
-        alike = self.contacts[mesh.id].first == self.contacts[lead.id].first
+        alike, signs = self.beside_lead[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
-        signs = mesh.signs_beside(lead, alike)
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
@@ -327,10 +334,10 @@ class TurnBalance:
         column = self.columns[self.of_pair[name]]
         pressed = best.values[self.of_pair[name]]
         forces = state.forces[column.meshes[0].id]
-        mesh, circuit = next(each for each in column.meshes if each.id == name), self.contacts[name].circuit
+        circuit = self.contacts[name].circuit
         powers = []
         for end, link in enumerate((circuit.i, circuit.j)):
-            ahead, back = (self._like(mesh, column, forces.get(side, forces[1]))[end] for side in (1, -1))
+            ahead, back = (self._like(name, forces.get(side, forces[1]))[end] for side in (1, -1))
             torque = np.where(pressed < 0, back, ahead) * pressed
             powers.append(torque * self._speed(state.motion, link, circuit.carrier))
         return -(powers[0] + powers[1]), np.maximum(-powers[0], 0) + np.maximum(-powers[1], 0)

@@ -39,10 +39,23 @@ extends: freeth-2021
     "a pin": PIN.replace("FRICTION", "{sliding: 0.3, static: 0.4}")
     .replace("INPUT", "a: 1")
     .replace("LOAD", "b: -10 N m"),
+    "equal planets on opposite axes": """
+extends: bevel-differential
+remove: {states: [straight, turn, one wheel held, crown held]}
+axes: {far: {direction: [1, 0, 0]}}
+links: {crown: {bearing: 1 N mm}, right: {bearing: 1 N mm}, spider: {bearing: 1 N mm}, hand: {}}
+revolutes: {far: [case, hand]}
+couplings: [{kind: pin_and_slot, pin: right, slot: hand, pin_radius: 10 mm, offset: 2 mm}]
+inputs: {shaft: 41}
+fixed: [left]
+outputs: {hand: {}}
+loads: {hand: -1 N m}
+""",
 }
 
 
 def balance(train: GearTrain) -> TurnBalance:
+    train = train.unfolded
     setting = train._setting(None)
     assert setting is not None
     found = find_turn_balance(setting, train._moving(train._case(None), ()), None)

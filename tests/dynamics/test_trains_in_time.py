@@ -434,6 +434,8 @@ def test_beside_another_input_the_torque_is_that_of_the_link_that_is_told(name: 
     asked = train.torques(state, turns=1, samples=10)
     assert run.link == asked.link
     assert run.torque == pytest.approx(asked.mean, rel=1e-9)
+    # teeth without friction pass on what they take, those of planets on opposite axes too
+    assert [name for name, part in asked.parts.items() if part.kind == "mesh" and abs(part.loss) > 1e-12] == []
 
 
 def test_a_crank_behind_one_of_two_inputs_leaves_both_their_speeds() -> None:

@@ -71,12 +71,14 @@ export class Drive {
   }
 
   play(on = !this.playing) {
-    if (on && this.movable && this.run && this.at.equals(this.#end)) this.goTo(Fraction.of(0), false);
+    if (on && this.movable && this.#ended) this.goTo(Fraction.of(0), false);
     // one jump a second where motion is not wanted; a tab that slept does not leap
     this.#moving(on, (passed) => {
       if (this.calm.matches && passed < 1000) return false;
-      this.advance((this.sense * this.rate * Math.min(passed, this.calm.matches ? 2000 : 100)) / 1000);
-      if (this.run && this.at.equals(this.#end)) this.#ended();
+      // the end of a run is shown before it begins again, however long a frame takes
+      if (this.loop && this.#ended) this.goTo(Fraction.of(0), false);
+      else this.advance((this.sense * this.rate * Math.min(passed, this.calm.matches ? 2000 : 100)) / 1000);
+      if (!this.loop && this.#ended) this.play(false);
       return true;
     });
   }
@@ -109,9 +111,8 @@ export class Drive {
     if (this.playing) requestAnimationFrame(frame);
   }
 
-  #ended() {
-    if (this.loop) this.goTo(Fraction.of(0), false);
-    else this.play(false);
+  get #ended() {
+    return Boolean(this.run) && this.at.equals(this.#end);
   }
 
   #tell(settled) {

@@ -302,7 +302,7 @@ read). *Stands for slow pointers, not for the Moon, under these assumptions.* Of
 known, {small} ripple by less than a degree: the Saros pointer by {saros}, where a cell of its dial is 6.5 degrees
 wide, the Metonic by {metonic}. The Moon ripples by {teeth} peak to peak, {rms} degrees rms: {times} times what its
 pin and slot leave against the true Moon, {theory}, and {drifts} times what its ratio drifts in a Saros, {ratio}. This
-hangs on the radii: with pitch-true ones, in the ratio of the teeth, it is {true}. Whoever finds the ripple
+depends on the radii: with pitch-true ones, in the ratio of the teeth, it is {true}. Whoever finds the ripple
 negligible assumes other teeth than Sorge's rule gives, or measures it by something greater; which of these, the
 abstract does not say.
 

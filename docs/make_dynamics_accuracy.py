@@ -147,7 +147,7 @@ The greatest gap of a flight is off as one over the stiffness, which the tests h
 """
 
 SETTLED = """
-Two runs of the Moon's train with {steps} steps a turn and one more tell what hangs on the step. Without restitution
+Two runs of the Moon's train with {steps} steps a turn and one more tell what depends on the step. Without restitution
 shares of time apart differ by {calm_apart:.2g} percentage points, and where the Moon stands after 4.9 turns by
 {calm:.2g} degrees: blows without bounce forget how they came about, so that the whole motion is robust.
 

@@ -190,7 +190,7 @@ The methods:
 The true error is judged against the definition of the law in 40 digits: the contact of one couple from the two lines
 of flanks in the textbook form, every couple in reach asked, at random angles and at angles that crowd towards every
 corner. It is in pitches of the driven wheel, or relative to the mean speed ratio. Where mpmath is not installed, the
-longest floats of the machine stand in for the 40 digits. Memory is what the peak grew by.
+machine's longest floats are used instead of 40 digits. Memory is what the peak grew by.
 """
 
 HEADING = """## The default

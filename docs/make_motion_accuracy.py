@@ -247,7 +247,7 @@ positions; for the sum of ranges it is that of the peak-to-peak ripple, for inde
 direct composition itself is judged at {sample} random positions, and where it differs most from the finest tables,
 against 40 digits: teeth by the contact of one couple from the two lines of flanks, every couple in reach asked; pins by
 their triangle; the spread of errors by exact elimination of all rows of the train at once, without the solved order;
-each pair asked again until nothing changes. Where mpmath is not installed, the longest floats of the machine stand in.
+each pair asked again until nothing changes. Where mpmath is not installed, the machine's longest floats are used.
 """
 
 WHICH = """

@@ -336,7 +336,7 @@ Written by
     python docs/make_sphere_accuracy.py --measure
 
 on a machine with two cores, busy with other work too: times are medians of three rounds or more; compare them within
-a table only, as ratios. Where mpmath is not installed, the longest floats of the machine stand in for 40 digits.
+a table only, as ratios. Where mpmath is not installed, the machine's longest floats are used.
 
 The graphs, from about 10 to about 1000 gears each:
 

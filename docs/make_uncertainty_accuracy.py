@@ -273,7 +273,7 @@ probability {exact}. In the second all teeth are normally out of place; it is he
 run, {other}, of which the estimates are part.
 
 Every estimate is made of trials of its own among those of its number; other numbers share out the same trials again, so
-that their errors hang together and slopes are less sure than their standard errors say. The measured power of the
+that their errors are correlated and slopes are less sure than their standard errors say. The measured power of the
 number of trials: {slopes}. The errors are
 {least} to {most} times those of independent trials. Of the 95 percent intervals {covered} percent hold the truth, where
 20 estimates or more were made.

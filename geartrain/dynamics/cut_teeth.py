@@ -17,7 +17,7 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Transverse modules (m) of wheels that declare one with a unit, and of all that hang together with these."""
+    """Transverse modules (m) of wheels that declare one with a unit, and of all that are connected with these."""
     found = {
         name: wheel.transverse_module
         for name, (_, wheel) in declared.wheels.items()

@@ -1,7 +1,7 @@
 """From a declared train to its real teeth: every gear pair with a tooth form, every pin whose dimensions are known.
 
 And how large they are where only their shape is declared: triangular teeth have sizes up to a scale, and a wheel with
-several mates has one size, so from the first pair of wheels that hang together the others follow (breadth first), each
+several mates has one size, so from the first pair of wheels that are connected the others follow (breadth first), each
 at the distance its own law asks for.
 """
 
@@ -126,7 +126,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Pairs one after another such that, where they hang together, each shares a wheel with one before it."""
+    """Pairs one after another such that, where they are connected, each shares a wheel with one before it."""
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):
         for wheel in mesh.gear.pair:

@@ -1,4 +1,4 @@
-"""Strength of a train, as a page: each figure under the assumption it stands on."""
+"""Strength of a train, as a page: each figure under the assumption it rests on."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 
 @dataclass(frozen=True, slots=True)
 class TargetRatio(Result):
-    """A ratio that tooth numbers shall make; `read_ratio` reads it from a text.
+    """A ratio that tooth numbers are to make; `read_ratio` reads it from a text.
 
     Attributes
     ----------

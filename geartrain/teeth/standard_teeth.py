@@ -16,7 +16,7 @@ from geartrain.teeth.involute import Involute
 
 ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth of all
 PLAY = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
-_ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that hang together run is taken
+_ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that are connected run is taken
 _ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the tallest that run are taken
 MOST_TEETH = 10_000
 
@@ -43,7 +43,7 @@ class StandardTeeth:
 
 
 def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[str, str]]) -> dict[str, StandardTeeth]:
-    """The teeth of all wheels: of those that hang together by `pairs` the same pressure angle, of each its addendum.
+    """The teeth of all wheels: of those that are connected by `pairs` the same pressure angle, of each its addendum.
 
     A wheel is as tall as it runs with the worst of its mates. Where no pressure angle lets all run, 20 degrees is kept,
     and the pair that does not run says why.
@@ -75,7 +75,7 @@ def _hanging_together(first: str, mates: Mapping[str, list[str]]) -> list[str]:
 def _design(
     group: Iterable[str], gears: Mapping[str, UndeclaredWheel], mates: Mapping[str, list[str]], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """The teeth of wheels that hang together; None if at this pressure angle some pair of them does not run."""
+    """The teeth of wheels that are connected; None if at this pressure angle some pair of them does not run."""
     addenda: dict[str, float] = {}
     edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
     for name in group:

@@ -139,7 +139,7 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
     if not n:
         return IntervalEstimate(nan, -inf, inf)
     half = deviations() * sqrt(n * p * (1 - p))
-    # places from 0, rounded outwards: whole places shall not make the interval narrower
+    # places from 0, rounded outwards: whole places must not make the interval narrower
     low, high = floor(n * p - half) - 1, ceil(n * p + half)
     ends = (float(ordered[low]) if low >= 0 else -inf, float(ordered[high]) if high < n else inf)
     return IntervalEstimate(float(np.quantile(ordered, p)), *ends)

@@ -83,7 +83,7 @@ def test_every_pair_of_the_differential_train_has_a_law(records: MotionRecords) 
     assert price.family == PRICE
     assert list(price.ideal) == []
     assert len(price.rippling) == price.links == 17
-    # what no dial hangs on is not counted: the last arbor drives nothing
+    # what no dial depends on is not counted: the last arbor drives nothing
     assert "N~O1" not in price.rippling
     assert price.outputs["sun"]["peak_to_peak"] < 1e-10
 

@@ -339,7 +339,7 @@ COUNTS = st.sampled_from([4, 6, 8, 9, 10, 12, 15])
 
 @st.composite
 def compounds(draw: st.DrawFn) -> Data:
-    """Compound wheels on a grid of fixed axes; counts hang on row or column, so ratios round a loop multiply to 1."""
+    """Compound wheels on a grid of fixed axes; counts depend on row or column, so ratios round a loop multiply to 1."""
     rows, columns = draw(st.integers(2, 3)), draw(st.integers(2, 3))
     across = [draw(COUNTS) for _ in range(columns)]  # a column's wheel that meets the next column
     back = [draw(COUNTS) for _ in range(columns)]

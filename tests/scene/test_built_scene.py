@@ -55,7 +55,7 @@ class Body:
 
 
 def groups(bodies: Sequence[Body]) -> list[set[int]]:
-    """Which of them hang together."""
+    """Which of them are connected."""
     found = UnionFind(range(len(bodies)))
     for one, other in combinations(range(len(bodies)), 2):
         if found[one] != found[other] and bodies[one].meets(bodies[other]):

@@ -136,7 +136,7 @@ def _assignment(text: str) -> dict[str, int]:
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """A solution extends the train: it cannot take its place, and a table shall not."""
+    """A solution extends the train: it cannot take its place, and a table must not."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
         raise typer.BadParameter(f"'{out}' is the train itself; write to another file", param_hint="-o")
 

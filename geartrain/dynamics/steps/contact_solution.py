@@ -3,7 +3,7 @@
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ = k_c  for every c that touches        docs/dynamics.md (11)
 
 A pair that touches gives its driven coordinate, v_d = sum w_o v_o + k/r_d, and (13) hands row and column of d on to the
-coordinates before it; one that is apart leaves d free, and d is eliminated by Gauss. Where each coordinate hangs on one
+coordinates before it; one that is apart leaves d free, and d is eliminated by Gauss. Where each depends on one
 before it (a chain, a tree) the first is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c), and a step costs O(n).
 
 Rows that determine no coordinate (a second way between two links, stops, stuck bearings) stand in the matrix with a

@@ -193,7 +193,7 @@ class SettledFigure(Result):
     coarse, fine : float
         By steps of length h, and of h/2.
     kind : {"mean", "extreme"}
-        A mean over the run holds if steps are short; an extreme hangs on single flights, which are chaotic.
+        A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic.
     settled : bool
         Whether both agree: to 5 %, a share of time to 0.005, an angle to 1e-6 rad if that is more.
 

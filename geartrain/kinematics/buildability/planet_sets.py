@@ -250,7 +250,7 @@ class TrainAssembly:
         among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
-        # equal sets start at the planet whose central wheels come first, so that they hang together alike
+        # equal sets start at the planet whose central wheels come first, so that they are connected alike
         start = min(links, key=lambda link: (self._mates(carrier, link) or ["\uffff"], links.index(link)))
         return PlanetSet(carrier, self._planet(carrier, start, None, among), tuple(links))
 

@@ -54,7 +54,7 @@ class OutputFormula(Result):
     shares : tuple of InputShare
         By input; without those on which the output does not depend.
     conditions : tuple of str
-        Equations between counts that must hold, for else the train does not turn: loops that close.
+        Equations between counts without which the train does not turn: loops that close.
     poles : tuple of str
         Equations between counts at which the output is locked, or free.
 

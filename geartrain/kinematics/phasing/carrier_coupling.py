@@ -21,7 +21,7 @@ Left = Callable[[int, Sequence[Number]], Number]
 
 @dataclass(frozen=True)
 class CarrierCoupling:
-    """How components hang together.
+    """How components are connected.
 
     rows       weights of meshes of several carriers whose equations add up to 0 on the left
     complete   False where finding them was given up

@@ -140,7 +140,7 @@ def _plain(row: Sequence[int], power: int) -> tuple[int, list[int]]:
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
-    # only how the condition reads hangs on the unit: past 1000 of them none is looked at
+    # only how the condition reads depends on the unit: past 1000 of them none is looked at
     units = [unit for unit in range(1, min(modulus, 1000) + 1) if math.gcd(unit, modulus) == 1]
     return modulus, min((_centred(row, unit, modulus) for unit in units), key=_size)
 

@@ -43,7 +43,7 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 
 
 def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
-    """Meshes by the wheels that hang together."""
+    """Meshes by the wheels that are connected."""
     wheels: DisjointSets[str] = DisjointSets()
     for first, second in meshes:
         wheels.join(first, second)

@@ -83,7 +83,7 @@ class TurnedPart:
         return sum(pi * (band.radius**2 - band.bore**2) * (band.high - band.low) for band in self.bands)
 
     def sections(self) -> list[list[Band]]:
-        """Bands that hang together."""
+        """Bands that are connected."""
         found = [[self.bands[0]]]
         for before, band in pairwise(self.bands):
             if band.low > before.high + _SAME:

@@ -1,4 +1,4 @@
-"""The periods an orrery shall show, and how far each may be missed."""
+"""The periods an orrery is to show, and how far each may be missed."""
 
 from __future__ import annotations
 

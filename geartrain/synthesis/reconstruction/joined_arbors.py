@@ -127,7 +127,7 @@ def _carried(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Pro
             yield Problem(what, "else the pin would leave its slot", fix, place)
         else:
             what = f"'{link}' turns on '{bearing}', and a coupling over a carrier is not taken up by a reconstruction"
-            why = f"how fast '{link}' turns hangs on its carrier"
+            why = f"how fast '{link}' turns depends on its carrier"
             fix = (
                 f"give the arbors before and behind '{bearing}' as the pair, which turn alike, without what it carries"
             )

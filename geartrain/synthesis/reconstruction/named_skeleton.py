@@ -1,6 +1,6 @@
 """A skeleton in which every arbor and wheel has the name that it has in all of its trains.
 
-Added arbors of a limb are named by their place on it, so that names do not hang on the order of the others.
+Added arbors of a limb are named by their place on it, so that names do not depend on the order of the others.
 """
 
 from __future__ import annotations

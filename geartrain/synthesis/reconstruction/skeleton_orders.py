@@ -1,6 +1,6 @@
 """What holds in how many of a skeleton's trains, by the orders of arbors on its limbs, and orders drawn.
 
-From the driving wheel on, a limb goes on with one of the arbors that are left. What follows hangs on which those are
+From the driving wheel on, a limb goes on with one of the arbors that are left. What follows depends on which those are
 and on the wheel that drives alone, not on how it came to that, so that orders are summed and not listed.
 """
 

@@ -2,7 +2,7 @@
 
 Wheels that mesh are in one layer. A wheel whose pitch circle holds the axis of another arbor must lie above or below
 all wheels of that arbor: the stretch between them is the arbor itself. Layers are put on each other from below; what
-may come next hangs on which are there already, not on their order, so every set of layers is looked at once. Bearings
+may come next depends on which are there already, not on their order, so every set of layers is looked at once. Bearings
 and what runs out to a dial are not looked at, nor arbors without a place; arbors on one axis pass through each other.
 """
 

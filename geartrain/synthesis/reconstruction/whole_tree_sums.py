@@ -85,7 +85,7 @@ class WholeTreeSums:
         return np.array(found, dtype=object)[which.ravel()]
 
     def _orders_with(self, added: AddedSets, rows: TrainRows, row: int) -> int:
-        """The same of one row: it hangs on the roles alone, whichever arbor has which."""
+        """The same of one row: it depends on the roles alone, whichever arbor has which."""
         root, *roles = (arbor.roles[at] for arbor, at in zip(self.trees.arbors, rows.roles[row].tolist(), strict=True))
         key = added, root, tuple(sorted(roles))
         if key not in self._orders:

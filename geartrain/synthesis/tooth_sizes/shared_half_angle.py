@@ -17,7 +17,7 @@ _TRIES, _NEAR = 8, 1e-3  # of Brent's method between the neighbours of the best 
 
 
 def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
-    """The pairs of a train in groups that hang together by common wheels.
+    """The pairs of a train in groups that are connected by common wheels.
 
     wheels   of each pair, by its name
 

@@ -1,4 +1,4 @@
-// Error laws of pairs as tables of polynomials, and pairs that hang on each other.
+// Error laws of pairs as tables of polynomials, and pairs that depend on each other.
 
 const SETTLED = 2e-15; // rad, over the scale of the angles added
 const MOST_STEPS = 120;

@@ -164,7 +164,7 @@ class Interface {
     this.live.say(side.steps.map(({ wheel, count }) => `${wheel} ${count} teeth`).join(", ") || "all as declared");
   }
 
-  /** Highlights what an output hangs on, in every side that has it. */
+  /** Highlights what an output depends on, in every side that has it. */
   choose(output) {
     const found = this.sides
       .map((side) => ({ side, pointer: side.scene.pointers.find((each) => each.output === output) }))

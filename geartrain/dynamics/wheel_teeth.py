@@ -7,7 +7,7 @@ from math import atan2, cos, hypot, pi, sin
 
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
-from geartrain.teeth.outlines.wheel_outline import lantern
+from geartrain.teeth.outlines.wheel_outline import lantern, pin_seats
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 CHORD = 1e-3  # modules: how far a chord may leave a flank or a round
@@ -24,6 +24,7 @@ class WheelTeeth:
     form    name of the declared form, or `standard`; `words`, what a maker is told
     tooth   the first of them, about the x axis, from root to root; empty for pins
     tip, root   radii
+    pins    of a lantern; of a ring whose teeth are pins, parts of their own
     """
 
     wheel: str
@@ -38,10 +39,19 @@ class WheelTeeth:
 
     def contours(self, module: float) -> tuple[Contour, ...]:
         """All of the wheel (mm), the outer contour first, then holes; the axle at (0, 0)."""
-        if self.pins is not None:
+        if self.pins is not None and self.kind == "pins":
             return tuple(lantern(self.pins, self.z, module))
+        if self.pins is not None:
+            return Contour.circle((self.depth + _RIM) * module), pin_seats(self.pins, self.z, self.root, module)
         teeth = Contour.of(repeated(self.tooth, self.z)).scaled(module)
         return (teeth,) if self.kind == "external" else (Contour.circle((self.root + _RIM) * module), teeth)
+
+    @property
+    def depth(self) -> float:
+        """Radius of the roots; of a ring with pins that to which these reach, if that is more."""
+        if self.pins is None or self.kind == "pins":
+            return self.root
+        return max(self.root, self.pins.circle + self.pins.radius)
 
     def section(self) -> tuple[tuple[float, float], ...]:
         """Radius (over the pitch radius) and angle of one tooth, from mid-space to mid-space, or round a pin.
@@ -49,7 +59,7 @@ class WheelTeeth:
         Arcs are chords.
         """
         R = self.z / 2
-        if self.pins is not None:
+        if self.pins is not None and self.kind == "pins":
             turns = [2 * pi * at / _PIN for at in range(_PIN)]
             round_ = [(self.pins.circle + self.pins.radius * cos(t), self.pins.radius * sin(t)) for t in turns]
             return tuple((hypot(x, y) / R, atan2(y, x)) for x, y in round_)

@@ -49,10 +49,11 @@ class _Steps:
         yield from self._carried()
         base = self.plan.stack.frame
         pillars = [name for name in self.known if name.startswith("pillar ")]
-        posts = [post.name for post in self.frame.posts if post.link == base]
+        posts = [post.name for post in (*self.frame.posts, *self.frame.pins) if post.link == base]
         rings = [disc.name for disc in self.plan.discs if not disc.hub and disc.link == base]
+        pins = " and pins" if any(each.link == base for each in self.frame.standing) else ""
         yield self._step(
-            f"Press the pillars, and the posts of rings, into the {self.low} plate",
+            f"Press the pillars, and the posts{pins} of rings, into the {self.low} plate",
             [f"{base} {self.low} plate", *sorted(pillars), *posts, *rings],
         )
         yield from self._studs(AxisBearing.BACK_STUD, self.low)
@@ -104,6 +105,8 @@ class _Steps:
                 order += _with(wheels, spacers, collets)
                 text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
                 yield self._step(text, [names[member.link], *every, *spacers, *collets])
+                yield from self._on_eccentrics(every)
+                yield from self._plated_pins(every)
         pipes = [member.link for member in column.members if member.inner]
         if pipes and not column.is_stud:
             text = f"On axis {column.axis} slide on the pipes, innermost first: {', '.join(pipes)}"
@@ -126,6 +129,23 @@ class _Steps:
                 continue
             pins = [f"{name} pin {at + 1}" for at in range(len(cut.coupling.pins_at))] or [f"{name} pin"]
             yield self._step(f"Press the pin{'s'[: len(pins) - 1]} of '{name}' into {cut.pin.id}", pins)
+
+    def _plated_pins(self, plates: Sequence[str]) -> Iterator[AssemblyStep]:
+        """Pins that stand in some of the plates that turn."""
+        for each in self.frame.standing:
+            if each.seat in plates:
+                pins = [f"{each.name} {at}" for at in range(1, 1 + len(each.spots))]
+                yield self._step(f"Press the pins of '{each.name.removesuffix(' pin')}' into {each.seat}", pins)
+
+    def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
+        """What turns on some eccentrics, of which it may need others that stand already."""
+        every = self.plan.stack.eccentrics
+        for each in (each for each in every if each.name in names):
+            own = [other.name for other in every if other.wheels == each.wheels]
+            if each.name == own[-1]:
+                washers = [f"{name} washer {at}" for name in own for at in (1, 2)]
+                text = f"Put {', '.join(each.wheels)} on {', '.join(own)}, to turn there between washers"
+                yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
         """Studs of carriers with what turns on them, the nearest to the carrier first."""

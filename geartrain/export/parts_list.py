@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_part import SolidPart
     from geartrain.train import Wheel
 
-_STEEL = ("arbor", "stud", "pin")
+_STEEL = ("arbor", "stud", "pin", "eccentric")
 _STOCK = {"laser": "acrylic", "fdm": "PLA"}  # of flat parts; brass for any other process
 _SAME = 4  # decimals of a mm to which parts are alike
 
@@ -30,7 +30,7 @@ class ListedPart:
     names : tuple of str
         Of all of them.
     kind : str
-        wheel, plate, arbor, pipe, stud, collar, spacer, collet, pillar, post or pin.
+        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, pillar, post or pin.
     material : str
         What its mass is reckoned with.
     size : str
@@ -123,9 +123,15 @@ def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
         if one_piece:
             yield "one piece with its arbor"
         elif blank.bore:
-            yield f"bore {round(blank.bore, _SAME):g}, {work.process.joint}"
+            yield f"bore {round(blank.bore, _SAME):g}, {_turns_on(work, part.name) or work.process.joint}"
     if part.turned is not None and part.turned.joint:
         yield part.turned.joint
+
+
+def _turns_on(work: SolidModel, wheel: str) -> str:
+    """What a wheel turns on that is fixed on no arbor."""
+    own = () if work.frame is None else work.frame.plan.stack.eccentrics
+    return next((f"turns on {each.name}" for each in own if wheel in each.wheels), "")
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:

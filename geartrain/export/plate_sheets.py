@@ -27,7 +27,7 @@ def _sheet(plate: FlatPlate) -> Plate:
     marks = tuple(
         EngravedText(hole.name, (hole.at[0] - x, hole.at[1] - y - hole.diameter / 2 - 0.7 * _LETTER), _LETTER)
         for hole in plate.holes
-        if hole.name not in ("pillar", "post", "hub")
+        if hole.name not in ("pillar", "post", "pin", "hub")
     )
     sizes = ", ".join(dict.fromkeys(f"{hole.name} {hole.diameter:.4g}" for hole in plate.holes))
     title = f"{plate.name}: thickness {plate.high - plate.low:.4g} mm, scale 1:1; holes (mm): {sizes}"

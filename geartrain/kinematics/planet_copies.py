@@ -15,6 +15,7 @@ from geartrain.kinematics.circuits import Tree
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.numerics.vectors import minus, plus, turned
+from geartrain.teeth.pin_coupling import Coupling, Parallel, PinsInHoles
 from geartrain.train import GearPair, Link, Train
 from geartrain.train.mechanism import Axis, Revolute
 
@@ -159,10 +160,17 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
             yield _unequal(train, first, second, "gears", at)
     for at, coupling in enumerate(train.couplings):
         for link in (coupling.pin, coupling.slot):
-            if train.links[link].copies > 1:
-                what = f"a pin in a slot joins one of {train.links[link].copies} links '{link}'"
+            if train.links[link].copies > 1 and not _takes_copies(train, coupling):
+                what = f"'{coupling.name}' joins one of {train.links[link].copies} links '{link}'"
                 fix = "declare these links one by one, and the coupling of each"
-                yield Problem(what, "`copies` are equal in all that they meet", fix, train.place("couplings", at))
+                why = "`copies` are equal in all that they meet, and a pin drives each of them at another angle"
+                yield Problem(what, why, fix, train.place("couplings", at))
+
+
+def _takes_copies(train: Train, coupling: Coupling) -> bool:
+    """True of what keeps each of equal links parallel with one other."""
+    counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
+    return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
 
 
 def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
@@ -199,16 +207,25 @@ class _Unfolding:
             number = _number(self.declared, gear)
             gears.append((index, _shared(gear, number)))
             gears += [(index, self._gear(gear, at, number)) for at in range(2, 1 + number)]
+        couplings: list[tuple[int, Coupling]] = []
+        for index, coupling in enumerate(self.declared.couplings):
+            couplings.append((index, coupling))
+            couplings += [(index, self._coupling(coupling, at)) for at in self._others(coupling.pin, coupling.slot)]
         states = self.declared.states
         made = self.declared.changed(
             links=FrozenDict(links),
             axes=FrozenDict(axes),
             revolutes=tuple(joint for _, joint in joints),
             gears=tuple(gear for _, gear in gears),
+            couplings=tuple(coupling for _, coupling in couplings),
             loads=self._loads(self.declared.loads),
             states=FrozenDict({name: state.changed(loads=self._loads(state.loads)) for name, state in states.items()}),
         )
-        indices = {"revolutes": [index for index, _ in joints], "gears": [index for index, _ in gears]}
+        indices = {
+            "revolutes": [index for index, _ in joints],
+            "gears": [index for index, _ in gears],
+            "couplings": [index for index, _ in couplings],
+        }
         made._marks = _Places(self.declared, indices)
         return made
 
@@ -236,6 +253,14 @@ class _Unfolding:
         driver = None if gear.driver is None else own[gear.driver]
         changed = gear.changed(pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _named(gear.id, at))
         return _shared(changed, number)
+
+    def _coupling(self, coupling: Coupling, at: int) -> Coupling:
+        named = {
+            "pin": self._own(coupling.pin, at),
+            "slot": self._own(coupling.slot, at),
+            "id": coupling.id and _named(coupling.id, at),
+        }
+        return coupling.model_copy(update=named)
 
     def _wheel(self, wheel: str, at: int) -> str:
         return _named(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel

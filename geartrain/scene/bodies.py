@@ -77,7 +77,7 @@ def _profile(stage: SceneContext, toothed: TrainTeeth, wheel: str) -> ToothProfi
 
 
 def _section(toothing: WheelTeeth) -> ToothProfile:
-    return ToothProfile(toothing.form, toothing.section(), toothing.pins is not None)
+    return ToothProfile(toothing.form, toothing.section(), toothing.kind == "pins")
 
 
 _BENT = Problem(

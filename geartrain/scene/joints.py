@@ -122,9 +122,10 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
     axis = stage.reference(tree.axis(declared.pin))
     pin_axis, slot_axis = (_point(stage, tree.axis(link)) for link in (declared.pin, declared.slot))
     between = across(minus(slot_axis, pin_axis), axis)
-    radius, offset = _sizes(declared, size(between))
+    radius, offset = coupling_sizes(declared, size(between))
     towards = unit_or_z(between) if size(between) > _NONE else beside(axis)
-    pin, hole = _holes(declared, radius, offset)
+    towards = _clear_of_carried(stage, declared, pin_axis, axis, towards)
+    pin, hole = pin_and_hole(declared, radius, offset)
     pin_axis, slot_axis = (_at_height(point, axis, _height(stage, declared, axis)) for point in (pin_axis, slot_axis))
     return SceneCoupling(
         id=circuit.id,
@@ -146,13 +147,23 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
     )
 
 
+def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
+    """The direction of the first pin: of pins in holes midway between axes that their link carries, if it does."""
+    if isinstance(declared, PinsInHoles):
+        for place in stage.layout.axes.values():
+            aside = across(minus(place.point, middle), axis)
+            if place.carrier == declared.pin and size(aside) > _NONE:
+                return turned(unit_or_z(aside), axis, pi / declared.pins)
+    return towards
+
+
 def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, axis: Vector) -> tuple[Vector, ...]:
     """Places on a circle, the first of them in a direction; none of a pin in a slot."""
     number = declared.pins if isinstance(declared, PinsInHoles) else 0
     return tuple(plus(middle, turned(towards, axis, 2 * pi * at / number), radius) for at in range(number))
 
 
-def _holes(declared: Declared, radius: float, offset: float) -> tuple[float, float]:
+def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[float, float]:
     """Diameters of pins and of their holes (mm); 0 of a pin in a slot."""
     if not isinstance(declared, PinsInHoles):
         return 0.0, 0.0
@@ -176,7 +187,7 @@ def _aside(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float
     return setting.forward * followed - (moved.rest[circuit.i] - moved.rest[circuit.carrier])
 
 
-def _sizes(declared: Declared, apart: float) -> tuple[float, float]:
+def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
     """Pin radius and offset (mm): as declared; else by the axes as placed; else a likeness."""
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000

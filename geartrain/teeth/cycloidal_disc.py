@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.outlines.wheel_requirement import FixedTooth
+from geartrain.teeth.outlines.wheel_requirement import FixedTooth, LanternPins
 from geartrain.teeth.pair_verdict import PairVerdict
 from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
@@ -177,7 +177,7 @@ class CycloidalDisc:
         return found
 
     def pin_tooth(self) -> FixedTooth:
-        """One pin about the x axis, half round, with the ring behind it."""
+        """One pin about the x axis, half round, with the ring behind it; gear 2 of its pair."""
         # a lobe reaches farthest out on the line of centres, half a module beyond its own radius
         root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _FREE)
         R, r = self.circle, self.pin
@@ -194,7 +194,7 @@ class CycloidalDisc:
         points += [(foot[0], foot[1], 0.0)] if root > R else []
         tooth = [(float(x), float(y), float(bulge)) for x, y, bulge in points]
         tooth[-1] = (*tooth[-1][:2], tan(across / 4))
-        return FixedTooth(R - r, root, tuple(tooth), "ring")
+        return FixedTooth(R - r, root, tuple(tooth), "ring", LanternPins(2, R, r))
 
 
 class DiscTransmission(ExactRatio):

@@ -10,10 +10,14 @@ be placed and why.
     coaxial_order     which arbor runs inside which
     arbor_columns     what stands on one axis, from plate to plate; what is in its way
     carried_axes      plates and studs of carriers; discs of turning rings
+    eccentrics        discs on arbors on which wheels turn that are carried close to their middle
+    stack_eccentrics  which wheels of a stack these are, and which pins of round holes stand in plates
+    pin_circles       pins in plates: of rings, and of round holes
     plate_places      between which wheels the two plates stand
     stack_heights     room for plates; heights of all
     turned_parts      arbors, pipes, studs, pillars as bodies of revolution
     pillar_places     where pillars stand
+    ring_posts        posts that hold rings
     frame_plates      outlines and holes of plates
     frame_plan        all of these in order
 """

@@ -20,7 +20,8 @@ HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what 
 INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
 HAND = 1.6  # mm that an arbor stands out beyond the pipe round it where both bear hands
 _LEAST = 0.8  # mm: the thinnest arbor
-_USUAL = 2 / 3  # of the root radius of the smallest wheel: the diameter of an arbor
+USUAL = 2 / 3
+"""Diameter of an arbor over the root radius of its smallest wheel."""
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way
 _PIVOT = 0.55  # of its arbor: so that the shoulder bears
 _WIDEST = 6.0  # mm, of one whose size nobody gives
@@ -200,7 +201,7 @@ class ColumnProblem:
         if self.core is not None:
             return self.core
         roots = [self._root(each.link) for each in order]
-        found = [_WIDEST, *(_USUAL * root for root in roots)]
+        found = [_WIDEST, *(USUAL * root for root in roots)]
         thick = {each.link: each.outer for each in self._members(order, 0.0, stud)}  # what pipes add
         found += [2 * root - thick[each.link] for each, root in zip(order, roots, strict=True)]
         return max(_LEAST, round(min(found), 2))

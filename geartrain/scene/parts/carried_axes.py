@@ -12,8 +12,9 @@ from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 
 BOSS = 2.0  # mm of plate round a stud, at least
-_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm in a gap: carriers are nearest to what they carry, then discs of rings
-_WIDEST = 3.0  # mm: a stud's radius, reckoned with before it is known
+NEAREST = 0.4  # mm in a gap from its middle: plates of pins are nearest to the disc in which these work
+_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm in a gap: then carriers to what they carry, then discs of rings
+WIDEST = 3.0  # mm: a stud's radius, reckoned with before it is known
 _STEP = 3.0  # mm: diameter of a stud that stands on the end of another, at most
 _BLADE = 0.1  # mm of metal between two holes, or round the foot of a stud
 
@@ -25,11 +26,13 @@ class TurningPlate:
     disc    as what it sweeps; its height is that of its gap
     spots   axes that it bears (carrier), or none (disc of a ring)
     ring    the ring wheel that it holds
+    round   whether it is as wide all round as what it sweeps
     """
 
     disc: StackDisc
     spots: tuple[str, ...] = ()
     ring: str = ""
+    round: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +46,13 @@ class CarrierSeat:
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """An axis that a link carries round."""
+    """An axis that a link carries round; `through`, wheels of others that have holes for what is on its arbor."""
 
     label: str
     carrier: str
     at: Point
     discs: tuple[StackDisc, ...]
+    through: frozenset[str] = frozenset()
 
 
 def carrier_seats(
@@ -61,14 +65,14 @@ def carrier_seats(
 ) -> list[CarrierSeat]:
     """Ways to bear the carried axes, those on a wheel first."""
     reach = max(dist(at, each.at) for each in carried) + BOSS
-    fit = (disc for disc in own if disc.hub and disc.root > reach + _WIDEST / 2)
+    fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
     discs = [disc for each in carried for disc in each.discs]
     low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
     spots = tuple(each.label for each in carried)
-    for height in (_gap(slab_gaps, low, -1) + _NEAR, _gap(slab_gaps, high, 1) - _NEAR):
+    for height in (gap_beside(slab_gaps, low, -1) + _NEAR, gap_beside(slab_gaps, high, 1) - _NEAR):
         name = f"{link} carrier plate"
-        disc = StackDisc(name, link, axis, at, height - _THIN, height + _THIN, reach + _WIDEST)
+        disc = StackDisc(name, link, axis, at, height - _THIN, height + _THIN, reach + WIDEST)
         found.append(CarrierSeat(link, name, (TurningPlate(disc, spots),)))
     return found
 
@@ -76,16 +80,16 @@ def carrier_seats(
 def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
     """Discs that hold a turning ring, behind it or before it."""
     found = []
-    for height in (_gap(slab_gaps, ring.high, 1) - _FAR, _gap(slab_gaps, ring.low, -1) + _FAR):
+    for height in (gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR):
         name = f"{ring.name} disc"
         disc = replace(
             ring, name=name, low=height - _THIN, high=height + _THIN, outer=rim, inner=0.0, root=rim, hub=True
         )
-        found.append(CarrierSeat(ring.link, name, (TurningPlate(disc, (), ring.name),)))
+        found.append(CarrierSeat(ring.link, name, (TurningPlate(disc, (), ring.name, round=True),)))
     return found
 
 
-def _gap(slab_gaps: Sequence[float], face: float, side: int) -> float:
+def gap_beside(slab_gaps: Sequence[float], face: float, side: int) -> float:
     """The gap nearest to a face on one side of it."""
     return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
 
@@ -150,7 +154,8 @@ def _carried_column(
 
 
 def _others(axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc]) -> tuple[StackDisc, ...]:
-    return tuple(seen_from_carrier(axis.carrier, seat.at, disc) for disc in discs if disc.name != seat.name)
+    passed = {seat.name, *axis.through}
+    return tuple(seen_from_carrier(axis.carrier, seat.at, disc) for disc in discs if disc.name not in passed)
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:

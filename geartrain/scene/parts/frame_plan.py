@@ -17,7 +17,9 @@ from geartrain.scene.parts.carried_axes import (
     carrier_seats,
     ring_seats,
 )
+from geartrain.scene.parts.eccentrics import running_hole, too_thin
 from geartrain.scene.parts.frame_stack import FrameStack
+from geartrain.scene.parts.pin_circles import PinCircle, pin_seats
 from geartrain.scene.parts.plate_places import PlateChoice, best_column, best_places, obstacles, with_discs
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
@@ -97,12 +99,25 @@ class FramePlan:
             axis = self.stack.train.tree.axis(link) or ""
             own = [disc for disc in self.stack.discs if disc.link == link]
             at = self.stack.flat(self.stack.axes[axis].point)
+            circle = next((each for each in self.stack.pin_circles.values() if each.link == link), None)
+            if circle is not None and (slots := self._slots(circle)):
+                yield pin_seats(circle, axis, at, slots, self._gaps, carried)
+                continue
             ways = carrier_seats(link, axis, at, carried, own, self._gaps)
             bad = {way: self._carried_cost(way, carried) for way in ways}
             yield [way for way in ways if bad[way] == min(bad.values())]
+        for circle in self.stack.pin_circles.values():
+            axis = self.stack.train.tree.axis(circle.link) or ""
+            slots = self._slots(circle)
+            if circle.link not in by_carrier and axis in self.stack.axes and slots:
+                at = self.stack.flat(self.stack.axes[axis].point)
+                yield pin_seats(circle, axis, at, slots, self._gaps)
         for disc in self.stack.discs:
             if not disc.hub and disc.link != self.stack.frame and disc.carrier is None:
                 yield ring_seats(disc, disc.outer, self._gaps)
+
+    def _slots(self, circle: PinCircle) -> list[StackDisc]:
+        return [disc for disc in self.stack.wheel_discs if disc.link == circle.slot]
 
     def _cut(self, height: float) -> int:
         """Wheels across at some height that stand among the axes, where a plate would be."""
@@ -211,8 +226,15 @@ class FramePlan:
         return found
 
     def seat_of(self, carrier: str) -> str:
-        """The wheel or the plate on which a carrier bears its axes."""
+        """The wheel or the plate on which a carrier bears its axes, or its pins."""
         return next(seat.seat for seat in self.choice.seats if seat.link == carrier and not _holds_ring(seat))
+
+    @property
+    def plated_pins(self) -> dict[str, str]:
+        """The plate of each coupling whose pins stand in one that turns."""
+        bearing = {seat.link for seat in self.choice.seats if not _holds_ring(seat)}
+        circles = self.stack.pin_circles.values()
+        return {each.name: self.seat_of(each.link) for each in circles if each.link in bearing}
 
     @cached_property
     def all_columns(self) -> tuple[AxisColumn, ...]:
@@ -242,6 +264,9 @@ class FramePlan:
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
+        for each in self.stack.eccentrics:
+            for name in each.wheels:
+                found[name] = 2 * each.middle or running_hole(each, self.process)
         return found
 
     @cached_property
@@ -268,6 +293,9 @@ class FramePlan:
                 why = f"the gap is {room:.3f} mm where {APART:g} mm is asked for"
                 yield Problem(what, why, "move the axis, change the order of the wheels, or give a thinner --bore")
         yield from self._thin_roots()
+        for each in self.stack.eccentrics:
+            if each.name in self.members and (told := too_thin(each, self.members[each.name].outer)):
+                yield told
 
     def _thin_roots(self) -> Iterator[Problem]:
         for name, member in self.members.items():

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import cos, dist, pi, sin
+from math import dist
 
 import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
+from geartrain.scene.parts.eccentrics import running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
+from geartrain.scene.parts.pin_circles import StandingPins
+from geartrain.scene.parts.ring_posts import TENON, blocked_posts, nearer_plate, ring_posts
 from geartrain.scene.parts.sleeves import sleeves
 from geartrain.scene.parts.stack_discs import Point, StackDisc, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses
@@ -21,11 +24,7 @@ from geartrain.teeth.outlines.contour import Contour
 
 _PILLAR_MOST, _PILLAR_LEAST = 4.0, 1.5  # mm: radius of a pillar
 _PILLAR_PART = 0.04  # of the width of all that turns between the plates
-_TENON = 0.6  # of the radius of a pillar or a post: what stands in a plate
 _LAND = 3.0  # mm of plate round a hole
-_POSTS, _TRIED = 3, 72
-_POST_WIDEST = 2.0  # mm: radius of a post
-_RIM_PART = 0.3  # of a ring's rim: the radius of what goes through it
 _BLADE = 0.05  # mm: holes nearer to each other are one
 
 
@@ -79,11 +78,13 @@ class FramePlates:
 
     feet   of dials, each in one of the plates
     tabs   points that a plate reaches out to, by the name of its side: there brackets stand
+    standing  pins that plates bear
     """
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
     tabs: Mapping[str, Sequence[Point]] = field(default_factory=dict)
+    standing: tuple[StandingPins, ...] = ()
 
     @cached_property
     def pillar(self) -> float:
@@ -115,6 +116,7 @@ class FramePlates:
         places = self.plan.places
         across = self._across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
+        axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate is round its pins too
         found = pillar_places(axes, self.circles, self.pillar)
         if all(clear_of(at, across) > self.pillar for at in found):  # plates are the smaller the nearer pillars are
             return found
@@ -148,9 +150,16 @@ class FramePlates:
             holes = (*self._hub(plate.disc.name), *self.seat_holes(plate.disc.name))
             points, most = [hole.at for hole in holes], max(hole.diameter for hole in holes)
             edge = (
-                Contour.circle(plate.disc.outer, plate.disc.at) if plate.ring else around(points, most / 2 + _LAND - 1)
+                Contour.circle(plate.disc.outer, plate.disc.at) if plate.round else around(points, most / 2 + _LAND - 1)
             )
             yield FlatPlate(plate.disc.link, plate.disc.name, edge, holes, low, high, plate.disc.at)
+        for each in self.plan.stack.eccentrics:
+            faces = each.faces(self._disc(each.name))
+            edge = Contour.circle(each.radius, each.centre)
+            yield FlatPlate(each.link, each.name, edge, tuple(self._hub(each.name)), *faces, each.centre)
+
+    def _disc(self, name: str) -> StackDisc:
+        return next(disc for disc in self.plan.discs if disc.name == name)
 
     @cached_property
     def sides(self) -> Mapping[str, tuple[float, float]]:
@@ -169,9 +178,12 @@ class FramePlates:
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
             pillars = [*pillars, *self.bridge_pillars]
-        reaching = [post for post in (*self.posts, *self.feet) if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]]
+        fixed = [pin for pin in self.pins if pin.link == self.plan.stack.frame]
+        reaching = [
+            post for post in (*self.posts, *self.feet, *fixed) if post.ends[0] <= faces[0] and faces[1] <= post.ends[1]
+        ]
         return [
-            *(Hole("pillar", at, 2 * _TENON * self.pillar + press) for at in pillars),
+            *(Hole("pillar", at, 2 * TENON * self.pillar + press) for at in pillars),
             *(Hole(post.kind, post.at, 2 * post.bands[0].radius + press) for post in reaching),
         ]
 
@@ -195,7 +207,13 @@ class FramePlates:
 
     def seat_holes(self, seat: str) -> list[Hole]:
         """Holes in a wheel or a plate beside its hub: for studs of the axes that it bears, and for posts."""
-        return self._apart(self._seat_holes(seat), self._hub(seat))
+        return [*self._apart(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
+
+    def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
+        """Of a wheel that turns on several eccentrics."""
+        for each in self.plan.stack.eccentrics:
+            if each.middle and wheel in each.wheels:
+                yield Hole("eccentric", each.centre, running_hole(each, self.plan.process))
 
     def _hub(self, seat: str) -> list[Hole]:
         member = self.plan.members.get(seat)
@@ -216,9 +234,9 @@ class FramePlates:
             if not column.on and self.plan.seat_of(self.plan.stack.carried[label].carrier) == seat:
                 loose = column.bearing is AxisBearing.THROUGH
                 yield Hole(label, column.at, column.core + (process.running if loose else process.press))
-        for post in self.posts:
+        for post in (*self.posts, *self.pins):
             if seat in post.through:
-                yield Hole("post", post.at, 2 * post.bands[0].radius + process.press)
+                yield Hole(post.kind, post.at, 2 * post.bands[0].radius + process.press)
 
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
@@ -235,62 +253,36 @@ class FramePlates:
             faces = FramePlaces((seat.low, seat.high), (seat.low, seat.high))
             yield from column_parts(column, faces, carrier, plan.process, plan.cut)
         yield from sleeves(plan)
+        for each in plan.stack.eccentrics:
+            yield from each.washers(self._disc(each.name), plan.bores[each.name])
         pairs = [("pillar", self.pillars, plan.places.back, plan.places.front)]
         if plan.bridge is not None:
             below, above = sorted((plan.bridged_plate, plan.bridge))
             pairs.append(("bridge pillar", self.bridge_pillars, below, above))
         for name, spots, below, above in pairs:
             for number, at in enumerate(spots, 1):
-                ends = Band(*below, _TENON * self.pillar), Band(*above, _TENON * self.pillar)
+                ends = Band(*below, TENON * self.pillar), Band(*above, TENON * self.pillar)
                 bands = ends[0], Band(below[1], above[0], self.pillar), ends[1]
                 joint = f"in both plates, {plan.process.joint}"
                 yield TurnedPart(plan.stack.frame, f"{name} {number}", "pillar", at, bands, joint)
         yield from self.posts
+        yield from self.pins
         yield from self.feet
 
     @cached_property
+    def pins(self) -> tuple[TurnedPart, ...]:
+        """Pins in plates."""
+        return tuple(part for each in self.standing for part in self._standing(each))
+
+    def _standing(self, pins: StandingPins) -> Iterator[TurnedPart]:
+        wheel = self._disc(pins.wheel)
+        faces = self.plan.heights.plates[pins.seat] if pins.seat else nearer_plate(self.plan, wheel.middle)
+        return pins.parts(faces, wheel, self.plan.process.joint)
+
+    @cached_property
     def posts(self) -> tuple[TurnedPart, ...]:
-        """Posts that hold rings: in a plate of the frame, or in the disc of a ring that turns."""
-        found: list[TurnedPart] = []
-        discs = {plate.ring: plate.disc.name for plate in self.plan.turning if plate.ring}
-        for disc in self.plan.discs:
-            if disc.hub:
-                continue
-            if disc.link == self.plan.stack.frame:
-                faces = min(
-                    (self.plan.places.back, self.plan.places.front), key=lambda each: abs(sum(each) / 2 - disc.middle)
-                )
-                found += self._posts(disc, faces, (disc.name,), free=True)
-            elif disc.name in discs:
-                faces = self.plan.heights.plates[discs[disc.name]]
-                found += self._posts(disc, faces, (disc.name, discs[disc.name]), free=False)
-        return tuple(found)
-
-    def _posts(
-        self, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...], free: bool
-    ) -> Iterator[TurnedPart]:
-        blank = self.plan.stack.blanks[ring.name]
-        wide = ring.outer - blank.root_radius
-        radius = min(_RIM_PART * wide, _POST_WIDEST)
-        away = (ring.outer + blank.root_radius) / 2
-        spots = self._spots(ring, plate, away, radius) if free else _evenly(ring.at, away, 2 * _POSTS)
-        low, high = min(plate[0], ring.low), max(plate[1], ring.high)
-        inner = (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
-        for number, at in enumerate(spots, 1):
-            bands = Band(low, inner[0], radius * _TENON), Band(*inner, radius), Band(inner[1], high, radius * _TENON)
-            yield TurnedPart(
-                ring.link, f"{ring.name} post {number}", "post", at, bands, self.plan.process.joint, through
-            )
-
-    def _spots(self, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-        """Three places on a rim that no axis, and nothing between it and the plate, comes near to; evenly if free."""
-        low, high = sorted((sum(plate) / 2, ring.middle))
-        between = [disc for disc in self.plan.discs if low < disc.middle < high and disc.name != ring.name]
-        circles = [swept_circle(disc) for disc in between]
-        reach = min(plate[0], ring.low), max(plate[1], ring.high)
-        circles += [(column.at, column.radius(*reach)) for column in self.plan.columns]
-        tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
-        return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
+        """Posts that hold rings."""
+        return ring_posts(self.plan)
 
     def problems(self) -> Iterator[Problem]:
         """Holes that run into each other, and posts in the way of wheels."""
@@ -298,7 +290,7 @@ class FramePlates:
             yield from self._lost(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:
             yield from self._lost(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
-        yield from self._blocked_posts()
+        yield from blocked_posts(self.plan, self.posts)
 
     def _lost(self, where: str, holes: Sequence[Hole], taken: Sequence[Hole]) -> Iterator[Problem]:
         kept = self._apart(holes, taken)
@@ -309,18 +301,6 @@ class FramePlates:
                 why = f"that of '{other.name}', {dist(hole.at, other.at):.3g} mm away, takes its place"
                 yield Problem(what, why, "give a thinner --bore, or turn one stud with a step that bears both")
 
-    def _blocked_posts(self) -> Iterator[Problem]:
-        low, high = self.plan.places.back[0], self.plan.places.front[1]
-        for post in self.posts:
-            inside = [disc for disc in self.plan.discs if post.ends[0] < disc.low and disc.high < post.ends[1]]
-            for disc in (each for each in inside if low < each.middle < high and each.hub):
-                if (
-                    post.link == self.plan.stack.frame
-                    and (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0
-                ):
-                    what = f"{post.name} has no way past '{disc.name}'"
-                    yield Problem(what, f"they overlap by {-room:.3f} mm", "hold the ring by a bracket from its side")
-
 
 def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:
     return member.low < sum(faces) / 2 < member.high
@@ -328,8 +308,3 @@ def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:
 
 def _meet(one: Hole, other: Hole) -> bool:
     return dist(one.at, other.at) < (one.diameter + other.diameter) / 2 + _BLADE
-
-
-def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:
-    turns: Sequence[float] = [start + 2 * pi * k / count for k in range(count)]
-    return [(at[0] + away * cos(turn), at[1] + away * sin(turn)) for turn in turns]

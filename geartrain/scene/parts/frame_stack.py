@@ -17,7 +17,10 @@ from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector, dot, plus, scaled
 from geartrain.scene.parts.arbor_columns import HEAD_ROOM
 from geartrain.scene.parts.carried_axes import CarriedAxis
+from geartrain.scene.parts.eccentrics import ROOM, Eccentric, on_eccentrics
+from geartrain.scene.parts.pin_circles import PinCircle
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
+from geartrain.scene.parts.stack_eccentrics import StackEccentrics, find_pin_circles
 from geartrain.scene.solids.bearing_plates import basis
 
 if TYPE_CHECKING:
@@ -47,11 +50,12 @@ class AcrossWheel:
 
 @dataclass(frozen=True)
 class FrameStack:
-    """A train as placed, seen from above its plates."""
+    """A train as placed, seen from above its plates; `core`, diameter of all arbors (mm), if it is given."""
 
     train: GearTrain
     layout: Layout
     blanks: Mapping[str, Blank]
+    core: float | None = None
 
     @property
     def frame(self) -> str:
@@ -103,19 +107,30 @@ class FrameStack:
         """Axes that a carrier on an axis of the frame bears."""
         return {
             label: CarriedAxis(
-                label, axis.carrier, self.flat(axis.point), tuple(disc for disc in self.discs if disc.axis == label)
+                label,
+                axis.carrier,
+                self.flat(axis.point),
+                tuple(disc for disc in self.discs if disc.axis == label),
+                frozenset(name for each in self.eccentrics if each.axis == label for name in each.wheels),
             )
             for label, axis in self.layout.axes.items()
-            if self._carrier_axis(axis) and any(disc.axis == label for disc in self.discs)
+            if self.carrier_axis(axis)
+            and label not in self.on_eccentrics
+            and any(disc.axis == label for disc in self.discs)
         }
 
-    def _carrier_axis(self, axis: AxisPlace) -> str | None:
+    def carrier_axis(self, axis: AxisPlace) -> str | None:
         """The axis of the frame about which an upright axis is carried round."""
         own = None if axis.carrier == self.frame or not self.is_upright(axis) else self.train.tree.axis(axis.carrier)
         return own if own in self.axes else None
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
+        """Wheels on axes of the frame, and on those that its carriers bear, and eccentrics."""
+        return tuple(on_eccentrics(self.wheel_discs, self.eccentrics))
+
+    @cached_property
+    def wheel_discs(self) -> tuple[StackDisc, ...]:
         """Wheels on axes of the frame, and on those that its carriers bear."""
         return tuple(self._discs())
 
@@ -123,7 +138,7 @@ class FrameStack:
         assert self.normal is not None
         for name, place in self.layout.wheels.items():
             axis = self.layout.axes[place.axis]
-            about = None if place.axis in self.axes else self._carrier_axis(axis)
+            about = None if place.axis in self.axes else self.carrier_axis(axis)
             if place.axis not in self.axes and about is None:
                 continue
             blank, height = self.blanks.get(name), dot(place.centre, self.normal)
@@ -144,6 +159,36 @@ class FrameStack:
                 not ring,
                 None if about is None else self.flat(self.layout.axes[about].point),
             )
+
+    @cached_property
+    def eccentrics(self) -> tuple[Eccentric, ...]:
+        """All of them."""
+        return tuple(StackEccentrics(self).found())
+
+    @cached_property
+    def on_eccentrics(self) -> frozenset[str]:
+        """Axes of what turns on eccentrics."""
+        return frozenset(each.carried for each in self.eccentrics)
+
+    @cached_property
+    def pin_circles(self) -> dict[str, PinCircle]:
+        """Pins in round holes that no wheel of their own link is wide enough to bear, by coupling."""
+        return {each.name: each for each in find_pin_circles(self)}
+
+    @property
+    def ends(self) -> dict[str, tuple[bool, bool]]:
+        """Links of a reducer that go out of the stack, below and above.
+
+        The shaft of an eccentric goes out below, what bears pins above; a carrier of cranks below, their sun above.
+        """
+        inner = {each.link for each in self.eccentrics if each.axis in self.axes}
+        if inner:
+            pins = {each.link for each in self.pin_circles.values()}
+            return dict.fromkeys(inner, (True, False)) | dict.fromkeys(pins - inner, (False, True))
+        carriers = {self.layout.axes[each.axis].carrier for each in self.eccentrics}
+        about = {self.train.tree.axis(link) for link in carriers}
+        drives = {disc.link for disc in self.wheel_discs if disc.axis in about and disc.hub}
+        return dict.fromkeys(drives - {self.frame}, (False, True)) | dict.fromkeys(carriers, (True, False))
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
@@ -198,14 +243,15 @@ class FrameStack:
 
     def with_head_room(self) -> FrameStack:
         """With room for a stud's head beside whatever carriers bear."""
-        taken = slabs(self.discs, list(self.tied.values())) if self.carried else []
+        taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
-        ends = [face for each in self.carried.values() for face in _ends(each.discs)]
+        ends = [(face, HEAD_ROOM) for each in self.carried.values() for face in _ends(each.discs)]
+        ends += [(face, HEAD_ROOM + ROOM) for each in self.eccentrics for face in _ends(each.turning(self.wheel_discs))]
         starts, shifts, rise = [taken[0][0]], [0.0], 0.0
         for below, above in pairwise(taken):
-            beside = any(below[0] - _SAME < face < above[1] + _SAME for face in ends)
-            rise += max(0.0, HEAD_ROOM - (above[0] - below[1])) if beside else 0.0
+            room = max((room for face, room in ends if below[0] - _SAME < face < above[1] + _SAME), default=0.0)
+            rise += max(0.0, room - (above[0] - below[1])) if room else 0.0
             starts.append(above[0])
             shifts.append(rise)
         return replace(self, layout=self.raised(lambda height: shifts[max(bisect_right(starts, height) - 1, 0)]))
@@ -214,7 +260,7 @@ class FrameStack:
         """Axes for which no bearings are made."""
         for label, axis in self.layout.axes.items():
             used = any(place.axis == label for place in self.layout.wheels.values())
-            if used and label not in self.axes and label not in self.carried:
+            if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
                 upright = self.is_upright(axis)
                 why = (
                     f"'{axis.carrier}', which bears it, is itself carried round"

@@ -17,6 +17,7 @@ from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.solid_assembly import SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
+from geartrain.scene.solids.standing_pins import with_pins_apart
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -73,6 +74,7 @@ def build_scene(
     # play that makers add is none of the declaration: the scene moves without it
     plain = run is None and not formulas and model.sized is model.train
     scene = model.scene if plain else make_scene(train, state, model.layout, run, formulas)
+    scene = scene if model.plan is None else with_pins_apart(scene, model.plan)
     dials, pointers = _engraved(scene, model), scene.pointers
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)

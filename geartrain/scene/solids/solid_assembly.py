@@ -17,29 +17,27 @@ from geartrain.scene.parts.frame_plates import FramePlates
 from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.processes import Process, process_named
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import Plates, around, basis, coupling_discs, pin_diameter, slotted_bar
+from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.brackets import Bracket, find_brackets
 from geartrain.scene.solids.carrier_cages import Cage, find_cages
+from geartrain.scene.solids.coupling_parts import CouplingParts
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
 from geartrain.scene.solids.pin_couplings import (
     CutCoupling,
     cut_couplings,
     holes,
-    pin_axis,
-    pin_width,
-    slot_frame,
 )
 from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
+from geartrain.scene.solids.standing_pins import standing_pins
 from geartrain.scene.solids.triangle_solids import wheel_solid
-from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks
+from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks, with_seats
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.numerics.arrays import Floats
-    from geartrain.scene.elements import SceneCoupling, SceneWheel
+    from geartrain.scene.elements import SceneWheel
     from geartrain.scene.layout import Layout
     from geartrain.scene.train_scene import Scene
 _SHEET = 3.0  # mm, the thickness of plates
@@ -99,11 +97,12 @@ class SolidModel:
     @cached_property
     def plan(self) -> FramePlan | None:
         """Where plates and arbors stand; None where no axis stands on the frame, or arbors are not wanted."""
-        stack = FrameStack(self.sized, self._spread, self._toothed.wheels)
+        stack = FrameStack(self.sized, self._spread, self._toothed.wheels, self.making.bore)
         if self.making.bore == 0 or stack.normal is None:
             return None
         stack = stack.with_head_room()
         ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
+        ends = {**stack.ends, **ends}
         return FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
 
     @cached_property
@@ -112,7 +111,8 @@ class SolidModel:
         if self.plan is None:
             return None
         tabs = {side: [each.foot for each in self.brackets if each.side == side] for side in ("back", "front")}
-        return FramePlates(self.plan, tuple(foot for dial in self.dials for foot in dial.feet), tabs)
+        feet = tuple(foot for dial in self.dials for foot in dial.feet)
+        return FramePlates(self.plan, feet, tabs, tuple(standing_pins(self.scene, self.plan)))
 
     @cached_property
     def brackets(self) -> tuple[Bracket, ...]:
@@ -131,7 +131,7 @@ class SolidModel:
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
             others = self._own_holes(name)
-            wheels[name], told = bored(blank, holes.get(name, 0.0), others)
+            wheels[name], told = bored(with_seats(blank, self.process.press), holes.get(name, 0.0), others)
             notices += told
             if self.making.arms is not None:
                 wheels[name], told = crossed_out(wheels[name], self.making.arms)
@@ -169,6 +169,9 @@ class SolidModel:
     def couplings(self) -> Plates:
         """Discs of pins and slots that are not cut into wheels."""
         whole = {name for name, each in self.cut_couplings.items() if each.pin is not None}
+        if self.plan is not None:
+            whole |= self.plan.plated_pins.keys() & self.cut_couplings.keys()
+            whole |= {each.coupling for each in self.plan.stack.eccentrics}
         loose = [each for each in self.sized.declaration.couplings if each.name not in whole]
         own = {place.link: self._bores[wheel] for wheel, place in self.layout.wheels.items()}
         return coupling_discs(loose, own, frozenset(self.cut_couplings))
@@ -226,7 +229,8 @@ class _Parts:
             yield from self.turned(self.work.frame)
             yield from self.plates(self.work.frame)
             yield from self.dials(self.work.frame)
-        yield from self.couplings()
+        work = self.work
+        yield from CouplingParts(self.scene, work.cut_couplings, work.blanks.wheels, work.process).parts()
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
         """By its flat shape where it has one."""
@@ -242,7 +246,9 @@ class _Parts:
     def rods(self) -> Iterator[SolidPart]:
         """An arbor without bearings for every body whose axis no plate bears, from its lowest wheel to the highest."""
         frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
-        borne = set() if frame is None else {column.axis for column in frame.plan.all_columns}
+        borne = set[str]()
+        if frame is not None:
+            borne = {column.axis for column in frame.plan.all_columns} | frame.plan.stack.on_eccentrics
         reach = [(each.body, each.reach) for each in self.work.brackets]
         reach += [(each.body, each.reach) for each in self.work.cages]
         for at, body in enumerate(self.scene.bodies):
@@ -274,13 +280,15 @@ class _Parts:
             yield SolidPart(body, part.name, part.kind, turn, place, turned=part)
 
     def plates(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Plates of the frame and those that turn."""
+        """Plates of the frame and those that turn, and eccentrics."""
+        eccentrics = {each.name for each in frame.plan.stack.eccentrics}
         for plate in frame.plates():
             height = (plate.low + plate.high) / 2
             cut, thickness = plate.contours, plate.high - plate.low
             place = np.array(frame.plan.stack.in_space(plate.at, height))
             body, turn = self.bodies[plate.link], frame.plan.stack.turn
-            yield SolidPart(body, plate.name, "plate", turn, place, "", cut, thickness)
+            kind = "eccentric" if plate.name in eccentrics else "plate"
+            yield SolidPart(body, plate.name, kind, turn, place, "", cut, thickness)
 
     def dials(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Plates of dials, which the frame holds."""
@@ -288,63 +296,3 @@ class _Parts:
         for dial in self.work.dials:
             thickness, place = dial.high - dial.low, frame.plan.stack.in_space(dial.at, (dial.low + dial.high) / 2)
             yield SolidPart(body, dial.name, "plate", turn, np.array(place), "", dial.contours, thickness)
-
-    def couplings(self) -> Iterator[SolidPart]:
-        """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
-        for coupling in self.scene.couplings:
-            turn, axis = pin_axis(self.scene, coupling)
-            along, cut = turn[:, 2], self.work.cut_couplings.get(coupling.id)
-            if coupling.hole and (cut is None or cut.pin is None):
-                continue  # no wheel bears such pins
-            if cut is None or cut.pin is None:
-                height = float(coupling.pin_at @ along)
-                levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
-                low, high = min(levels) - _GAP, max(levels) + _GAP
-            else:
-                low, high = self._faces(cut.pin, cut.slot, along)
-            band = Band(low, high, pin_width(coupling) / 2)
-            joint, first = self.work.process.joint, np.array(coupling.pin_at)
-            for at, place in enumerate(coupling.pins_at or (coupling.pin_at,)):
-                name = f"{coupling.id} pin" + (f" {at + 1}" if coupling.pins_at else "")
-                part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
-                middle = axis + np.array(place) - first
-                yield SolidPart(coupling.pin, name, part.kind, turn, middle, turned=part)
-            if cut is None:
-                yield self._pin_arm(coupling, turn, levels[0])
-                yield self._bar(coupling, along)
-
-    def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """From the far face of the pin's wheel to that of the slot's."""
-        ends = [
-            float(wheel.centre @ along) + side * self._thick(wheel) / 2 for wheel in (pin, slot) for side in (-1, 1)
-        ]
-        return min(ends), max(ends)
-
-    def _pin_arm(self, coupling: SceneCoupling, turn: Floats, level: float) -> SolidPart:
-        """From the axis of the pin's link out to the pin."""
-        body = self.scene.bodies[coupling.pin]
-        along, pin = turn[:, 2], np.array(coupling.pin_at)
-        hub = np.array(body.point) + along * (level - float(np.array(body.point) @ along))
-        aside = pin - hub - along * float((pin - hub) @ along)
-        away = float(np.linalg.norm(aside))
-        x = aside / away
-        cut = (around([(0.0, 0.0), (away, 0.0)], 0.9 * pin_width(coupling)),)
-        name, own = f"{coupling.id} pin arm", np.column_stack([x, np.cross(along, x), along])
-        return SolidPart(coupling.pin, name, "plate", own, hub, "", cut, _GAP)
-
-    def _bar(self, coupling: SceneCoupling, along: Floats) -> SolidPart:
-        hub, turn = np.array(coupling.slot_at), slot_frame(self.scene, coupling)
-        level = self._level(coupling.slot, float(coupling.pin_at @ along), along)
-        cut = slotted_bar(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
-        place = hub + along * (level - hub @ along)
-        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", cut, _GAP)
-
-    def _level(self, body: int, height: float, along: Floats) -> float:
-        """The face, nearest to a height, of the wheels of a body."""
-        own = [wheel for wheel in self.scene.wheels if wheel.body == body]
-        faces = [
-            float(np.array(wheel.centre) @ along) + side * (self._thick(wheel) + _GAP) / 2
-            for wheel in own
-            for side in (-1, 1)
-        ]
-        return min(faces, key=lambda face: abs(face - height), default=float(height))

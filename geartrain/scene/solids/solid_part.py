@@ -29,8 +29,8 @@ class SolidPart:
         Index of its body in the scene.
     name : str
         Of the wheel, or what it belongs to.
-    kind : {"wheel", "arbor", "pipe", "stud", "collar", "spacer", "collet", "pillar", "post", "foot", "pin", "plate"}
-        What it is.
+    kind : str
+        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, pillar, post, foot or pin.
     turn, place : array of float, (3, 3) and (3,)
         Rotation and shift [mm] that put it into the zero pose.
     status : str

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from math import degrees, tan
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from geartrain.dynamics.train_teeth import PairPlay, find_train_teeth
 from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
@@ -14,10 +16,12 @@ from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.wheel_arms import arm_windows
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT
+from geartrain.teeth.outlines.wheel_outline import pin_seats
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.scene.layout import Layout, WheelPlace
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.train import Wheel
 
 _LAND = 0.8  # of the root circle: the widest bore
@@ -33,6 +37,7 @@ class Blank:
     contours   the outer one first, then holes
     helix      angle of its teeth from the axis (rad), of a right hand above 0
     arms       that windows leave; 0 where its web is whole
+    pins       of a ring whose teeth are pins, parts of their own: they lie in its inside (modules)
     """
 
     wheel: str
@@ -49,6 +54,7 @@ class Blank:
     bore: float
     helix: float = 0.0
     arms: int = 0
+    pins: LanternPins | None = None
 
     @property
     def twist(self) -> float:
@@ -99,9 +105,10 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
         module,
         place.radius,
         toothing.tip * module,
-        toothing.root * module,
+        toothing.depth * module,
         place.thickness,
         0.0,
+        pins=toothing.pins if toothing.kind == "ring" else None,
     )
 
 
@@ -125,6 +132,16 @@ def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
         fix = "print it from the .stl, or have it hobbed"
         why = "a flat drawing is their section across the axis, and the .step has it raised straight"
         yield Problem(what, why, fix)
+
+
+def with_seats(blank: Blank, wider: float) -> Blank:
+    """A ring whose seats for pins are so much wider (mm) than these; any other wheel as it is."""
+    if blank.pins is None or not wider:
+        return blank
+    root = blank.contours[1].points  # corners of the seats stand on the circle inside
+    inside = float(np.hypot(*root[0])) / blank.module
+    seats = pin_seats(blank.pins, blank.teeth, inside, blank.module, wider)
+    return replace(blank, contours=(blank.contours[0], seats, *blank.contours[2:]))
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:

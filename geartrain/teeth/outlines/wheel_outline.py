@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import acos, atan2, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -132,6 +132,21 @@ def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) 
     turns = [2 * pi * k / z for k in range(z)]
     holes = (Contour.circle(radius, (R * cos(t), R * sin(t))) for t in turns)
     return [Contour.circle(R + radius + (2 * radius if rim is None else rim)), *holes]
+
+
+def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: float = 0.0) -> Contour:
+    """The inside of a ring, of radius `root` (modules), with a round seat for each pin where one reaches into it (mm).
+
+    wider   by how much (mm) the diameter of a seat is more than that of its pin
+    """
+    R, radius, inside = pins.circle * module, pins.radius * module + wider / 2, root * module
+    if not abs(R - radius) < inside < R + radius:
+        return Contour.circle(inside)
+    half = acos((R**2 + inside**2 - radius**2) / (2 * R * inside))
+    x, y = inside * cos(half), inside * sin(half)
+    # bulges are tangents of quarters of both arcs: that of the seat, and that of the ring to the next one
+    seat = (x, -y, tan(atan2(y, x - R) / 2)), (x, y, tan((2 * pi / z - 2 * half) / 4))
+    return Contour.of(repeated(seat, z))
 
 
 def _too_round(gear: int, asked: float, fits: float) -> QuestionError:

@@ -15,7 +15,7 @@ SAME_SIZE = 1e-9  # of a length, or rad: what differs by less is one
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins instead of teeth: which gear has them, the radius of their circle, their own; modules."""
+    """Round pins that are the teeth of a wheel: which gear has them, the radius of their circle, their own; modules."""
 
     gear: int
     circle: float
@@ -29,6 +29,7 @@ class CutTooth:
     kind        external, ring or pins
     tip, root   radii
     tooth       about the x axis, from root to root; empty for pins
+    pins        of a lantern; of a ring whose teeth are pins, parts of their own, that lie in its inside
     """
 
     kind: str
@@ -57,12 +58,13 @@ class WheelRequirement(ABC):
 
 @dataclass(frozen=True)
 class FixedTooth(WheelRequirement):
-    """A tooth that its form gives whole, whatever the mate does; vertices and kind as in `CutTooth`, modules."""
+    """A tooth that its form gives whole, whatever the mate does; vertices, kind and pins as in `CutTooth`, modules."""
 
     tip_radius: float
     root_radius: float
     tooth: tuple[Vertex, ...]
     kind: str = "external"
+    pins: LanternPins | None = None
 
     @property
     def tip(self) -> float:
@@ -79,4 +81,4 @@ class FixedTooth(WheelRequirement):
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
         """The tooth itself."""
         del others
-        return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth)
+        return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth, self.pins)

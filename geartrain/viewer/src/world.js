@@ -58,9 +58,9 @@ export class World {
     this.wheels = scene.wheels.map((wheel, index) => new WheelPart(scene, index, hub(wheel), size, palette));
     for (const part of this.wheels) part.castBody(this.adder(this.castings[0], part));
     for (const part of built.length ? built : supports(scene, reach, radii, size)) this.put(part);
-    const slotted = new Set(scene.parts.map(({ name }) => name));
+    const made = new Set(scene.parts.map(({ name }) => name));
     for (const coupling of scene.couplings) {
-      if (!slotted.has(`${coupling.id} slot`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
+      if (!made.has(`${coupling.id} slot`) && !made.has(`${coupling.id} pin 1`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
     }
     scene.dials.forEach((_, index) => dialParts(scene, index).forEach((part) => this.put(part)));
     const orders = new Map();

@@ -1,0 +1,122 @@
+"""Eccentrics: round discs on an arbor, out of its middle, on which a wheel turns that is carried round its own axis.
+
+An axis that a link carries so near to its own that a wheel on it reaches far round both is borne on no stud: the
+wheel has a hole for an eccentric. Between two washers it stays where it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import dist
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, USUAL
+from geartrain.scene.parts.processes import Process
+from geartrain.scene.parts.stack_discs import Point, StackDisc
+from geartrain.scene.parts.turned_parts import Band, TurnedPart
+
+if TYPE_CHECKING:
+    pass
+
+NEAR = 0.25
+"""Of the root radius of a wheel: how far its axis may stand from that of its carrier for it to run on an eccentric."""
+WALL = 1.5  # mm of an eccentric beside its arbor at least, and of a wheel beside a hole
+USUAL_ARBOR = 6.0
+"""Diameter of an arbor whose size nobody gives, in an eccentric [mm]."""
+_THIN = 0.6  # mm of an eccentric beside its arbor, or it cannot be made
+ROOM = SHAKE / 2 + HEAD
+"""What a washer takes beside a wheel, along its axis [mm]."""
+_OVER = 1.0  # mm that a washer is wider than its eccentric
+
+
+@dataclass(frozen=True, slots=True)
+class Eccentric:
+    """A disc on the arbor of a link.
+
+    name, link   its own, and whose it is
+    axis, at     of the arbor, across the stack (mm)
+    centre       of the disc (mm)
+    radius       of the disc (mm)
+    wheels       that turn on it
+    carried      label of the axis on which these turn
+    middle       radius (mm) of the hole in the middle of these, which turn on several; 0 where they turn on this alone
+    coupling     of cranks side by side, which it is
+    """
+
+    name: str
+    link: str
+    axis: str
+    at: Point
+    centre: Point
+    radius: float
+    wheels: tuple[str, ...]
+    carried: str
+    middle: float = 0.0
+    coupling: str = ""
+
+    @property
+    def offset(self) -> float:
+        """From the arbor's axis to that of the disc (mm)."""
+        return dist(self.at, self.centre)
+
+    @property
+    def wall(self) -> float:
+        """From the arbor's axis to the nearest point of its edge (mm)."""
+        return self.radius - self.offset
+
+    def turning(self, discs: Iterable[StackDisc]) -> list[StackDisc]:
+        """Those of some discs that turn on it."""
+        return [disc for disc in discs if disc.name in self.wheels]
+
+    def disc(self, discs: Iterable[StackDisc], carrier: Point | None) -> StackDisc:
+        """What it sweeps in the stack, with its washers."""
+        own = self.turning(discs)
+        low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
+        reach = self.offset + self.radius
+        root = 2 * (self.wall - WALL) / USUAL  # whose usual arbor leaves that wall
+        return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
+
+    def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
+        """One on either side of the wheels, on the same arbor."""
+        radius = max(self.radius, self.wall + _OVER)
+        for number, (low, high) in enumerate(((disc.low, disc.low + HEAD), (disc.high - HEAD, disc.high)), 1):
+            name, ring = f"{self.name} washer {number}", Band(low, high, radius, bore / 2)
+            yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
+
+    @staticmethod
+    def faces(disc: StackDisc) -> tuple[float, float]:
+        """Of the eccentric itself, between its washers."""
+        return disc.low + HEAD, disc.high - HEAD
+
+
+def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
+    """Of an eccentric (mm) on an arbor, whose diameter may be given; from its middle `free` mm are free."""
+    wanted = offset + (USUAL_ARBOR if arbor is None else arbor) / 2 + WALL
+    return round(min(wanted, free - WALL), 2)
+
+
+def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
+    """Why it cannot stand on an arbor of this diameter (mm), if so."""
+    beside = eccentric.wall - arbor / 2
+    if beside >= _THIN:
+        return None
+    what = f"'{eccentric.name}' has {beside:.3g} mm beside its arbor"
+    why = f"its radius is {eccentric.radius:g} mm, its arbor {arbor:g} mm thick and {eccentric.offset:g} mm aside"
+    return Problem(what, why, "give a thinner --bore, a larger module, or pins farther from the middle")
+
+
+def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:
+    """Wheels with the room in their middle, then the eccentrics."""
+    for disc in discs:
+        own = [each for each in eccentrics if disc.name in each.wheels]
+        yield replace(disc, inner=own[0].middle or own[0].radius) if own else disc
+    for each in eccentrics:
+        carriers = {disc.carrier for disc in discs if disc.axis == each.axis}
+        yield each.disc(discs, next(iter(carriers), None))
+
+
+def running_hole(eccentric: Eccentric, process: Process) -> float:
+    """Diameter (mm) of the hole in which it turns."""
+    return 2 * eccentric.radius + process.running

@@ -1,0 +1,192 @@
+"""Reducers as they are made: what is written of them is read back and turned by hand, apart from what wrote it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from math import cos, hypot, pi, sin
+
+import numpy as np
+import pytest
+import shapely
+from shapely.affinity import affine_transform, rotate, translate
+
+import geartrain
+from geartrain.export import export_files
+from geartrain.export.proof import TrainProof, prove_train
+from geartrain.export.proof.cut_outlines import cut_lines
+from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.scene.solids.solid_part import SolidPart
+
+Point = tuple[float, float]
+
+
+@cache
+def work(name: str) -> SolidModel:
+    return SolidModel(geartrain.load(name), ManufacturingSizes())
+
+
+@cache
+def proof(name: str) -> TrainProof:
+    return prove_train(work(name))
+
+
+@cache
+def written(name: str) -> dict[str, list[list[Point]]]:
+    """Closed lines (mm) of every drawing that is written of a train."""
+    files = export_files(work(name), ["svg"])
+    flat = (each for each in files if each.path.startswith(("wheels/", "plates/")))
+    return {each.path.partition("/")[2].removesuffix(".svg"): cut_lines(each.make().decode(), 1e-5) for each in flat}
+
+
+@dataclass(frozen=True)
+class Circle:
+    x: float
+    y: float
+    diameter: float
+
+    @classmethod
+    def of(cls, line: list[Point]) -> Circle | None:
+        points = np.array(line)
+        middle = shapely.Polygon(line).centroid
+        away = np.hypot(points[:, 0] - middle.x, points[:, 1] - middle.y)
+        return cls(middle.x, middle.y, 2 * away.mean()) if np.ptp(away) < 1e-4 else None
+
+
+def circles(name: str, drawing: str) -> list[Circle]:
+    return [found for line in written(name)[drawing] if (found := Circle.of(line))]
+
+
+def part(name: str, of: str) -> SolidPart:
+    return next(each for each in work(name).parts if each.name == of)
+
+
+def parts(name: str, start: str) -> list[SolidPart]:
+    return [each for each in work(name).parts if each.name.startswith(start) and each.kind == "pin"]
+
+
+def in_place(name: str, of: str, drawing: str) -> shapely.Polygon:
+    """A drawn part where it stands in the zero pose, seen along z."""
+    made, (outer, *holes) = part(name, of), sorted(written(name)[drawing], key=lambda line: -shapely.Polygon(line).area)
+    (a, b), (c, d), (x, y) = made.turn[0, :2], made.turn[1, :2], made.place[:2]
+    return affine_transform(shapely.Polygon(outer, holes), [a, b, c, d, x, y])
+
+
+def middles(name: str, start: str) -> tuple[shapely.MultiPoint, float]:
+    """Of pins in the zero pose, seen along z, and their radius."""
+    pins = parts(name, start)
+    radii = {each.turned.diameter / 2 for each in pins if each.turned}
+    assert len(radii) == 1
+    return shapely.MultiPoint([each.place[:2] for each in pins]), radii.pop()
+
+
+def gaps(disc: shapely.Polygon, pins: tuple[shapely.MultiPoint, float]) -> list[float]:
+    """Between a disc and round pins that do not reach beyond it with their middles."""
+    return [disc.distance(middle) - pins[1] for middle in pins[0].geoms]
+
+
+REDUCERS = ("cycloidal-reducer", "rv-reducer")
+
+
+@pytest.mark.parametrize("name", REDUCERS)
+def test_a_reducer_is_ready_to_cut(name: str) -> None:
+    assert proof(name).verdict == "ready to cut", [str(each.problem.what) for each in proof(name).findings]
+    assert all(mesh.least > 0 for mesh in proof(name).meshes)
+
+
+def test_the_eccentric_is_drawn_as_far_out_of_the_middle_as_half_a_module() -> None:
+    disc, hole = sorted(circles("cycloidal-reducer", "shaft-eccentric"), key=lambda each: -each.diameter)
+    assert hypot(disc.x - hole.x, disc.y - hole.y) == pytest.approx(1.5, abs=1e-6)
+    arbor = part("cycloidal-reducer", "shaft arbor").turned
+    assert arbor is not None
+    assert hole.diameter == pytest.approx(arbor.diameter, abs=1e-4), "fixed on its arbor"
+    bore = min(circles("cycloidal-reducer", "lobes"), key=lambda each: hypot(each.x, each.y))
+    assert bore.diameter - disc.diameter == pytest.approx(0.08, abs=1e-4), "the disc turns on it with a running fit"
+
+
+def test_pins_of_the_ring_stand_in_holes_on_their_circle() -> None:
+    holes = [each for each in circles("cycloidal-reducer", "frame-back-plate") if abs(each.diameter - 6) < 1e-3]
+    assert len(holes) == 12
+    assert [hypot(each.x, each.y) for each in holes] == pytest.approx([25.0] * 12, abs=1e-6)
+    angles = sorted(np.arctan2(each.y, each.x) for each in holes)
+    assert np.diff(angles) == pytest.approx([pi / 6] * 11, abs=1e-6)
+    pins = {(round(each.place[0], 5), round(each.place[1], 5)) for each in parts("cycloidal-reducer", "ring pin")}
+    assert pins == {(round(each.x, 5), round(each.y, 5)) for each in holes}
+
+
+def test_the_disc_passes_all_pins_with_play_wherever_its_eccentric_stands() -> None:
+    disc = in_place("cycloidal-reducer", "lobes", "lobes")
+    ring, flange = (middles("cycloidal-reducer", f"{which} pin") for which in ("ring", "holes"))
+    assert (len(ring[0].geoms), len(flange[0].geoms)) == (12, 6)
+    # it stands against its pins at the start: turned back by half its play it is free of all
+    back = max(np.linspace(-0.3, 0.3, 61), key=lambda each: min(gaps(rotate(disc, each, origin=(1.5, 0)), ring)))
+    assert abs(back) == pytest.approx(np.degrees(0.15 / 16.5) / 2, abs=0.01)
+    solid = shapely.Polygon(disc.exterior)
+    for turn in np.linspace(0, 11, 89):  # turns of the shaft: the disc and the flange come round once, backwards
+        own, e = back - 360 * turn / 11, np.array([1.5 * cos(2 * pi * turn), 1.5 * sin(2 * pi * turn)])
+        turned = translate(rotate(disc, own, origin=(1.5, 0)), e[0] - 1.5, e[1])
+        assert 0.07 < min(gaps(turned, ring)) < 0.08, "a lobe stands 0.075 mm back from every pin"
+        outline = translate(rotate(solid, own, origin=(1.5, 0)), e[0] - 1.5, e[1])
+        carried = rotate(flange[0], own, origin=(0, 0))
+        assert outline.contains(carried)
+        assert gaps(turned, (carried, flange[1])) == pytest.approx([0.04] * 6, abs=1e-3), "half of the running fit"
+
+
+def test_a_disc_on_a_wrong_eccentric_would_run_into_its_pins() -> None:
+    disc = in_place("cycloidal-reducer", "lobes", "lobes")
+    assert min(gaps(translate(disc, 0.2, 0), middles("cycloidal-reducer", "ring pin"))) < -0.1
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "drawn"),
+    [
+        ("cycloidal-reducer", (0.0, 0.0), ("frame-back-plate", "frame-front-plate", "flange-plate", "shaft-eccentric")),
+        ("rv-reducer", (0.0, 0.0), ("frame-back-plate", "frame-front-plate", "output-carrier-plate")),
+        ("rv-reducer", (27.0, 0.0), ("output-carrier-plate", "crank-eccentric")),
+        ("rv-reducer", (-13.5, 27 * sin(2 * pi / 3)), ("output-carrier-plate", "crank.2-eccentric")),
+    ],
+)
+def test_holes_for_a_shaft_are_above_each_other_in_all_plates(name: str, axis: Point, drawn: tuple[str, ...]) -> None:
+    for drawing in drawn:
+        made = part(name, drawing.replace("-", " "))
+        found = [made.turn[:2, :2] @ (each.x, each.y) + made.place[:2] for each in circles(name, drawing)]
+        assert min(hypot(x - axis[0], y - axis[1]) for x, y in found) < 1e-6, drawing
+
+
+def test_every_part_of_a_reducer_is_in_its_list_and_in_a_step() -> None:
+    files = {each.path: each for each in export_files(work("cycloidal-reducer"), ["svg"])}
+    listed = files["parts.csv"].make().decode()
+    for name in ("shaft eccentric", "flange plate", "ring pin 12", "holes pin 6", "shaft eccentric washer 2"):
+        assert name in listed
+    guide = files["README.md"].make().decode()
+    for step in (
+        "Put lobes on shaft eccentric",
+        "Press the pins of 'holes' into flange plate",
+        "and pins of rings",
+    ):
+        assert step in guide
+
+
+def test_all_cranks_bear_the_disc_side_by_side_wherever_they_stand() -> None:
+    name = "rv-reducer"
+    holes = [each for each in circles(name, "lobes") if abs(each.diameter - 11.08) < 1e-3]
+    disc, middle = part(name, "lobes"), np.array([1.0, 0.0])
+    assert len(holes) == 3
+    for number, crank in enumerate(("crank", "crank.2", "crank.3")):
+        turn = 2 * pi * number / 3
+        place = 27 * np.array([cos(turn), sin(turn)])
+        round_, bore = sorted(circles(name, f"{crank}-eccentric"), key=lambda each: -each.diameter)
+        made = part(name, f"{crank} eccentric")
+        centre, arbor = (made.turn[:2, :2] @ (each.x, each.y) + made.place[:2] for each in (round_, bore))
+        assert arbor == pytest.approx(place, abs=1e-6)
+        assert centre - arbor == pytest.approx(middle, abs=1e-6), "as far out as the disc, and the same way"
+        # so that each stays in its hole while all turn alike: the holes stand on the circle of the cranks
+        found = [disc.turn[:2, :2] @ (each.x, each.y) + disc.place[:2] for each in holes]
+        assert min(np.hypot(*(each - centre)) for each in found) < 1e-6
+        assert round_.diameter == pytest.approx(11.0, abs=1e-4)
+
+
+def test_pins_of_a_carrier_stand_midway_between_its_cranks() -> None:
+    places = [each.place for each in parts("rv-reducer", "holes pin")]
+    pins = sorted(np.degrees(np.arctan2(y, x)) % 360 for x, y, _ in places)
+    assert pins == pytest.approx([60, 180, 300], abs=1e-6)

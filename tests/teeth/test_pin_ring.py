@@ -285,3 +285,27 @@ def test_the_command_takes_clearance_deflection_and_play() -> None:
         assert float(row(*options)[-3]) == pytest.approx(play * 11 / 12, rel=1e-3), "of the ring, which is driven"
     assert row("--clearance", "0.01")[6].strip() == "5 to 6"
     assert row("--clearance", "0.01", "--deflection", "0.01")[6].strip() == "3 to 4"
+
+
+def test_cranks_side_by_side_share_the_torque_alike_and_change_no_speed() -> None:
+    """The sun of 10 teeth takes 400/105 N m; each of three cranks a third of it, 26/10 as much."""
+    text = geartrain.shipped()["rv-reducer"].read_text(encoding="utf-8")
+    three, one = geartrain.load("rv-reducer"), geartrain.load(text.replace("copies: 3, ", ""))
+    assert three.solve().speeds == one.solve().speeds
+    torques = three.torques()
+    assert torques.verdict.kind == "determined"
+    for at in ("", ".2", ".3"):
+        assert float(torques.pairs[f"z1~z2{at}"].torques[1]) == pytest.approx(-400 / 105 / 3 * 2.6)
+        assert float(torques.pairs[f"cranks{at}"].torques[1]) == pytest.approx(400 / 105 / 3 * 2.6)
+
+
+def test_pins_in_slots_take_no_copies() -> None:
+    text = """
+    links: {frame: {}, arm: {}, p: {copies: 2, wheels: {a: 20}}, q: {wheels: {b: 30}}}
+    revolutes: {main: [frame, arm, q], P: [arm, p]}
+    gears: [a ~ b]
+    couplings: [{id: pin, kind: pin_and_slot, pin: p, slot: q, pin_radius: 10 mm, offset: 2 mm}]
+    inputs: {arm: 1}
+    """
+    with pytest.raises(DeclarationError, match="'pin' joins one of 2 links 'p'"):
+        geartrain.load(text).unfolded.solve()

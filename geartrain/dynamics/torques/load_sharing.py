@@ -13,6 +13,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.train import Train
 
 _Key = tuple[object, ...]
+_EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits whose ratio is the same at every instant
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
@@ -46,10 +47,10 @@ def find_ties(
     singled   links that are not like others: the frame, held, locked, asked for, or with declared shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
-    apart |= {link for circuit in circuits if circuit.kind != "gear" for link in (circuit.i, circuit.j)}
+    apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
     by_planet: dict[str, list[tuple[_Key, str]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
-        first, second = circuit.wheels
+        first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
         ways = (mesh.forward, mesh.backward)
         at_first, at_second, _ = mesh.torques(0)
         for planet, own, mate, other, losses in (

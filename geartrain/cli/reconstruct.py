@@ -11,21 +11,21 @@ import typer
 from geartrain.cli.common import (
     GOOD,
     INTERRUPTED,
-    STANDARD,
     VERDICT,
     Force,
     Json,
     Names,
+    Out,
     Seed,
-    as_json,
-    emit,
+    check_distinct_outputs,
+    give,
     plural,
-    show,
     sink,
     tell,
 )
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.ranked_trains import known_trains, rank_trains
 from geartrain.cli.reconstruction_findings import (
     FAMILY,
     MOST_TURNING,
@@ -75,7 +75,7 @@ def run(
     every: Annotated[bool, typer.Option("--all", help="List all of them.")] = False,
     idlers: Annotated[bool, typer.Option("--idlers", help="A driven wheel may drive.")] = False,
     folder: Annotated[
-        Path | None, typer.Option("-o", "--write", help="Write what is listed into this folder, a declaration a file.")
+        Path | None, typer.Option("--write", help="Write what is listed into this folder, a declaration a file.")
     ] = None,
     page: Annotated[
         Path | None, typer.Option("--page", help="Write a page of HTML with the family tree and the trains turning.")
@@ -95,9 +95,24 @@ def run(
     assumptions: Annotated[
         bool, typer.Option("--assumptions", help="Drop each hard fact in turn and count again; asks once for each.")
     ] = False,
+    rank: Annotated[
+        Names,
+        typer.Option(
+            "--rank", help="Say what this train costs here: a file or a shipped train; several may be.", metavar="TRAIN"
+        ),
+    ] = None,
+    same: Annotated[
+        Names,
+        typer.Option(
+            "--same",
+            help="A wheel or output of a ranked train, and what that is here: E4=e3.",
+            metavar="ITS=OURS",
+        ),
+    ] = None,
     workers: SingleWorker = None,
     scheduler: Scheduler = None,
     resume: Resume = False,
+    out: Out = None,
     json: Json = False,
     force: Force = False,
 ) -> None:
@@ -115,9 +130,11 @@ def run(
         raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
     if count and page is not None:
         raise typer.BadParameter("with --count there is nothing to show", param_hint="--page")
-    to = sink(page, force, (".html",), "--page")
+    to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
+    check_distinct_outputs(to, turning_page)
     declared, original = _of_train(evidence, without) if without else (read_evidence(evidence), None)
     question = evidence_question(declared, most, idlers)
+    ranked = known_trains(rank or (), same or (), question)
     if folder is not None:
         check_folder(folder, [_file(1)], force)
     listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
@@ -132,6 +149,7 @@ def run(
         close_journal(given.journal, not found.complete)
     listed = () if count else found.candidates if every else found.candidates[:best]
     drawn = draw_candidates(found, question.problem, tuple(declared.outputs), sample, seed) if sample else ()
+    known = rank_trains(ranked, question.problem, found)
     report = ReconstructionReport(
         declared.name,
         question.problem,
@@ -145,6 +163,7 @@ def run(
         question.joined,
         expected,
         tuple(_ranked(declared, drawn)),
+        known,
     )
     if folder is not None and listed:
         extra = {FAMILY: family_text(report, question.problem)}
@@ -152,11 +171,8 @@ def run(
             extra[_EVIDENCE] = write_declaration(declared)
         _write(declared, listed, folder, force, extra)
     if page is not None:
-        write_page(to, report, declared, listed[:turning])
-    if json:
-        emit(as_json(report))
-    else:
-        show([describe_reconstruction(report)], STANDARD)
+        write_page(turning_page, report, declared, listed[:turning])
+    give(to, json, lambda: report, lambda: [describe_reconstruction(report)])
     if not found.complete:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if report.total else VERDICT)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass, field
-from fractions import Fraction
 
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, figure, filled_table
 from geartrain.report.family_tree_report import family_section
+from geartrain.report.known_trains_report import known_sections
 from geartrain.report.reconstruction_facts import (
     assumptions_section,
     many,
@@ -21,8 +21,10 @@ from geartrain.report.reconstruction_facts import (
 from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
 from geartrain.synthesis.reconstruction.base_link import BaseLink
 from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
+from geartrain.synthesis.reconstruction.candidate_rules import counts_text
 from geartrain.synthesis.reconstruction.expected_cost import ExpectedCost
 from geartrain.synthesis.reconstruction.joined_arbors import Joined
+from geartrain.synthesis.reconstruction.known_rank import KnownRank
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
 
@@ -90,6 +92,8 @@ class ReconstructionReport(Result):
         Trains drawn at random, as many as were asked for; `rank` counts them.
     original : tuple of int, optional
         First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
+    known : tuple of KnownRank
+        What given trains cost in the question.
     findings : CandidateFindings
         What is told beyond counts.
     base : BaseLink, optional
@@ -110,6 +114,7 @@ class ReconstructionReport(Result):
         "best",
         "drawn",
         "original",
+        "known",
         Key("", "findings"),
     )
 
@@ -125,6 +130,7 @@ class ReconstructionReport(Result):
     joined: Joined = field(default_factory=dict)
     expected: ExpectedCost | None = None
     drawn: tuple[RankedTrain, ...] = ()
+    known: tuple[KnownRank, ...] = ()
 
     @property
     def asked(self) -> AskedQuestion:
@@ -182,6 +188,7 @@ def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
         tuple(_NOT_COUNTED if number is None else str(number) for number in astuple(each)) for each in found.counts
     ]
     yield Section("Counts", [line], [Table(("added wheels", "mechanisms", "bags", "classes"), counted)])
+    yield from known_sections(found.known)
     yield from missing_sections(findings.missing, found.problem.additions.wheels)
     if found.best:
         yield _best(found, turning)
@@ -199,7 +206,7 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
     rows = [
         (
             " and ".join(found.joined.get(each.name, (each.name,))),
-            ", ".join(f"{wheel.name} {_counts(wheel.counts)}{' (ring)' * wheel.internal}" for wheel in each.wheels)
+            ", ".join(f"{wheel.name} {counts_text(wheel.counts)}{' (ring)' * wheel.internal}" for wheel in each.wheels)
             or "no wheels",
         )
         for each in (problem.input, *problem.arbors)
@@ -262,15 +269,6 @@ def _rank(one: RankedTrain) -> str:
 
 def _teeth(wheels: dict[str, int]) -> str:
     return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
-
-
-def _counts(counts: tuple[tuple[int, Fraction], ...]) -> str:
-    if len(counts) == 1:
-        return str(counts[0][0])
-    teeth = [count for count, _ in counts]
-    if teeth == list(range(teeth[0], teeth[-1] + 1)):
-        return f"{teeth[0]}-{teeth[-1]}"
-    return "/".join(map(str, teeth))
 
 
 def _speed(dial: SearchedDial) -> str:

@@ -62,8 +62,8 @@ def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
         assert load(path).solve()
         assert call("check", path).exit_code == 0
     before = [path.read_bytes() for path in files]
-    assert ended("reconstruct", "moon-c-e", "-o", folder).returncode == 2
-    assert call("reconstruct", "moon-c-e", "-o", folder, "--force").exit_code == 0
+    assert ended("reconstruct", "moon-c-e", "--write", folder).returncode == 2
+    assert call("reconstruct", "moon-c-e", "--write", folder, "--force").exit_code == 0
     assert [path.read_bytes() for path in files] == before
 
 
@@ -89,7 +89,7 @@ def test_nothing_found_is_a_verdict_and_what_cannot_be_asked_is_none(tmp_path: P
 def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
     """1 to 8: four pairs of counts, and two equal wheels of the arbor before."""
     folder = tmp_path / "found"
-    result = call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot", "--json", "-o", folder)
+    result = call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot", "--json", "--write", folder)
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     holds("reconstruct", found)
@@ -108,7 +108,7 @@ def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
 
 
 def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
-    call("reconstruct", "back-train", "--best", "1", "-o", tmp_path / "one")
+    call("reconstruct", "back-train", "--best", "1", "--write", tmp_path / "one")
     found = json.loads((tmp_path / "one" / "family.json").read_text(encoding="utf-8"))
     assert [branch["mechanisms"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
     assert [branch["parent"] for branch in found["family"]] == [None, 0, 1, 1, 0, 4, 4]
@@ -292,3 +292,80 @@ def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
     result = call("reconstruct", "back-train-modules", "--sample", 3)
     assert isinstance(result.exception, QuestionError)
     assert "weighed by itself" in str(result.exception)
+
+
+def test_known_trains_are_ranked() -> None:
+    answer = call(
+        "reconstruct", "back-wheels-sure", "--count", "--rank", "freeth-2008", "--rank", "freeth-2006", "--json"
+    )
+    assert answer.exit_code == 0
+    found = json.loads(answer.stdout)
+    holds("reconstruct", found)
+    first, second = found["known"]
+    assert first["wheels"] == {"m3": 27, "n1": 53, "nO": 57}
+    assert first["place"] | {"weight": 0} == {
+        "ranks": [1, 21],
+        "trains": 21,
+        "ranks_alike": [1, 21],
+        "trains_alike": 21,
+        "weight": 0,
+        "dearer": 1,
+    }
+    assert (second["place"], [each["what"] for each in second["broken"]]) == (None, ["games turns at -1/76, not 1/4"])
+    assert [each["place"] and each["place"]["ranks"] for each in second["admitted"]] == [None, [1, 12]]
+
+
+def test_the_places_of_known_trains_are_told() -> None:
+    told = call("reconstruct", "back-train", "--rank", "freeth-2008", "--rank", "price-1974", "-o", "-").stdout
+    told = " ".join(told.split())
+    assert "| freeth-2008 | 2: m3 27, n1 53 | 1 | 1-4 of 4 | 1-4 of 4 | 25 % | by none |" in told
+    assert "## What keeps price-1974 out" in told
+    assert "| metonic is not shown | without the dial metonic |" in told
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (("--same", "E4=e3"), "it names what is in a train"),
+        (("--rank", "price-1974", "--same", "E4"), "is not like E4=e3"),
+        (("--rank", "price-1974", "--same", "E44=e3"), "'E44' is no wheel and no output"),
+        (("--rank", "vitruvius-hodometer"), "no wheel of 'b'"),
+    ],
+)
+def test_what_cannot_be_ranked_is_told_before_the_search(given: tuple[str, ...], told: str) -> None:
+    result = ended("reconstruct", "back-train", *given)
+    assert result.returncode == 2
+    assert told in " ".join(result.stderr.split())
+    assert "asked:" not in result.stderr
+
+
+def test_trains_are_not_ranked_on_a_carrier() -> None:
+    result = ended("reconstruct", "front-inferior-planets", "--rank", "freeth-2021")
+    assert result.returncode == 2
+    assert "not ranked where arbors turn on a carrier" in result.stderr
+
+
+def test_a_rank_that_is_stopped_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    from geartrain.synthesis.reconstruction import known_rank
+
+    def stop(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(known_rank, "rank_known_train", stop)
+    result = call("reconstruct", "metonic-l-m", "--rank", "freeth-2008", "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["known"] == []
+    assert "what freeth-2008 costs is left out" in result.stderr
+
+
+def test_the_report_is_written(tmp_path: Path) -> None:
+    call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.md")
+    assert (tmp_path / "found.md").read_text("utf-8").startswith("# Trains that explain metonic-l-m")
+    call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.html")
+    assert "<h1" in (tmp_path / "found.html").read_text("utf-8")
+    call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.json")
+    assert json.loads((tmp_path / "found.json").read_text("utf-8"))["counts"][1]["mechanisms"] == 2
+    assert call("reconstruct", "metonic-l-m", "-o", "-").stdout.startswith("# Trains that explain metonic-l-m")
+    same = tmp_path / "one.html"
+    result = ended("reconstruct", "metonic-l-m", "-o", same, "--page", same)
+    assert (result.returncode, "two results go into one file" in result.stderr) == (2, True)

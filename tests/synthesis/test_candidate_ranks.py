@@ -9,8 +9,9 @@ import pytest
 from concrete_trees import explanations, package_arbor, random_problem
 
 from geartrain.report.reconstruction_report import RankedTrain, ReconstructionReport, describe_reconstruction
+from geartrain.synthesis.reconstruction.candidate_prior import prior
 from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions, prior
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
 
 

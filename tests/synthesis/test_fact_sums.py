@@ -11,12 +11,13 @@ from concrete_trees import ADDED, concrete, explanations, meshes, nodes, package
 
 from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
 from geartrain.synthesis.reconstruction import candidate_findings
+from geartrain.synthesis.reconstruction.candidate_prior import prior, skeleton_prior
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, WeighedTrains
 from geartrain.synthesis.reconstruction.fact_sums import sum_facts
 from geartrain.synthesis.reconstruction.named_train import name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions, prior, skeleton_prior
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
 Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
@@ -29,7 +30,7 @@ def questions(first: int, rings: bool) -> list[ReconstructionProblem]:
 
 def by_sums(problem: ReconstructionProblem) -> Told | None:
     skeletons = find_reconstructions(problem, listed=0).skeletons
-    weighed = ((each.skeleton, skeleton_prior(each, problem)) for each in skeletons)
+    weighed = ((each.skeleton, skeleton_prior(each.skeleton, problem)) for each in skeletons)
     tally = sum_facts(weighed, problem, [dial.name for dial in problem.dials])
     assert tally.trains == sum(each.mechanisms for each in skeletons)
     if not tally.trains:

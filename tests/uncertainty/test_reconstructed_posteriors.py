@@ -17,11 +17,12 @@ from typing import Any
 import pytest
 from concrete_trees import random_problem
 
+from geartrain.synthesis.reconstruction.candidate_prior import skeleton_prior
 from geartrain.synthesis.reconstruction.explained_facts import Fact, FactTally
 from geartrain.synthesis.reconstruction.fact_sums import sum_facts
 from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import PriorFactors, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions, skeleton_prior
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton
 from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
 from geartrain.train import Train, declare
@@ -103,7 +104,7 @@ def test_both_commands_give_the_same_fractions(first: int) -> None:
             if all(wheel.is_sure for wheel in used) and not any(wheel.added for wheel in own.values()):
                 continue  # nothing is in doubt
             found = infer_counts(declared(problem, root), method="exact")
-            weighed = [(one.skeleton, skeleton_prior(one, problem)) for one in skeletons]
+            weighed = [(one.skeleton, skeleton_prior(one.skeleton, problem)) for one in skeletons]
             tally = sum_facts(weighed, problem, dials)
             orders = some.mechanisms // some.choices
             assert (found.method, found.fits) == ("exact", sum(one.choices for one in skeletons))

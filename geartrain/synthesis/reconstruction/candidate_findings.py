@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from geartrain.numerics.plain_data import Result
+from geartrain.synthesis.reconstruction.candidate_prior import skeleton_prior
 from geartrain.synthesis.reconstruction.candidate_train import named_candidate
 from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
 from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, FactMarginal, NextFact, WeighedTrains
@@ -13,7 +14,6 @@ from geartrain.synthesis.reconstruction.family_tree import FamilyBranch, grow_fa
 from geartrain.synthesis.reconstruction.missing_explanation import MissingExplanation
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
-from geartrain.synthesis.reconstruction.reconstruction_search import skeleton_prior
 from geartrain.train import Train
 
 
@@ -68,7 +68,7 @@ def find_facts(
     weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
     tally = None
     if found.skeletons and sum(each.mechanisms for each in found.skeletons) <= MOST_SUMMED:
-        every = ((each.skeleton, skeleton_prior(each, problem)) for each in found.skeletons)
+        every = ((each.skeleton, skeleton_prior(each.skeleton, problem)) for each in found.skeletons)
         tally = sum_facts(every, problem, tuple(evidence.outputs))
     facts = ExplainedFacts(weighed, problem, tally)
     marginals = facts.marginals()

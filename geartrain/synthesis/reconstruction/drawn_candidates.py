@@ -9,9 +9,9 @@ from random import Random
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.weighted_alternatives import draw_index
+from geartrain.synthesis.reconstruction.candidate_prior import skeleton_prior, weight_ranks
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, Reconstructions
-from geartrain.synthesis.reconstruction.reconstruction_search import skeleton_prior, weight_ranks
 from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
 
 
@@ -43,7 +43,7 @@ def draw_candidates(
         what = "no trains can be drawn where each is weighed by itself"
         fix = "list them instead (--all), or ask without measured sizes and with `--per mechanism`"
         raise QuestionError(Problem(what, "they are drawn from sums over trains that weigh the same", fix))
-    weights = [skeleton_prior(each, problem) for each in found.skeletons]
+    weights = [skeleton_prior(each.skeleton, problem) for each in found.skeletons]
     whole = whole_multiple(weights)
     shares = [weight * each.mechanisms for weight, each in zip(whole, found.skeletons, strict=True)]
     ranks = weight_ranks((weight, each.mechanisms) for weight, each in zip(weights, found.skeletons, strict=True))

@@ -150,3 +150,32 @@ class Arbor:
         for child in self.passes:
             assert self.driven is not None
             yield self.driven, child
+
+    def arbors(self) -> Iterator[Arbor]:
+        """This one and all below it."""
+        yield self
+        for _, child in self.driven_arbors():
+            yield from child.arbors()
+
+    def wheels(self) -> Iterator[PlacedWheel]:
+        """Every wheel of the arbors from here on that meshes, once."""
+        for each in self.arbors():
+            if each.driven is not None:
+                yield each.driven
+            yield from (wheel for wheel, _ in each.drives if wheel.name is None or wheel != each.driven)
+
+    def meshes(self) -> Iterator[tuple[Arbor, PlacedWheel, Arbor]]:
+        """Every mesh from here on: the arbor that drives, its wheel, and the arbor that is driven."""
+        for wheel, child in self.driven_arbors():
+            yield self, wheel, child
+            yield from child.meshes()
+
+    @property
+    def added_wheels(self) -> int:
+        """Wheels from here on that are added."""
+        return sum(wheel.name is None for wheel in self.wheels())
+
+    @property
+    def added_arbors(self) -> int:
+        """Arbors from here on that are added."""
+        return sum(arbor.name is None for arbor in self.arbors())

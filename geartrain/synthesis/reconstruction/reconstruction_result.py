@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
@@ -56,6 +57,25 @@ class Candidate(Result):
 
 
 @dataclass(frozen=True, slots=True)
+class WeightClass(Result):
+    """Explanations of one weight.
+
+    Attributes
+    ----------
+    added : int
+        Added wheels of each.
+    weight : Fraction
+        What each weighs before its dials are looked at, up to a factor that all share.
+    mechanisms : int
+        How many they are.
+    """
+
+    added: int
+    weight: Fraction
+    mechanisms: int
+
+
+@dataclass(frozen=True, slots=True)
 class Reconstructions(Result):
     """All explanations of a question, counted, and the best of them.
 
@@ -68,7 +88,10 @@ class Reconstructions(Result):
     candidates : tuple of Candidate
         The best first.
     skeletons : tuple of CountedSkeleton
-        All structures with the numbers of their trains, where each train weighs as its structure; else none.
+        All structures with the numbers of their trains, where each train weighs as its structure; else none. Those of
+        parts that were only summed are left out.
+    weights : tuple of WeightClass
+        All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself.
     """
 
     KEYS = ("counts", "complete", "candidates")
@@ -77,3 +100,4 @@ class Reconstructions(Result):
     complete: bool
     candidates: tuple[Candidate, ...]
     skeletons: tuple[CountedSkeleton, ...] = ()
+    weights: tuple[WeightClass, ...] = ()

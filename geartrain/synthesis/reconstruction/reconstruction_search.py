@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby, islice
-from typing import Literal, TypeVar
+from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.work import Execution
 from geartrain.synthesis.reconstruction.added_counts import AddedCounts
 from geartrain.synthesis.reconstruction.arrangements import MeshFacts, arranged
+from geartrain.synthesis.reconstruction.candidate_prior import prior, skeleton_prior, weight_ranks
 from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_likelihood
-from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import (
+    Candidate,
+    ExplanationCount,
+    Reconstructions,
+    WeightClass,
+)
 from geartrain.synthesis.reconstruction.ring_meshes import rings_limit
 from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
 from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton, count_skeletons
-
-_Weight = TypeVar("_Weight", Fraction, float)
 
 _LISTED = 20_000
 """Candidates that are made at most; of more of one weight, the first that are found."""
@@ -52,24 +56,39 @@ def find_reconstructions(
         If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
     """
     found: dict[int, list[CountedSkeleton]] = {added: [] for added in range(problem.additions.wheels + 1)}
-    summed = Counter[int]()
+    summed: dict[int, Counter[Fraction]] = {added: Counter() for added in found}
     whole: set[int] = set()
     geometry = problem.geometry
     one_by_one = per == "class" or bool(geometry.wheels or geometry.arbors)
     try:
         for part in count_skeletons(problem, execution, None if listed or one_by_one else _TOLD_APART):
             found[part.added] += part.skeletons
-            summed[part.added] += part.mechanisms
+            summed[part.added] += part.weights
             if part.last:
                 whole.add(part.added)
     except KeyboardInterrupt:
         found = {added: skeletons for added, skeletons in found.items() if added in whole}
+        summed = {added: summed[added] for added in found}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
         return _all_weighed(problem, found, complete, per)
-    counts = tuple(_count(added, skeletons, summed[added], problem) for added, skeletons in found.items())
+    counts = tuple(_count(added, some, summed[added].total(), problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
-    return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every)
+    weights = tuple(_weight_classes(problem, found, summed))
+    return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every, weights)
+
+
+def _weight_classes(
+    problem: ReconstructionProblem,
+    found: Mapping[int, Sequence[CountedSkeleton]],
+    summed: Mapping[int, Counter[Fraction]],
+) -> Iterator[WeightClass]:
+    """By number of added wheels, how many trains have each weight, the greatest first."""
+    for added, skeletons in found.items():
+        alike = Counter(summed[added])
+        for each in skeletons:
+            alike[skeleton_prior(each.skeleton, problem)] += each.mechanisms
+        yield from (WeightClass(added, weight, alike[weight]) for weight in sorted(alike, reverse=True))
 
 
 def _count(
@@ -94,39 +113,12 @@ def _trains(each: CountedSkeleton, problem: ReconstructionProblem, one_order: bo
         yield from islice(arranged(skeleton, counts, idle, facts), 1 if one_order else None)
 
 
-# weights
-
-
-def skeleton_prior(each: CountedSkeleton, problem: ReconstructionProblem) -> Fraction:
-    """Weight of each of a skeleton's trains before its dials are looked at, up to a factor that all share."""
-    skeleton = each.skeleton
-    return _prior(problem, skeleton.used, skeleton.added.number, skeleton.added_arbors)
-
-
-def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
-    """Weight of a candidate before its dials are looked at, up to a factor that all candidates share."""
-    wheels = list(_wheels(arbor))
-    used = [wheel for wheel in wheels if wheel.name is not None]
-    return _prior(problem, used, len(wheels) - len(used), sum(one.name is None for one in _arbors(arbor)))
-
-
-def _prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel], wheels: int, arbors: int) -> Fraction:
-    factors, limits = problem.factors, problem.additions
-    counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
-    weight, unused = Fraction(1), len(counts)
-    for wheel in used:
-        weight *= counts[wheel.name or ""][wheel.teeth]
-        unused -= 1
-    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** wheels
-    return weight / factors.arbor**arbors / factors.unused**unused
-
-
 # the best
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]], listed: int) -> Iterator[Candidate]:
     """The heaviest candidates, those of one weight by added wheels and their teeth."""
-    weighed = [(skeleton_prior(each, problem), added, each) for added, some in found.items() for each in some]
+    weighed = [(skeleton_prior(each.skeleton, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.mechanisms for weight, _, each in weighed)
     ranks = weight_ranks((weight, each.mechanisms) for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
@@ -140,20 +132,8 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]
         yield from (Candidate(arbor, added, float(weight / whole), ranks[weight]) for arbor in arbors)
 
 
-def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
-    """First and last rank of candidates of each weight, from weights and how many candidates have them."""
-    alike = Counter[_Weight]()
-    for weight, number in weighed:
-        alike[weight] += number
-    found, before = {}, 0
-    for weight in sorted(alike, reverse=True):
-        found[weight] = before + 1, before + alike[weight]
-        before += alike[weight]
-    return found
-
-
 def _order(arbor: Arbor) -> tuple[int, str]:
-    return sum(wheel.teeth for wheel in _wheels(arbor) if wheel.name is None), repr(arbor)
+    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(arbor)
 
 
 def _all_weighed(
@@ -185,17 +165,3 @@ def _all_weighed(
     ranks = weight_ranks((weight, 1) for weight, _, _ in weighed)
     candidates = tuple(Candidate(arbor, added, weight / whole, ranks[weight]) for weight, added, arbor in weighed)
     return Reconstructions(tuple(counts), complete, candidates)
-
-
-def _arbors(arbor: Arbor) -> Iterator[Arbor]:
-    yield arbor
-    for _, child in arbor.driven_arbors():
-        yield from _arbors(child)
-
-
-def _wheels(arbor: Arbor) -> Iterator[PlacedWheel]:
-    """Every wheel of a train once."""
-    for each in _arbors(arbor):
-        if each.driven is not None:
-            yield each.driven
-        yield from (wheel for wheel, _ in each.drives if wheel.name is None or wheel != each.driven)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -44,16 +46,15 @@ class SkeletonTask(NamedTuple):
 class CountedPart(NamedTuple):
     """What a part of the search found.
 
-    last                  whether it is the last with so many added wheels
-    skeletons             each with its trains
-    choices, mechanisms   sums over those that are not told
+    last        whether it is the last with so many added wheels
+    skeletons   each with its trains
+    weights     of trains of those that are not told, with their numbers
     """
 
     added: int
     last: bool
     skeletons: list[CountedSkeleton]
-    choices: int
-    mechanisms: int
+    weights: Counter[Fraction]
 
 
 def skeleton_tasks(problem: ReconstructionProblem, most: int | None = None) -> list[SkeletonTask]:
@@ -72,9 +73,10 @@ def count_skeletons(
     """What each part of the search finds; with `most`, a part with more choices of counts than that only sums them."""
     tasks = skeleton_tasks(problem, most)
     answers = (execution or Execution()).run(_counted, tasks)
-    for task, (answer, choices, mechanisms) in zip(tasks, answers, strict=True):
+    for task, (answer, summed) in zip(tasks, answers, strict=True):
         found = [CountedSkeleton(skeleton_of(plain), own, trains) for plain, own, trains in answer]
-        yield CountedPart(task.added, task.part + 1 == task.parts, found, choices, mechanisms)
+        weights = Counter({Fraction(weight): mechanisms for weight, mechanisms in summed})
+        yield CountedPart(task.added, task.part + 1 == task.parts, found, weights)
 
 
 def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
@@ -99,18 +101,19 @@ def timed_part(task: SkeletonTask, clock: Callable[[], float]) -> float:
     return clock() - start
 
 
-def _counted(task: SkeletonTask) -> tuple[list[tuple[Any, int, int]], int, int]:
+def _counted(task: SkeletonTask) -> tuple[list[tuple[Any, int, int]], list[tuple[str, int]]]:
+    """Skeletons as plain data, each with its choices and trains; or of many the weights, with numbers of trains."""
     search, trains = _search(question_digest(task.problem), task.problem)
     if task.most is not None and search.whole_trees is not None and trains.may_be_summed:
         solved = list(search.whole_trees.solved(task.added, task.part, task.parts))
-        choices = sum(one.all_choices for one in solved)
-        if choices > task.most:
-            return [], choices, sum(one.mechanisms for one in solved)
+        if sum(one.all_choices for one in solved) > task.most:
+            weights = search.whole_trees.weights(solved)
+            return [], [(str(weight), mechanisms) for weight, mechanisms in weights.items()]
         skeletons = [each for one in solved for each in search.whole_trees.skeletons(one)]
     else:
         skeletons = list(search.skeletons(task.added, task.part, task.parts))
     found = [(plain_skeleton(each), choices, number) for each, choices in skeletons if (number := trains.count(each))]
-    return found, 0, 0
+    return found, []
 
 
 class _Known:

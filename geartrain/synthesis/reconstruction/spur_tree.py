@@ -91,7 +91,7 @@ def find_spur_tree(train: Train) -> SpurTree:
     Raises `QuestionError` where there is none: no single input, no pointer that it reaches, meshes that close a loop.
     """
     source = _source(train)
-    driven = _walk(train, source)
+    driven = walk_meshes(train, source, {link: link for link in train.links})
     pointers = {
         name: link
         for name, link, output in _known_outputs(train)
@@ -123,14 +123,22 @@ def _source(train: Train) -> str:
     return turning[0]
 
 
-def _walk(train: Train, source: str) -> dict[str, DrivenArbor]:
-    """How every arbor is driven that the source reaches, breadth first."""
+def walk_meshes(
+    train: Train, source: str, arbors: Mapping[str, str], rings: Collection[str] = ()
+) -> dict[str, DrivenArbor]:
+    """How every arbor is driven that spur wheels on the frame reach from a source, breadth first.
+
+    arbors  by link, the arbor that it is, or is a part of
+    rings   wheels that may be internal
+
+    Raises `QuestionError` where meshes close a loop.
+    """
     meshes: dict[str, list[tuple[int, str, str]]] = {}
     tree = find_tree(train)
     for at, gear in enumerate(train.gears):
-        if _is_taken(train, tree, gear.pair):
+        if _is_taken(train, tree, gear.pair, rings):
             for own, other in (gear.pair, gear.pair[::-1]):
-                meshes.setdefault(train.wheels[own][0], []).append((at, own, other))
+                meshes.setdefault(arbors[train.wheels[own][0]], []).append((at, own, other))
     driven: dict[str, DrivenArbor] = {}
     waiting, used = deque([source]), set[int]()
     while waiting:
@@ -139,7 +147,7 @@ def _walk(train: Train, source: str) -> dict[str, DrivenArbor]:
             if at in used:
                 continue
             used.add(at)
-            child = train.wheels[other][0]
+            child = arbors[train.wheels[other][0]]
             if child == source or child in driven:
                 what = f"the meshes of '{train.name}' close a loop at '{train.gears[at].name}'"
                 fix = "only trees are reconstructed yet"
@@ -149,13 +157,18 @@ def _walk(train: Train, source: str) -> dict[str, DrivenArbor]:
     return driven
 
 
-def _is_taken(train: Train, tree: Tree, pair: Iterable[str]) -> bool:
-    """Whether a mesh is an external one of spur wheels on arbors that turn in the frame about parallel axes."""
+def _is_taken(train: Train, tree: Tree, pair: Iterable[str], rings: Collection[str]) -> bool:
+    """Whether a mesh is of spur wheels on arbors that turn in the frame about parallel axes, no rings but some."""
     still = {*train.fixed, train.frame, *(link for lock in train.locks for link in lock)}
     directions = set()
     for name in pair:
         link, wheel = train.wheels[name]
-        if wheel.internal or wheel.kind != "spur" or link in still or not tree.bears(train.frame, link):
+        if (
+            (wheel.internal and name not in rings)
+            or wheel.kind != "spur"
+            or link in still
+            or not tree.bears(train.frame, link)
+        ):
             return False
         axis = train.axes.get(tree.axis(link) or "")
         directions.add(_ALONG if axis is None else tuple(map(_value, axis.direction)))

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import groupby
+from math import prod
 
 import numpy as np
 
 from geartrain.synthesis.reconstruction.added_count_sums import AddedCountSums, OpenCounts
 from geartrain.synthesis.reconstruction.added_structures import AddedSets
 from geartrain.synthesis.reconstruction.arbor_roles import Role
+from geartrain.synthesis.reconstruction.candidate_prior import added_prior, survivors_prior
 from geartrain.synthesis.reconstruction.path_trees import DialPath, Paths, PathTrees
 from geartrain.synthesis.reconstruction.prime_shares import Ints
 from geartrain.synthesis.reconstruction.skeletons import AddedWheels, Skeleton
@@ -32,11 +36,6 @@ class SolvedRows:
     def all_choices(self) -> int:
         """Choices of counts, of all rows."""
         return sum(self.choices.tolist())
-
-    @property
-    def mechanisms(self) -> int:
-        """Trains of all rows."""
-        return sum(one * other for one, other in zip(self.choices.tolist(), self.orders.tolist(), strict=True))
 
 
 class WholeTreeSums:
@@ -75,6 +74,43 @@ class WholeTreeSums:
             good = choices > 0
             if good.any():
                 yield SolvedRows(added, rows.kept(good), choices[good], orders[good])
+
+    # weights
+
+    def weights(self, solved: Iterable[SolvedRows]) -> Counter[Fraction]:
+        """How many trains have each weight before their dials are looked at."""
+        found = Counter[Fraction]()
+        for some in solved:
+            driven = sum(not wheel.drives for wheel in some.added)  # each new arbor has one
+            added = added_prior(self.trees.problem, len(some.added), driven)
+            kinds = np.array([of[self._reading(some.rows, at)] for at, (of, _) in enumerate(self._readings_prior)])
+            several, which = np.unique(kinds, axis=1, return_inverse=True)
+            trains = some.choices * some.orders
+            for number, kind in enumerate(several.T.tolist()):
+                weights = (own[1][one] for own, one in zip(self._readings_prior, kind, strict=True))
+                found[prod(weights, start=added)] += int(trains[which.ravel() == number].sum())
+        return found
+
+    @cached_property
+    def _readings_prior(self) -> list[tuple[Ints, list[Fraction]]]:
+        """By arbor: for each reading of each role the number of its weight, and the weights."""
+        found = []
+        for arbor in self.trees.arbors:
+            alone = replace(self.trees.problem, input=arbor.arbor, arbors=())
+            weights = [
+                survivors_prior(alone, [wheel for wheel in (one.driven, *one.drivers) if wheel is not None])
+                for role in arbor.roles
+                for one in arbor.of(role)
+            ]
+            several = list(dict.fromkeys(weights))
+            number = {weight: at for at, weight in enumerate(several)}
+            found.append((np.array([number[weight] for weight in weights], dtype=np.int64), several))
+        return found
+
+    def _reading(self, rows: TrainRows, at: int) -> Ints:
+        """By row, the reading of an arbor among all of its roles."""
+        reading: Ints = self.trees.columns[at].first[rows.roles[:, at]] + rows.reads[:, at]
+        return reading
 
     # orders
 

@@ -1,0 +1,85 @@
+"""What known trains cost in a question, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from geartrain.report.document import Section, Table, figure
+from geartrain.report.reconstruction_facts import many, share_text
+from geartrain.synthesis.reconstruction.known_rank import AdmittingQuestion, KnownRank, TrainPlace
+
+_LINE = (
+    "Where each train stands by weight among all that explain the evidence, and among those with as many added wheels; "
+    "and how many times the best outweighs it."
+)
+
+
+def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
+    """Where each stands; of one that is no explanation, which rules it breaks, and what it costs without them."""
+    if not known:
+        return
+    header = ("train", "added wheels", "arbors", "rank", "with as many", "weight", "outweighed")
+    yield Section("Known trains", [_LINE], [Table(header, [_row(one) for one in known])])
+    for one in known:
+        if one.broken:
+            rows = dict.fromkeys((each.what, each.change or "nothing single") for each in one.broken)
+            table = Table(("what it has", "what would admit it"), list(rows))
+            yield Section(f"What keeps {one.train} out", [*_noted(one), *_granted(one)], [table])
+        elif one.notes:
+            yield Section(f"Of {one.train}", list(_noted(one)))
+
+
+def _row(one: KnownRank) -> tuple[str, ...]:
+    wheels = ", ".join(f"{name} {teeth}" for name, teeth in one.wheels.items())
+    begins = one.train, f"{len(one.wheels)}: {wheels}" if one.wheels else "0", str(one.arbors)
+    if one.broken:
+        return (*begins, "none", "none", "", "")
+    if one.place is None:
+        return (*begins, "not asked", "not asked", "", "")
+    place = one.place
+    return (
+        *begins,
+        _ranks(place.ranks, place.trains),
+        _ranks(place.ranks_alike, place.trains_alike),
+        share_text(place.weight),
+        _times(place),
+    )
+
+
+def _ranks(ranks: tuple[int, int], trains: int) -> str:
+    first, last = ranks
+    return f"{first if first == last else f'{first}-{last}'} of {trains}"
+
+
+def _times(place: TrainPlace) -> str:
+    return "by none" if place.dearer == 1 else f"{figure(place.dearer)} times"
+
+
+def _noted(one: KnownRank) -> Iterator[str]:
+    yield from (f"{note}." for note in one.notes)
+
+
+def _granted(one: KnownRank) -> Iterator[str]:
+    """What a train costs in each question that takes it."""
+    all_that = tuple(dict.fromkeys(each.change for each in one.broken))
+    for admitted in one.admitted:
+        changes = "all of this" if admitted.changes == all_that else "; ".join(admitted.changes)
+        yield _cost(changes, admitted)
+
+
+def _cost(changes: str, admitted: AdmittingQuestion) -> str:
+    wheels = ", ".join(f"{name} {teeth}" for name, teeth in admitted.wheels.items())
+    own = many(len(admitted.wheels), "wheel") + (f" ({wheels})" if wheels else "")
+    begins = f"Granted {changes}, it adds {own}"
+    if admitted.refused is not None:
+        return f"{begins}. Not asked: {admitted.refused}."
+    told = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
+    if admitted.place is None:
+        trains = f"trains are {', '.join(told)}" if told else "there is no train"
+        return f"{begins}, and with at most {many(admitted.asked, 'wheel')} {trains}."
+    place = admitted.place
+    outweighed = "none outweighs it" if place.dearer == 1 else f"the best outweighs it {_times(place)}"
+    return (
+        f"{begins}. Trains by added wheels: {', '.join(told)}. It ranks {_ranks(place.ranks, place.trains)}, and "
+        f"{_ranks(place.ranks_alike, place.trains_alike)} with as many; {outweighed}."
+    )

@@ -1,0 +1,229 @@
+"""What a known train costs in a question: where it stands among all that explain it, or what keeps it out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from geartrain.errors import QuestionError
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.synthesis.reconstruction.admitting_question import admitting_question
+from geartrain.synthesis.reconstruction.candidate_prior import prior, weight_ranks
+from geartrain.synthesis.reconstruction.candidate_rules import BrokenRule, as_missing_dial, broken_rules
+from geartrain.synthesis.reconstruction.known_train import KnownTrain, find_known_train
+from geartrain.synthesis.reconstruction.lost_arbors import rank_of
+from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.train import Train
+
+
+@dataclass(frozen=True, slots=True)
+class TrainPlace(Result):
+    """Where an explanation stands among all.
+
+    Attributes
+    ----------
+    ranks : tuple of int
+        First and last rank by weight that it may have, for some weigh the same.
+    trains : int
+        How many explanations there are.
+    ranks_alike : tuple of int
+        The same among those with as many added wheels.
+    trains_alike : int
+        How many these are.
+    weight : float
+        Its share of the weight of all.
+    dearer : Fraction
+        By what factor the best weighs more; 1 for the best.
+    """
+
+    KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
+
+    ranks: tuple[int, int]
+    trains: int
+    ranks_alike: tuple[int, int]
+    trains_alike: int
+    weight: float
+    dearer: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class AdmittingQuestion(Result):
+    """A changed question that a train explains.
+
+    Attributes
+    ----------
+    changes : tuple of str
+        What is otherwise in it.
+    wheels : dict of str to int
+        Wheels that the train adds in it, with their counts.
+    arbors : int
+        Arbors that it adds.
+    asked : int
+        Up to how many added wheels it was asked: as many as the train adds, if so many may be.
+    mechanisms : tuple of int
+        Trains with just 0, 1, 2, ... added wheels that explain it.
+    place : TrainPlace or None
+        Where the train stands; None where it adds more wheels than were asked.
+    refused : str or None
+        Why it could not be asked, or was not.
+    """
+
+    changes: tuple[str, ...]
+    wheels: dict[str, int]
+    arbors: int
+    asked: int
+    mechanisms: tuple[int, ...]
+    place: TrainPlace | None
+    refused: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class KnownRank(Result):
+    """What a known train costs in a question.
+
+    Attributes
+    ----------
+    train : str
+        Its name.
+    wheels : dict of str to int
+        Wheels that it adds, by their names in it, with their counts.
+    arbors : int
+        Arbors that it adds.
+    broken : tuple of BrokenRule
+        The rules that it breaks; none where it is an explanation.
+    notes : tuple of str
+        What of the train plays no part.
+    place : TrainPlace or None
+        Where it stands; None where it breaks rules, or adds more wheels than may be added.
+    admitted : tuple of AdmittingQuestion
+        What it costs in questions without these rules: with its dials as it has them, and without those whose speed is
+        not the given one.
+    """
+
+    train: str
+    wheels: dict[str, int]
+    arbors: int
+    broken: tuple[BrokenRule, ...]
+    notes: tuple[str, ...] = ()
+    place: TrainPlace | None = None
+    admitted: tuple[AdmittingQuestion, ...] = ()
+
+
+Search = Callable[[ReconstructionProblem], Reconstructions]
+"""What finds all explanations of a question."""
+
+
+def rank_known_train(
+    train: Train,
+    problem: ReconstructionProblem,
+    found: Reconstructions,
+    search: Search,
+    same: Mapping[str, str] | None = None,
+) -> KnownRank:
+    """What a train costs in a question.
+
+    Parameters
+    ----------
+    train : Train
+    problem : ReconstructionProblem
+        Its arbors turn in the frame.
+    found : Reconstructions
+        All that explains it.
+    search : callable
+        What finds all that explains a changed question, with which a train is ranked that breaks rules.
+    same : mapping of str to str, optional
+        Names of the train by which the question calls something otherwise; see `find_known_train`.
+    """
+    known = find_known_train(train, problem, same)
+    broken = broken_rules(known.arbor, problem)
+    place = None if broken else find_place(known.arbor, problem, found)
+    admitted = tuple(_all_admitted(train, problem, search, same or {})) if broken else ()
+    return KnownRank(train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, admitted)
+
+
+def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
+    """Where an explanation stands among all; None if it adds more wheels than may be added, or that was not finished.
+
+    Where trains weigh as their structure, the numbers of trains of each weight tell it, and no train need be listed.
+    """
+    added = candidate.added_wheels
+    counts = {count.added: count.mechanisms for count in found.counts}
+    if not counts.get(added):
+        return None
+    if not found.weights:
+        return _listed_place(candidate, found)
+    weight = prior(candidate, problem)
+    every = [(each.weight, each.mechanisms) for each in found.weights]
+    alike = [(each.weight, each.mechanisms) for each in found.weights if each.added == added]
+    whole = sum(own * number for own, number in every)
+    return TrainPlace(
+        weight_ranks(every)[weight],
+        sum(counts.values()),
+        weight_ranks(alike)[weight],
+        counts[added],
+        float(weight / whole),
+        max(own for own, _ in every) / weight,
+    )
+
+
+def _listed_place(candidate: Arbor, found: Reconstructions) -> TrainPlace | None:
+    """The same where each train is weighed by itself, and all are listed."""
+    ranks = rank_of(candidate, found)
+    if ranks is None:
+        return None
+    added = candidate.added_wheels
+    weight = found.candidates[ranks[0] - 1].weight
+    alike = [(one.weight, 1) for one in found.candidates if one.added == added]
+    return TrainPlace(
+        ranks,
+        len(found.candidates),
+        weight_ranks(alike)[weight],
+        len(alike),
+        weight,
+        Fraction(found.candidates[0].weight) / Fraction(weight),
+    )
+
+
+def _all_admitted(
+    train: Train, problem: ReconstructionProblem, search: Search, same: Mapping[str, str]
+) -> Iterator[AdmittingQuestion]:
+    """Questions that take a train, each in one way."""
+    told = set[tuple[str, ...]]()
+    for without_dials in (False, True):
+        changes, changed, known = _changed(train, problem, same, without_dials)
+        if known is None or changes in told:
+            continue
+        told.add(changes)
+        own = known.arbor.added_wheels
+        asked = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
+        said = changes, dict(known.added), known.arbor.added_arbors, asked.additions.wheels
+        try:
+            found = search(asked)
+        except QuestionError as error:
+            yield AdmittingQuestion(*said, (), None, error.problems[0].what)
+        else:
+            mechanisms = tuple(count.mechanisms for count in found.counts)
+            yield AdmittingQuestion(*said, mechanisms, find_place(known.arbor, asked, found))
+
+
+def _changed(
+    train: Train, problem: ReconstructionProblem, same: Mapping[str, str], without_dials: bool
+) -> tuple[tuple[str, ...], ReconstructionProblem, KnownTrain | None]:
+    """What changes a question so that a train breaks no rule, the question, and the train in it; None if nothing does.
+
+    The train is read again after each round, for without a dial less of it is asked for, and less of what survives.
+    """
+    changes: dict[str, None] = {}
+    known = find_known_train(train, problem, same)
+    while broken := broken_rules(known.arbor, problem):
+        if without_dials:
+            broken = tuple(as_missing_dial(each) for each in broken)
+        changed = admitting_question(problem, broken)
+        changes.update(dict.fromkeys(each.change for each in broken if each.change is not None))
+        if changed == problem or not changed.dials:
+            return (), problem, None
+        problem = changed
+        known = find_known_train(train, problem, same)
+    return tuple(changes), problem, known

@@ -1,0 +1,283 @@
+"""A known train in a question: it breaks a rule just where plain growth does not find it, and ranks where it does."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
+
+from geartrain import GearTrainError
+from geartrain.synthesis.reconstruction import reconstruction_search
+from geartrain.synthesis.reconstruction.admitting_question import admitting_question
+from geartrain.synthesis.reconstruction.candidate_rules import broken_rules
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+from geartrain.synthesis.reconstruction.known_rank import find_place, rank_known_train
+from geartrain.synthesis.reconstruction.known_train import check_same, find_known_train
+from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence
+from geartrain.synthesis.reconstruction.reconstruction_problem import (
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    SearchedDial,
+    SurvivingArbor,
+)
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.synthesis.reconstruction.sameness import mechanism
+from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
+from geartrain.train import declare
+from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
+
+
+def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem:
+    """The question without some of its rules, so that plain growth finds trains that break them."""
+
+    def misread(arbor: SurvivingArbor) -> SurvivingArbor:
+        wheels = (replace(one, counts=(*one.counts, (one.counts[-1][0] + 1, Fraction(1)))) for one in arbor.wheels)
+        return replace(arbor, wheels=tuple(wheels))
+
+    def turned(dial: SearchedDial) -> SearchedDial:
+        ends = sorted((abs(dial.least), abs(dial.greatest)))
+        return replace(dial, least=ends[0] * Fraction(9, 10), greatest=ends[1], signed=False)
+
+    if part == 0:
+        free = frozenset[frozenset[str]]()
+        return replace(problem, meshes=free, apart=free, coaxial=free, idlers=True)
+    if part == 1:
+        return replace(problem, input=misread(problem.input), arbors=tuple(map(misread, problem.arbors)))
+    if part == 2:
+        return replace(problem, dials=tuple(map(turned, problem.dials)), use="some")
+    limits = replace(problem.additions, arbors=None, on="any", least=problem.additions.least - 1)
+    return replace(problem, dials=tuple(replace(dial, place=None) for dial in problem.dials), additions=limits)
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_a_candidate_breaks_no_rule_just_where_plain_growth_finds_it(part: int) -> None:
+    kept = broken = 0
+    rules = set[str]()
+    for seed in range(700, 760):
+        problem = random_problem(seed, idlers=True)
+        right = {tree for found in explanations(problem) for tree in found.mechanisms}
+        for found in explanations(loosened(problem, part)):
+            for tree in sorted(found.mechanisms)[:300]:
+                rank = broken_rules(package_arbor(tree), problem)
+                assert (not rank) == (tree in right), (seed, tree, rank)
+                kept, broken = kept + (not rank), broken + bool(rank)
+                rules |= {one.rule for one in rank}
+    assert kept > 50
+    assert broken > 100
+    assert (
+        rules
+        >= [{"seen", "apart", "idler"}, {"count"}, {"speed", "wheel", "arbor"}, {"place", "teeth", "beside"}][part]
+    )
+
+
+def test_a_driven_wheel_that_is_added_breaks_a_rule() -> None:
+    problem = random_problem(701)
+    problem = replace(problem, arbors=(SurvivingArbor("s", random_problem(701).input.wheels[:1]),), use="some")
+    wheel = problem.arbors[0].wheels[0]
+    dials = tuple(sorted(dial.name for dial in problem.dials))
+    new = Arbor("s", PlacedWheel(None, 9), dials, ())
+    tree = Arbor(problem.input.name, None, (), ((PlacedWheel(wheel.name, wheel.counts[0][0]), (new,)),))
+    assert "driven" in {one.rule for one in broken_rules(tree, problem)}
+
+
+# places
+
+
+def plain_prior(tree: tuple, problem: ReconstructionProblem) -> Fraction:
+    """The product of what every part of a concrete tree weighs."""
+    factors, limits = problem.factors, problem.additions
+    weights = {one.name: dict(one.counts) for arbor in (problem.input, *problem.arbors) for one in arbor.wheels}
+    weight, unused = Fraction(1), set(weights)
+    for name, driven, _, drives in nodes(tree):
+        weight /= factors.arbor if name == "" else 1
+        for wheel, teeth in [one for one in (driven, *(wheel for wheel, _ in drives)) if one]:
+            if wheel in weights:
+                weight *= weights[wheel][teeth]
+                unused.discard(wheel)
+    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** added_wheels(tree)
+    return weight / factors.unused ** len(unused)
+
+
+@pytest.mark.parametrize("summed", [False, True])
+def test_a_place_is_that_among_all_trains_of_plain_growth(summed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    if summed:
+        monkeypatch.setattr(reconstruction_search, "_TOLD_APART", 0)
+    placed = 0
+    for seed in range(760, 800):
+        problem = random_problem(seed)
+        trees = [(found.counts.added, tree) for found in explanations(problem) for tree in found.mechanisms]
+        weights = {tree: plain_prior(tree, problem) for _, tree in trees}
+        found = find_reconstructions(problem, listed=0)
+        assert sum(one.mechanisms for one in found.weights) == len(trees)
+        for added, tree in trees[:20]:
+            place = find_place(package_arbor(tree), problem, found)
+            assert place is not None
+            alike = [weights[other] for own, other in trees if own == added]
+            for ranks, some in ((place.ranks, list(weights.values())), (place.ranks_alike, alike)):
+                heavier = sum(weight > weights[tree] for weight in some)
+                assert ranks == (heavier + 1, heavier + some.count(weights[tree]))
+            assert (place.trains, place.trains_alike) == (len(trees), len(alike))
+            assert place.weight == pytest.approx(float(weights[tree] / sum(weights.values())), rel=1e-12)
+            assert place.dearer == max(weights.values()) / weights[tree]
+            placed += 1
+    assert placed > 100
+
+
+def test_summed_parts_have_the_weights_of_the_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a question with weights of its counts, and wheels that need not be used."""
+    problem = evidence_question(read_evidence("back-train"), 3).problem
+    (e,) = (arbor for arbor in problem.arbors if arbor.name == "E")
+    doubted = replace(e.wheels[0], counts=((222, Fraction(1, 3)), (223, Fraction(1, 2)), (224, Fraction(1, 6))))
+    changed = replace(e, wheels=(doubted, *e.wheels[1:]))
+    arbors = tuple(changed if arbor is e else arbor for arbor in problem.arbors)
+    problem = replace(problem, arbors=arbors, use="arbors")
+    listed = find_reconstructions(problem, listed=1).weights
+    monkeypatch.setattr(reconstruction_search, "_TOLD_APART", 0)
+    found = find_reconstructions(problem, listed=0)
+    assert found.weights == listed
+    assert not found.skeletons
+    assert len(Counter(one.weight for one in listed)) > 4
+
+
+# trains
+
+
+def test_a_shipped_train_is_read_as_its_own_tree() -> None:
+    """Of each that has one, with any arbor lost."""
+    read = 0
+    for name in shipped():
+        try:
+            tree = find_spur_tree(read_declaration(name))
+        except GearTrainError:
+            continue
+        for lost in combinations(list(tree.driven)[:6], 1):
+            problem = evidence_question(lost_evidence(tree, lost)).problem
+            known = find_known_train(tree.train, problem)
+            assert mechanism(known.arbor) == mechanism(tree.arbor(lost)), (name, lost)
+            assert not broken_rules(known.arbor, problem)
+            assert set(known.added) == {wheel for link in lost for wheel in tree.wheels_of(link)}
+            read += 1
+    assert read > 60
+
+
+PRICE = {"E4": "e3", "E3": "e4", "G2": "g1", "E2i": "e2", "four years": "metonic"}
+
+
+def sure_back(wheels: int = 3) -> ReconstructionProblem:
+    return evidence_question(read_evidence("back-wheels-sure"), wheels).problem
+
+
+def search(problem: ReconstructionProblem) -> Reconstructions:
+    return find_reconstructions(problem, listed=0)
+
+
+def test_the_train_of_2008_is_one_of_21() -> None:
+    problem = sure_back()
+    found = rank_known_train(read_declaration("freeth-2008"), problem, search(problem), search)
+    assert found.wheels == {"m3": 27, "n1": 53, "nO": 57}
+    assert (found.arbors, found.broken, found.admitted) == (1, (), ())
+    assert found.place is not None
+    assert (found.place.ranks, found.place.trains, found.place.dearer) == ((1, 21), 21, 1)
+
+
+def test_the_train_of_2006_has_another_dial_on_o() -> None:
+    problem = sure_back()
+    found = rank_known_train(read_declaration("freeth-2006"), problem, search(problem), search)
+    (speed,) = found.broken
+    assert (speed.rule, speed.subject, speed.values) == ("speed", ("games",), (Fraction(-1, 76),))
+    as_it_has, without = found.admitted
+    assert (len(as_it_has.wheels), as_it_has.asked, as_it_has.place) == (5, 3, None)
+    assert without.changes == ("without the dial games", "without o")
+    assert without.wheels == {"m3": 27, "n1": 53}
+    assert without.mechanisms == (0, 0, 12)  # those of the dials without the Games dial
+
+
+def test_prices_train_breaks_many_rules() -> None:
+    problem = sure_back()
+    found = rank_known_train(read_declaration("price-1974"), problem, search(problem), search, PRICE)
+    assert {(one.rule, *one.subject) for one in found.broken} >= {
+        ("speed", "metonic"),
+        ("dial", "saros"),
+        ("speed", "moon"),
+        ("count", "l1"),
+        ("count", "l2"),
+        ("count", "m2"),
+        ("arbor", "E"),
+        ("arbor", "f"),
+        ("arbor", "g"),
+    }
+    (granted,) = found.admitted
+    assert granted.wheels == {"B4": 32, "N": 64}
+    assert granted.mechanisms[:2] == (0, 4)
+    assert granted.place is not None
+    assert granted.place.dearer == 10 * 10 * 214  # a wheel and an arbor more
+
+
+def test_what_admits_a_train_leaves_no_rule_that_it_breaks() -> None:
+    """Each rule by itself too: it is broken no more, or less of the train is asked for."""
+    problem, train = sure_back(), read_declaration("price-1974")
+    for one in broken_rules(find_known_train(train, problem, PRICE).arbor, problem):
+        changed = admitting_question(problem, [one])
+        left = broken_rules(find_known_train(train, changed, PRICE).arbor, changed)
+        assert one not in left, one
+
+
+def test_names_are_found_whatever_their_capitals_unless_told_otherwise() -> None:
+    problem, train = sure_back(), read_declaration("price-1974")
+    told = find_known_train(train, problem, PRICE).arbor
+    assert {wheel.name for wheel in told.wheels()} > {"b2", "l1", "l2", "m1", "m2", "c1", "d2", "e2"}
+    plain = {wheel.name for wheel in find_known_train(train, problem).arbor.wheels()}
+    assert "e2" not in plain
+    with pytest.raises(GearTrainError, match="no wheel and no output"):
+        check_same({"E44": "e3"}, [train], problem)
+    with pytest.raises(GearTrainError, match="no wheel and no dial"):
+        check_same({"E4": "e33"}, [train], problem)
+
+
+def test_a_train_without_the_input_or_with_a_loop_is_refused() -> None:
+    problem = sure_back()
+    with pytest.raises(GearTrainError, match="no wheel of 'b'"):
+        find_known_train(read_declaration("vitruvius-hodometer"), problem)
+    looped = declare(
+        {
+            "name": "loop",
+            "links": {
+                "frame": {},
+                "b": {"wheels": {"b2": 64}},
+                "c": {"wheels": {"c1": 38, "c2": 48}},
+                "d": {"wheels": {"d1": 24}},
+            },
+            "revolutes": {"B": ["frame", "b"], "C": ["frame", "c"], "D": ["frame", "d"]},
+            "gears": ["b2 ~ c1", "c2 ~ d1", "d1 ~ b2"],
+            "inputs": {"b": 1},
+        }
+    )
+    with pytest.raises(GearTrainError, match="close a loop"):
+        find_known_train(looped, problem)
+
+
+def test_wheels_that_are_on_other_arbors_are_not_taken_for_those_that_survive() -> None:
+    parted = declare(
+        {
+            "name": "parted",
+            "links": {
+                "frame": {},
+                "b": {"wheels": {"b2": 64}},
+                "c": {"wheels": {"c1": 38}},
+                "x": {"wheels": {"c2": 48}},
+                "d": {"wheels": {"d1": 24, "d2": 127}},
+            },
+            "revolutes": {"B": ["frame", "b"], "C": ["frame", "c"], "D": ["frame", "d"], "X": ["frame", "x"]},
+            "gears": ["b2 ~ d1", "d2 ~ c2"],
+            "inputs": {"b": 1},
+        }
+    )
+    known = find_known_train(parted, sure_back())
+    assert known.notes == ("c2 is not fixed to the other wheels of c, and is not taken for c2",)
+    assert concrete(known.arbor) == ("b", (), (), ())

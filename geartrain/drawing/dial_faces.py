@@ -16,7 +16,8 @@ from geartrain.drawing.style import BLACK, FINE, GREY, SMALL, series_look, sheet
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene
-from geartrain.scene.dial_scale import DialScale, clock_point
+from geartrain.scene.dial_marks import engrave
+from geartrain.scene.dial_scale import DialScale, clock_point, plain_circle
 from geartrain.scene.pose import body_errors, turns_of
 
 if TYPE_CHECKING:
@@ -25,9 +26,8 @@ if TYPE_CHECKING:
 
 _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
-_INNER = 0.42  # radius of the innermost turn of a spiral over the outermost
-_TICK = 0.07  # inches: a border of a cell
-_OUTER = _FACE / 2 - 0.35  # radius of a face
+_OUTER = _FACE / 2 - 0.2  # radius of a face
+_FINEST = 0.3  # points: a line
 _SAMPLE = 0.45  # inches of a hand in the key
 
 
@@ -51,11 +51,10 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """A face with the pointers that are read on it; `name` is empty for a plain circle of one output."""
+    """A face with the pointers that are read on it; `name` is empty for a plain face of one output."""
 
     name: str
-    turns: int
-    divisions: int
+    scale: DialScale
     pointers: tuple[int, ...]
 
 
@@ -122,7 +121,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             on.setdefault(dial, []).append(at)
     faces = [_dialled(scene, dial, pointers) for dial, pointers in on.items()]
     if outputs or not faces:
-        faces += [DialPicture("", 1, 12, (at,)) for at in wanted if scene.pointers[at].dial is None]
+        faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
         raise QuestionError(
             Problem(f"'{scene.name}' has nothing to read", "it declares no outputs", "declare `outputs`, and `dials`")
@@ -136,7 +135,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
 
 def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
     face = scene.dials[dial]
-    return DialPicture(face.id, face.turns, face.divisions, tuple(pointers))
+    return DialPicture(face.id, face.scale, tuple(pointers))
 
 
 # -------------------------------------------------------------------------------------------------------------- drawing
@@ -153,7 +152,7 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
     outer = _OUTER
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
-        share = 1.0 if face.turns > 1 else 0.97 - 0.07 * (order % 10)
+        share = 1.0 if face.scale.turns > 1 else 0.97 - 0.07 * (order % 10)
         _draw_pointer(axes, face, readings[at], centre, outer * share, order)
     axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
     name = face.name or readings[face.pointers[0]].output
@@ -172,26 +171,19 @@ def _draw_key(
         write(axes, left + _SAMPLE, y, words, look["color"], ha="left", fontsize=FINE)
 
 
-def scale_of(face: DialPicture, outer: float) -> DialScale:
-    """The scale of a face of some radius."""
-    return DialScale(face.turns, face.divisions, outer, outer if face.turns == 1 else _INNER * outer)
-
-
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
-    """The line along which cells lie, their borders, and numbers at some of them."""
-    scale = scale_of(face, outer)
-    axes.plot(*(scale.line() + centre).T, color=BLACK, linewidth=1.0, zorder=3, gid=f"scale {face.name}")
-    ends = [point for mark in scale.marks(_TICK) for point in (*mark, (np.nan, np.nan))]
-    fine = 0.9 if len(ends) < 300 else 0.4
-    axes.plot(*(np.array(ends) + centre).T, color=GREY, linewidth=fine, zorder=3, gid=f"cells {face.name}")
-    if face.name:
-        for cell, turn in scale.numbers():
-            if face.turns > 1:
-                x, y = place(centre, scale.radius(float(turn)), turn)
-                write(axes, x - 0.02, y, str(cell), GREY, ha="right", fontsize=FINE)
-            else:
-                x, y = place(centre, outer + 0.14, turn)
-                write(axes, x, y, str(cell), GREY, fontsize=FINE)
+    """What is engraved on it: the line along which cells lie, their borders, and letters."""
+    for part in engrave(face.scale):
+        points = [point for line in part.lines for point in (*line, (np.nan, np.nan))]
+        colour = BLACK if part.kind in ("rim", "letters") else GREY
+        wide = max(72 * outer * part.width, _FINEST)
+        axes.plot(
+            *(outer * np.array(points) + centre).T,
+            color=colour,
+            linewidth=wide,
+            zorder=3,
+            gid=f"{part.kind} {face.name}",
+        )
 
 
 def _draw_pointer(
@@ -200,24 +192,29 @@ def _draw_pointer(
     """A hand from the middle; on a spiral as long as the turn it has come to."""
     if reading.turned is None:
         return
-    along = (float(reading.turned % face.turns) + reading.error) % face.turns
-    tip = place(centre, scale_of(face, reach).radius(along), reading.angle)
+    scale = face.scale
+    along = (float(reading.turned * scale.way % scale.turns) + reading.error * scale.way) % scale.turns
+    tip = place(centre, reach * scale.radius(along), reading.angle)
     tail = place(centre, -0.12, reading.angle)
     look = series_look(order)
     axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, solid_capstyle="round", zorder=6)
     axes.plot(*zip(centre, tip, strict=True), linewidth=2.2, zorder=6, gid=f"pointer {reading.output}", **look)
     axes.plot(*zip(tail, centre, strict=True), color=look["color"], linewidth=2.2, zorder=6)
-    if face.turns > 1 or len(face.pointers) > 1:  # of hands over each other, the ends are still seen
+    if scale.turns > 1 or len(face.pointers) > 1:  # of hands over each other, the ends are still seen
         axes.plot(*tip, "o", color=look["color"], markersize=4, zorder=7)
 
 
 def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
-    """The output, where it stands, and the way it goes."""
+    """The output, where it stands, what it shows there, and the way it goes."""
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
-    where = reading.turned % face.turns
+    scale = face.scale
+    where = reading.turned * scale.way % scale.turns
     text = f"at {where if is_short(where, 12) else decimal(where, 6)} turn"
-    if abs(reading.error) > 5e-7:
-        text += f" {'+' if reading.error > 0 else '-'} {abs(reading.error) * 360:.3g}°"
+    error = reading.error * scale.way
+    if abs(error) > 5e-7:
+        text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
+    if shown := scale.told(where + Fraction(error)):
+        text += f", {shown}"
     way = pointer.text.removesuffix(" as read")
     return f"{pointer.output}: {text}" + (f", {way}" if way == "stands still" else f", going {way}" if way else "")

@@ -11,6 +11,7 @@ from geartrain.kinematics.judged_outputs import OutputResult, magnitude
 from geartrain.kinematics.tooth_sensitivity import Sensitivity
 from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.train import Train
+from geartrain.train.dials import looks_away
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
@@ -169,14 +170,16 @@ def _as_read(declared: Train, result: OutputResult) -> str:
     dial = declared.dials.get(result.output.dial or "")
     if dial is None or not result.speed:
         return ""
-    flipped = dial.face is not None and declared.view.from_ is not None and dial.face != declared.view.from_
+    flipped = looks_away(dial.face, declared.view.from_)
     clockwise = ((declared.view.positive == "clockwise") == (result.speed > 0)) != flipped
     turn = 1 / magnitude(result.speed)
     words = ["clockwise" if clockwise else "counter-clockwise", f"a turn in {figure(turn, 7)}"]
     if dial.turns > 1:
         words.append(f"{dial.turns} turns in {figure(turn * dial.turns, 7)}")
     if dial.divisions > 1:
-        words.append(f"a division in {figure(turn * dial.turns / dial.divisions, 7)}")
+        words.append(
+            f"{f'one {dial.cell}' if dial.cell else 'a division'} in {figure(turn * dial.turns / dial.divisions, 7)}"
+        )
     return ", ".join(words)
 
 

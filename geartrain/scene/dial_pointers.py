@@ -6,24 +6,29 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 
 from geartrain.kinematics.judged_outputs import SpeedValue
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
+from geartrain.scene.dial_marks import engrave
+from geartrain.scene.dial_scale import RING, DialScale, scale_of
 from geartrain.scene.output_dependence import find_dependence
 from geartrain.scene.sky import find_targets
+from geartrain.scene.stroke_letters import Stroke
 from geartrain.scene.train_scene import DialFace, Pointer
+from geartrain.train.dials import looks_away
 
 Key = tuple[str, str, str]
 """A dial, the link it stands on, the axis of the pointer that is read on it."""
 
-_BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that looks elsewhere looks to the front
 _APART = 0.96  # of the distance of two neighbours: what their radii may fill together
+_SPIRAL = 1.8  # radius of a spiral over that of a circle beside it
 _NESTED = 0.74  # radius over that of the dial around it
-_INNER = 0.55  # innermost turn of a spiral over the outermost
 _OUT, _BALL = 0.5, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own radius
 _LOWEST, _STEP = 0.02, 0.018  # over the radius of its dial: how high hands stand where no pipe bears them
+_PARTS = 4000  # of a radius, in which an engraving is told
 _GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
 
 
@@ -38,7 +43,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
         if dial is None or key is None or key in faces:
             continue
         normal = facing(stage, name)
-        zero = beside(stage.reference(key[2]))
+        zero, scale = beside(stage.reference(key[2])), scale_of(dial)
         faces[key] = DialFace(
             id=key[0],
             body=stage.body[key[1]],
@@ -47,14 +52,29 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             normal=normal,
             zero=zero,
             radius=0.4 * width,
-            inner=0.0,
-            turns=dial.turns,
-            divisions=dial.divisions,
+            scale=scale,
             look=dial.look,
             note=dial.note or "",
+            engraving=_told(scale) if dial.look == "scale" else (),
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
     return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
+
+
+@lru_cache(maxsize=64)
+def _told(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
+    """What is engraved, from point to point, in whole parts of the radius."""
+    return tuple((each.kind, round(each.width, 4), tuple(map(_steps, each.lines))) for each in engrave(scale))
+
+
+def _steps(line: Stroke) -> tuple[int, ...]:
+    x = y = 0
+    found: list[int] = []
+    for point in line:
+        u, v = (round(_PARTS * each) for each in point)
+        found += (u - x, v - y)
+        x, y = u, v
+    return tuple(found)
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
@@ -96,10 +116,8 @@ def facing(stage: SceneContext, name: str) -> Vector:
     # an axis across the view looks neither way but for rounding: it keeps its own
     normal = along if side > 0 or abs(side) < 1e-9 else scaled(along, -1.0)
     dial = declared.dials.get(output.dial or "")
-    looks = dial.face if dial is not None else None
-    if looks is not None and (looks in _BEHIND) != (declared.view.from_ in _BEHIND):
-        return scaled(normal, -1.0)
-    return normal
+    away = dial is not None and looks_away(dial.face, declared.view.from_)
+    return scaled(normal, -1.0) if away else normal
 
 
 def _width(stage: SceneContext) -> float:
@@ -130,17 +148,19 @@ def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
     found = {}
+    share = {at: max(_SPIRAL if faces[key].scale.turns > 1 else 1.0 for key in keys) for at, keys in about.items()}
     for (centre, normal), keys in about.items():
-        radius = faces[keys[0]].radius
-        for other, way in about:
+        radius, own = faces[keys[0]].radius, share[centre, normal]
+        for (other, way), theirs in share.items():
             apart = size(minus(other, centre))
             if way == normal and apart > 0:
-                radius = min(radius, _APART * apart / 2)
+                radius = min(radius, _APART * apart * own / (own + theirs))
+        own = radius
         for depth, key in enumerate(keys):
-            face, own = faces[key], radius * _NESTED**depth
-            inner = own * (_INNER if face.turns > 1 else 1.0)
+            face = faces[key]
             high = plus(face.centre, face.normal, gap * 0.25 * depth)
-            found[key] = replace(face, radius=own, inner=inner, centre=high)
+            found[key] = replace(face, radius=own, centre=high)
+            own *= _NESTED - (RING if face.scale.around else 0.0)
     return {key: found[key] for key in faces}
 
 

@@ -1,24 +1,30 @@
-"""The scale of a dial as lines: a circle or a spiral, borders of its cells, numbers. Clockwise from the mark above."""
+"""The scale of a dial: where cells lie along a circle or a spiral, what they are called, what a pointer reads there.
+
+Turns count from the zero mark along the scale, the way it is counted. Radii are over that of the dial.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, cos, pi, sin
+from math import cos, floor, pi, sin
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
+    from geartrain.train.dials import Dial, Graduation
 
 Point = tuple[float, float]
 
-_CHORDS = 120  # of a turn
-_MARKS = 360  # divisions of a turn that are still drawn singly
+INNER = 0.55
+"""Innermost turn of a spiral over the outermost."""
+RING = 0.17
+"""What a scale around another takes of the radius."""
+
+_CELL = "cell"
+_NUMERALS, _HOURS = 12, 24  # numbers to a circle: counted from 0, declared
 _ROUND_STEPS = (1, 2, 5, 10, 15, 20, 30, 50, 60, 100, 200, 500)
-_NUMBERS = 12  # to a turn of a circle
+_ROMAN = {1000: "M", 900: "CM", 500: "D", 400: "CD", 100: "C", 90: "XC", 50: "L", 40: "XL", 10: "X", 9: "IX", 5: "V"}
+_ROMAN |= {4: "IV", 1: "I"}
 
 
 def clock_point(radius: float, turn: float | Fraction) -> Point:
@@ -27,43 +33,144 @@ def clock_point(radius: float, turn: float | Fraction) -> Point:
     return radius * sin(angle), radius * cos(angle)
 
 
+def roman(number: int) -> str:
+    """A number in Roman figures.
+
+    >>> [roman(each) for each in (4, 9, 12, 60)]
+    ['IV', 'IX', 'XII', 'LX']
+    """
+    found = ""
+    for value, letters in _ROMAN.items():
+        found += letters * (number // value)
+        number %= value
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class ScaleReading:
+    """What a pointer shows: turn of the spiral and cell, from 1; name, empty without one, and the cell in that."""
+
+    turn: int
+    cell: int
+    name: str
+    within: int
+
+
 @dataclass(frozen=True, slots=True)
 class DialScale:
     """Cells along a circle, or along a spiral from its inner end outwards.
 
-    outer, inner   radii of the end and of the beginning; equal for a circle
+    Attributes
+    ----------
+    turns, divisions : int
+        Turns of its spiral, and cells along all of them.
+    inner, outer : float
+        Radius of its inner end over that of its dial; and of its outer one. Equal for a circle.
+    way : int
+        1 if it is counted clockwise as read, -1 if counter-clockwise.
+    cell : str
+        What one division is.
+    names : tuple of (str, Fraction, Fraction)
+        Name of divisions in a row, how many are before them, and how many they are.
+    numerals : tuple of (str, int)
+        What is written at lines, and how many divisions lie before each.
+    glyphs : tuple of (int, str)
+        What is written in cells, by their numbers from 1.
+    around : DialScale or None
+        Another scale around it.
+    radial : bool
+        Whether all numerals stand with their feet to the middle, as Roman ones do.
     """
 
     turns: int
     divisions: int
-    outer: float
-    inner: float
+    inner: float = 1.0
+    outer: float = 1.0
+    way: int = 1
+    cell: str = _CELL
+    names: tuple[tuple[str, Fraction, Fraction], ...] = ()
+    numerals: tuple[tuple[str, int], ...] = ()
+    glyphs: tuple[tuple[int, str], ...] = ()
+    around: DialScale | None = None
+    radial: bool = False
 
     def radius(self, turned: float) -> float:
         """After some turns from the inner end; of a circle, always the outer one."""
-        return self.outer if self.turns == 1 else self.inner + (self.outer - self.inner) * turned / self.turns
+        return self.inner + (self.outer - self.inner) * turned / self.turns
 
-    def line(self) -> Floats:
-        """Along which cells lie, as chords, (n, 2)."""
-        turned = np.linspace(0, self.turns, _CHORDS * self.turns + 1)
-        return np.array([clock_point(self.radius(each), each) for each in turned])
+    def turn_of(self, cells: Fraction | int) -> Fraction:
+        """Turns after some divisions, exact."""
+        return Fraction(cells) * self.turns / self.divisions
 
-    def marks(self, length: float) -> Iterator[tuple[Point, Point]]:
-        """Borders of cells, inwards from the line, at most so long; of very many, every few."""
-        room = length if self.turns == 1 else min(length, (self.outer - self.inner) / self.turns * 0.45)
-        every = max(1, ceil(self.divisions / self.turns / _MARKS))
-        for cell in range(0, self.divisions + (self.turns > 1), every):
-            turn = Fraction(cell * self.turns, self.divisions)
-            radius = self.radius(float(turn))
-            yield clock_point(radius, turn), clock_point(radius - room, turn)
+    def read(self, turned: Fraction) -> ScaleReading:
+        """What a pointer shows after some turns; one on a line stands in the cell after it."""
+        along = turned % self.turns
+        done = along / self.turns * self.divisions
+        for name, first, span in self.names:
+            if first <= done < first + span:
+                return ScaleReading(floor(along) + 1, floor(done) + 1, name, floor(done - first) + 1)
+        return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
-    def numbers(self) -> Iterator[tuple[int, Fraction]]:
-        """Cells that are numbered, and where (turns): about twelve to a circle, the first of each turn of a spiral."""
+    def told(self, turned: Fraction) -> str:
+        """The same in words, such as `Leo, degree 14`; empty without divisions. Which pointer is read on what is around
+        it, no train says."""
+        read, parts = self.read(turned), []
         if self.turns > 1:
-            yield from ((turn * self.divisions // self.turns, Fraction(turn)) for turn in range(self.turns))
-            return
-        fit = (step for step in _ROUND_STEPS if self.divisions / step <= _NUMBERS)
-        step = next(fit, max(self.divisions // _NUMBERS, 1))
-        for cell in range(0, self.divisions, step):
-            if not cell or self.divisions - cell >= step * 0.6:
-                yield cell, Fraction(cell, self.divisions)
+            parts.append(f"turn {read.turn}")
+        if read.name:
+            parts.append(read.name)
+        if read.name and len(self.names) < self.divisions:
+            parts.append(f"{self.cell} {read.within}")
+        elif not read.name and self.divisions > 1:
+            parts.append(f"{self.cell} {read.cell}")
+        return ", ".join(parts)
+
+
+def scale_of(dial: Dial) -> DialScale:
+    """The scale of a declared dial."""
+    way = 1 if dial.counted == "clockwise" else -1
+    outer = 1.0 if dial.around is None else 1.0 - RING
+    inner = outer * INNER if dial.turns > 1 else outer
+    around = None if dial.around is None else _scale(dial.around, 1, (1.0, 1.0), way, None)
+    return _scale(dial, dial.turns, (inner, outer), way, around)
+
+
+def _scale(
+    graduation: Graduation, turns: int, radii: tuple[float, float], way: int, around: DialScale | None
+) -> DialScale:
+    return DialScale(
+        turns,
+        graduation.divisions,
+        *radii,
+        way,
+        graduation.cell or _CELL,
+        graduation.parts,
+        tuple(_numerals(graduation, turns)),
+        tuple(sorted(graduation.glyphs.items())),
+        around,
+        graduation.numerals is not None and graduation.numerals.style == "roman",
+    )
+
+
+def plain_circle() -> DialScale:
+    """That of an output without a dial: twelve lines."""
+    return DialScale(1, 12)
+
+
+def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
+    """Declared ones; without, unless it has names, about twelve to a circle from 0; of a spiral, none."""
+    count, declared = graduation.divisions, graduation.numerals
+    if declared is None:
+        if turns > 1 or graduation.names or count == 1:
+            return []
+        step = _step(count, _NUMERALS)
+        return [(str(line), line) for line in range(0, count, step) if not line or count - line >= step * 0.6]
+    step = declared.every or _step(count, _NUMERALS if declared.style == "arabic" else _HOURS)
+    lines = range(step, count + 1, step)
+    numbers = [(line - 1) % (declared.to or count) + 1 for line in lines]
+    write = roman if declared.style == "roman" else str
+    return [(write(number), line % count) for number, line in zip(numbers, lines, strict=True)]
+
+
+def _step(count: int, most: int) -> int:
+    return next((step for step in _ROUND_STEPS if count / step <= most), max(count // most, 1))

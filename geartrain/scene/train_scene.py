@@ -19,6 +19,7 @@ from typing import Any, Literal
 from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.count_formulas import SceneFormulas
+from geartrain.scene.dial_scale import DialScale
 from geartrain.scene.elements import (
     SceneBody,
     SceneCoupling,
@@ -50,10 +51,10 @@ class DialFace:
         Its middle [mm].
     normal, zero : tuple of float
         Unit vectors: the way its face looks, and from the middle to its zero mark.
-    radius, inner : float
-        Of its outermost and of its innermost turn [mm].
-    turns, divisions : int
-        Turns of its spiral, and cells along all of them.
+    radius : float
+        Of all that is engraved [mm].
+    scale : DialScale
+        Its divisions, over its radius.
     look : {"scale", "ball"}
         A scale with a pointer, or a ball in the pointer of the link on which it stands: then `radius` is that of the
         ball, `normal` the direction of the axis about which it turns, through its middle.
@@ -61,6 +62,9 @@ class DialFace:
         As declared.
     plate : float
         Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made.
+    engraving : sequence of (str, float, sequence of sequence of int)
+        What is engraved: rim, fine, bold or letters, the width of lines over the radius, and lines in 4,000ths of it:
+        x to the reader's right and y to the zero mark, first from the middle, then from point to point.
 
     See Also
     --------
@@ -74,12 +78,11 @@ class DialFace:
     normal: Vector
     zero: Vector
     radius: float
-    inner: float
-    turns: int
-    divisions: int
+    scale: DialScale
     look: Literal["scale", "ball"] = "scale"
     note: str = ""
     plate: float = 0.0
+    engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
 
 
 @dataclass(frozen=True, slots=True)

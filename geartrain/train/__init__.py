@@ -4,7 +4,7 @@ In: plain data with the keys of the YAML format (docs/reference.md), or a file. 
 lines on which they were written, or `DeclarationError` with every problem that could be collected. Nothing is worked
 out here; `geartrain.GearTrain` does that.
 
-declaration, mechanism, outputs, states, manufacturing   the models; state_case: what is prescribed in one state
+declaration, mechanism, outputs, dials, states, manufacturing   the models; state_case: what is prescribed in one state
 efficiencies, bearing_friction, friction_in_force        what is lost; drives: what drives a train in time
 fields, validation, references, unit_consistency         strictness, problems in words, names, units
 yaml_nodes, declaration_files, inheritance               YAML with line numbers, shipped trains, `extends`
@@ -15,13 +15,14 @@ from __future__ import annotations
 
 from geartrain.train.bearing_friction import BearingFriction
 from geartrain.train.declaration import Train
+from geartrain.train.dials import Dial, DialName, DialNumerals, DialRing
 from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
 from geartrain.train.epoch import Epoch
 from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, Material, material_table
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
-from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
+from geartrain.train.outputs import Expect, Output, Published, SpeedUnit, Target, View
 from geartrain.train.state_case import StateCase
 from geartrain.train.states import Clutch, State
 from geartrain.train.tooth_counts import Teeth
@@ -33,6 +34,9 @@ __all__ = [
     "BearingFriction",
     "Clutch",
     "Dial",
+    "DialName",
+    "DialNumerals",
+    "DialRing",
     "Drive",
     "Epoch",
     "Escapement",

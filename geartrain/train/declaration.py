@@ -15,6 +15,7 @@ from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
 from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.teeth.restitution import DeclaredRestitution
+from geartrain.train.dials import Dial
 from geartrain.train.drives import Drive, Escapement
 from geartrain.train.epoch import DeclaredEpoch
 from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, ExpectedVerdict, Id, Nothing
@@ -22,7 +23,7 @@ from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import FaceWidth, Material
 from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Source, Thickness, Wheel
-from geartrain.train.outputs import Dial, Output, SpeedUnit, View
+from geartrain.train.outputs import Output, SpeedUnit, View
 from geartrain.train.periods import period_table
 from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.state_case import StateCase
@@ -81,9 +82,7 @@ class Train(Declared):
     density: MaterialDensity | None = Field(None, description="Of every wheel that has none of its own")
     face_width: FaceWidth | None = Field(None, description="Width of the teeth of every wheel that has none of its own")
     material: Id | None = Field(None, description="Of every wheel that has none of its own: a name of the table")
-    materials: ByName[Material] = Field(
-        {}, validate_default=True, description="Materials by name, beside those of the table"
-    )
+    materials: ByName[Material] = Field({}, validate_default=True, description="By name, beside those of the table")
     cutting: WheelManufacture | None = Field(
         None, description="How far the teeth of every wheel are off that says nothing of its own"
     )

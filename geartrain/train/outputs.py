@@ -1,4 +1,4 @@
-"""What the train is asked for, and where it is read: targets, expectations, outputs, dials, units."""
+"""What the train is asked for, and from where it is read: targets, expectations, outputs, units."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, GetJsonSchemaHandler, model_validato
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Quantity, Share, Span
-from geartrain.train.fields import Count, Declared, Id, also, short_for
+from geartrain.train.fields import Declared, Id, also, short_for
 
 
 def _lasts(period: Quantity) -> Quantity:
@@ -236,25 +236,3 @@ class View(Declared):
     positive: Literal["clockwise", "counter-clockwise"] = Field(
         "counter-clockwise", description="The sense of a positive speed"
     )
-
-
-class Dial(Declared):
-    """A scale a pointer is read on. It stands on the link its output is relative to.
-
-    See Also
-    --------
-    Train : holds them as `dials`, by name
-    """
-
-    face: str | None = Field(None, description="The side it is read from, such as front or back")
-    turns: Count = Field(1, description="Turns of a spiral")
-    divisions: Count = Field(1, description="Cells along all turns")
-    look: Literal["scale", "ball"] = Field(
-        "scale",
-        description="What is drawn: a scale with a pointer, or a ball, half black, such as shows the Moon's phase",
-    )
-    note: str | None = Field(None, description="A remark for the reader")
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "null"}, handler(schema))

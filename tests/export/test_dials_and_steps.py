@@ -16,6 +16,7 @@ from shipped import train as load
 from geartrain.export import export_files
 from geartrain.export.assembly_steps import assembly_steps
 from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.scene.dial_marks import engrave
 
 
 def model(name: str) -> SolidModel:
@@ -57,19 +58,26 @@ def clockwise(point: tuple[float, float]) -> float:
 def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours() -> None:
     work = model("longcase-clock-cycloidal")
     lines = about(work, engraved(work, "dial-minutes-and-hours-and-seconds"), "minutes")
-    marks = [line for line in lines if len(line) == 2]
-    outer, inner = (max(hypot(*line[0]) for line in lines if len(line) > 2), min(hypot(*mark[0]) for mark in marks))
-    minutes = [mark for mark in marks if hypot(*mark[0]) == pytest.approx(outer, abs=1e-3)]
-    hours = [mark for mark in marks if hypot(*mark[0]) == pytest.approx(inner, abs=1e-3)]
-    assert (len(minutes), len(hours), len(marks)) == (60, 12, 72)
-    assert [clockwise(mark[0]) for mark in minutes] == pytest.approx([k / 60 for k in range(60)], abs=1e-5)
-    assert [clockwise(mark[0]) for mark in hours] == pytest.approx([k / 12 for k in range(12)], abs=1e-5)
+    outer, inner = sorted({round(hypot(*line[0]), 2) for line in lines if len(line) > 80}, reverse=True)
+    for radius, count in ((outer, 60), (inner, 12)):
+        marks = [line[0] for line in lines if len(line) == 2 and hypot(*line[0]) == pytest.approx(radius, abs=0.01)]
+        assert sorted(map(clockwise, marks)) == pytest.approx([k / count for k in range(count)], abs=1e-4)
+
+
+def test_hours_are_engraved_as_strokes_with_twelve_above() -> None:
+    work = model("longcase-clock-cycloidal")
+    lines = about(work, engraved(work, "dial-minutes-and-hours-and-seconds"), "minutes")
+    inner = min(hypot(*line[0]) for line in lines if len(line) > 80)
+    strokes = [line for line in lines if max(hypot(*point) for point in line) < 0.95 * inner - 1e-6]
+    near = [line for line in strokes if abs(sum(x for x, _ in line) / len(line)) < 0.2 * inner and line[0][1] > 0]
+    assert len(near) == 4, "XII: two strokes of the X, two of the I"
 
 
 def test_the_metonic_spiral_has_235_months_in_five_turns() -> None:
     work = model("freeth-2008")
     lines = about(work, engraved(work, "dial-metonic-and-games-and-callippic-and-saros-and-exeligmos"), "metonic")
-    marks = [line[0] for line in lines if len(line) == 2]
+    radial = [line for line in lines if len(line) == 2 and abs(clockwise(line[0]) - clockwise(line[1])) < 1e-4]
+    marks = [line[0] for line in radial if hypot(*line[0]) > hypot(*line[1])]
     assert len(marks) == 236, "the last cell has an end too"
     assert [clockwise(mark) for mark in marks] == pytest.approx([5 * k / 235 % 1 for k in range(236)], abs=1e-4)
     radii = [hypot(*mark) for mark in marks]
@@ -103,7 +111,9 @@ def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
     (found,) = [each for each in export_files(work, ["dxf"]) if each.path.endswith("and-seconds.dxf")]
     space = ezdxf.read(io.StringIO(found.make().decode())).modelspace()
     lines = [each for each in space.query("LWPOLYLINE") if each.dxf.layer == "ENGRAVE"]
-    assert len(lines) == 60 + 60 + 12 + 3, "marks of three scales, and their circles"
+    letters = [each for dial in work.dials for circle in dial.circles for each in circle.scales.values()]
+    strokes = sum(len(part.lines) for scale in letters for part in engrave(scale) if part.kind == "letters")
+    assert len(lines) == 60 + 60 + 12 + 3 + strokes, "marks of three scales, their circles, their numerals"
     assert not any(line.closed for line in lines)
 
 

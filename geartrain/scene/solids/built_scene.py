@@ -131,15 +131,14 @@ def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
     for plate in model.dials:
         for circle in plate.circles:
             for at, face in enumerate(faces):
-                scale = circle.scales.get(face.id)
-                if scale is None or np.hypot(*np.subtract(stack.flat(face.centre), circle.at)) > _SAME:
+                radius = circle.radii.get(face.id)
+                if radius is None or np.hypot(*np.subtract(stack.flat(face.centre), circle.at)) > _SAME:
                     continue
                 height = plate.high if dot(face.normal, stack.normal or face.normal) > 0 else plate.low
                 faces[at] = replace(
                     face,
                     centre=stack.in_space(circle.at, height),
-                    radius=scale.outer,
-                    inner=scale.inner,
+                    radius=radius,
                     plate=circle.radius,
                 )
     return tuple(faces)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.vectors import cross, dot
-from geartrain.scene.dial_scale import DialScale, clock_point
+from geartrain.scene.dial_marks import engrave
+from geartrain.scene.dial_scale import DialScale
 from geartrain.scene.layout.swept_overlap import segment_distance
 from geartrain.scene.parts.dial_feet import RADIUS as FOOT
 from geartrain.scene.parts.dial_feet import dial_feet
@@ -31,7 +32,7 @@ THICKNESS = 1.5
 _AWAY = 2.0  # mm from all that turns to a dial
 _ROOM = 0.5  # mm round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
-_SCALE, _NUMBER, _TICK, _LETTER = 0.84, 1.075, 0.05, 0.055  # of the radius of a dial
+_SCALE, _LETTER = 0.965, 0.055  # of the radius of a dial
 _SMALLEST = 1.2  # mm: letters
 _LAND = 1.0  # mm of plate round the end of a foot
 _SIDES = 48  # points of a circle whose convex hull is an edge
@@ -49,32 +50,27 @@ class DialCircle:
     radius, hole : float
         Of all that is engraved; diameter of the hole for the arbors of its pointers [mm].
     scales : mapping of str to DialScale
-        By dial, radii in mm.
+        By dial.
+    radii : mapping of str to float
+        By dial, of its scale [mm].
     """
 
     at: Point
     radius: float
     hole: float
     scales: dict[str, DialScale]
+    radii: dict[str, float]
 
     def lines(self) -> Iterator[Floats]:
-        """What is engraved of circles, spirals and borders of cells, about its middle."""
-        for scale in self.scales.values():
-            yield scale.line()
-            yield from (np.array(mark) for mark in scale.marks(_TICK * self.radius))
+        """What is engraved, letters too, about its middle."""
+        for name, scale in self.scales.items():
+            for each in engrave(scale):
+                yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Numbers and names, about its middle."""
+        """The names of dials, below the hole."""
         height = max(_LETTER * self.radius, _SMALLEST)
-        for depth, (name, scale) in enumerate(self.scales.items()):
-            band = (scale.outer - scale.inner) / scale.turns  # of one turn of a spiral: marks take its upper part
-            for cell, turn in scale.numbers():
-                if scale.turns == 1:
-                    at, tall = clock_point(_NUMBER * scale.outer, turn), 0.8 * height
-                else:
-                    tall = 0.42 * band
-                    at = -(0.35 * len(str(cell)) + 0.3) * tall, scale.radius(float(turn)) + 0.2 * band
-                yield EngravedText(str(cell), at, tall)
+        for depth, name in enumerate(self.scales):
             yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)
 
 
@@ -225,8 +221,6 @@ def _circle(
     if radius <= hole:
         return None
     share = _SCALE * radius / max(face.radius for face in faces)
-    scales = {
-        face.id: DialScale(face.turns, face.divisions, share * face.radius, share * face.inner)
-        for face in sorted(faces, key=lambda each: -each.radius)
-    }
-    return DialCircle(column.at, radius, hole, scales)
+    ordered = sorted(faces, key=lambda each: -each.radius)
+    scales, radii = {face.id: face.scale for face in ordered}, {face.id: share * face.radius for face in ordered}
+    return DialCircle(column.at, radius, hole, scales, radii)

@@ -79,7 +79,7 @@ export class Machine {
     const whole = Math.floor(raw / TURN);
     const angle = Math.min(Math.max(raw - whole * TURN, 0), TURN);
     const made = mean.floor + BigInt(whole);
-    const coils = BigInt((dial === null ? 1 : this.scene.dials[dial].turns) || 1);
+    const coils = BigInt((dial === null ? 1 : this.scene.dials[dial].scale.turns) || 1);
     const along = Number(((made % coils) + coils) % coils) + angle / TURN;
     return { angle, text: degrees(angle), error, mean, whole: made, along };
   }

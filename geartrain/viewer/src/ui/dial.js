@@ -1,14 +1,18 @@
-// One dial as a drawing: scale, spiral, zero mark, hands. Clockwise on the page is clockwise as read.
+// One dial as a drawing: what is engraved, zero mark, hands. Clockwise on the page is clockwise as read.
 import { NEEDLES } from "../colours.js";
+import { engraved } from "../faces.js";
 import { svg } from "./element.js";
 import { skyOf } from "./sky.js";
 
-const RIM = 84;
+const RIM = 90;
+const PLAIN = { turns: 1, divisions: 12, inner: 1, outer: 1, way: 1 }; // of an output without a dial
 const place = (turn, radius, zero) => {
   const angle = 2 * Math.PI * turn + zero;
   return [radius * Math.sin(angle), -radius * Math.cos(angle)];
 };
 const at = (point) => `${point[0].toFixed(2)} ${point[1].toFixed(2)}`;
+
+const pathOf = (line) => `M${engraved(line).map(([x, y]) => at([RIM * x, -RIM * y])).join("L")}`;
 
 /** Where the zero mark stands as one faces the dial: radians clockwise from the top. */
 export function zeroOf(dial) {
@@ -20,21 +24,12 @@ export function zeroOf(dial) {
   return Math.atan2(across, dial.zero[1]);
 }
 
-function every(divisions) {
-  if (divisions === 360) return 30;
-  if (divisions > 60) return 10;
-  return divisions > 12 ? 5 : 1;
-}
-
 export class Dial {
   /** `dial` as in the scene, or null for a plain face; `hands` the readings that stand on it. */
   constructor(name, dial, hands) {
-    this.turns = dial?.turns || 1;
-    this.divisions = dial?.divisions ?? 12;
-    this.numbered = dial !== null;
+    this.scale = dial?.scale ?? PLAIN;
+    this.engraving = dial?.engraving ?? [];
     this.zero = dial ? zeroOf(dial) : 0;
-    const inner = dial && dial.radius > 0 ? dial.inner / dial.radius : 1;
-    this.inner = this.turns > 1 ? RIM * Math.min(0.75, Math.max(0.4, inner)) : RIM;
     this.hands = hands.map((hand, order) => ({ reading: hand, node: this.#hand(order, hand), sky: this.#sky(order, hand) }));
     this.node = svg(
       "svg",
@@ -48,45 +43,19 @@ export class Dial {
   }
 
   #radius(turns) {
-    return this.inner + ((RIM - this.inner) * turns) / this.turns;
+    const { inner, outer, turns: all } = this.scale;
+    return RIM * (inner + ((outer - inner) * turns) / all);
   }
 
+  /** What is engraved, as the scene has it; of a plain face, a rim and twelve marks. */
   #scale() {
-    const steps = 96 * this.turns;
-    const line = Array.from({ length: steps + 1 }, (_, k) => {
-      const turns = (k / steps) * this.turns;
-      return at(place(turns, this.#radius(turns), this.zero));
-    });
-    const bold = every(this.divisions);
-    const [fine, major, numbers] = [[], [], []];
-    for (let k = 0; k < this.divisions && this.divisions > 1; k += 1) {
-      const turns = (k / this.divisions) * this.turns;
-      const radius = this.#radius(turns);
-      const long = k % bold === 0;
-      (long ? major : fine).push(
-        `M${at(place(turns, radius, this.zero))}L${at(place(turns, radius + (long ? 6 : 3.2), this.zero))}`,
-      );
-      if (this.numbered && long && this.turns === 1 && this.divisions / bold <= 12)
-        numbers.push(this.#number(k, turns));
-    }
-    const mark = [place(0, RIM + 12.5, this.zero), place(0.012, RIM + 4.5 + 7, this.zero)];
-    const tip = place(0, this.#radius(0) + 1, this.zero);
-    const sides = [-0.011, 0.011].map((turn) => at(place(turn, RIM + 12.5, this.zero)));
-    return [
-      svg("path", { class: "rim", d: `M${line.join("L")}` }),
-      svg("path", { class: "fine", d: fine.join("") }),
-      svg("path", { class: "major", d: major.join("") }),
-      ...numbers,
-      svg("path", {
-        class: "zero",
-        d: this.turns > 1 ? `M${at(tip)}L${at(mark[0])}` : `M${sides[0]}L${sides[1]}L${at(tip)}Z`,
-      }),
-    ];
-  }
-
-  #number(k, turns) {
-    const [x, y] = place(turns, RIM - 9, this.zero);
-    return svg("text", { x: x.toFixed(2), y: (y + 3).toFixed(2), class: "number" }, String(k));
+    const turned = { transform: `rotate(${((this.zero * 180) / Math.PI).toFixed(6)})` };
+    const drawn = this.engraving.map(([kind, width, lines]) => svg("path", { class: kind, "stroke-width": (width * RIM).toFixed(3), d: lines.map(pathOf).join("") }));
+    const marks = Array.from({ length: 12 }, (_, k) => `M${at(place(k / 12, RIM, 0))}L${at(place(k / 12, RIM - 4, 0))}`).join("");
+    const plain = [svg("circle", { class: "rim", r: RIM }), svg("path", { class: "fine", d: marks })];
+    const sides = [-0.011, 0.011].map((turn) => at(place(turn, RIM + 8, 0)));
+    const zero = svg("path", { class: "zero", d: `M${sides[0]}L${sides[1]}L${at(place(0, RIM + 1.5, 0))}Z` });
+    return [svg("g", turned, ...(drawn.length ? drawn : plain), zero)];
   }
 
   #hand(order, reading) {
@@ -105,18 +74,18 @@ export class Dial {
   }
 
   draw(group, tail, order) {
-    const reach = RIM - 4 - (this.turns === 1 ? (order % 4) * 6 : 0);
+    const reach = RIM * this.scale.outer - 2 - (this.scale.turns === 1 ? (order % 4) * 6 : 0);
     group.append(
       svg("path", {
         class: "needle",
         d: `M-1.5 ${tail}L-1.1 ${-reach + 8}L0 ${-reach}L1.1 ${-reach + 8}L1.5 ${tail}Z`,
       }),
     );
-    if (this.turns > 1) group.append(svg("circle", { class: "follower", r: 3.4 }));
+    if (this.scale.turns > 1) group.append(svg("circle", { class: "follower", r: 3.4 }));
   }
 
   #place(mark, turns) {
-    const [x, y] = place(turns, this.#radius(turns) + (this.turns > 1 ? 0 : 1), this.zero);
+    const [x, y] = place(this.scale.way * turns, this.#radius(turns), this.zero);
     mark.setAttribute("cx", x.toFixed(3));
     mark.setAttribute("cy", y.toFixed(3));
     mark.setAttribute("data-turns", turns.toFixed(12));
@@ -129,7 +98,7 @@ export class Dial {
       if (sky) this.#place(sky, skyOf(reading, reading.pointer.targets[0], reading.machine.made()));
       node.classList.toggle("unknown", !value);
       if (!value) continue;
-      const turn = (value.degrees + (this.zero * 180) / Math.PI) % 360;
+      const turn = (this.scale.way * value.degrees + (this.zero * 180) / Math.PI) % 360;
       node.setAttribute("transform", `rotate(${turn.toFixed(6)})`);
       node.setAttribute("data-turns", value.turns.toFixed(12)); // from the start of the scale
       node.querySelector(".follower")?.setAttribute("cy", (-this.#radius(value.turns)).toFixed(3));

@@ -43,7 +43,7 @@ class Card {
       ),
     );
     const scale =
-      dial && dial.divisions > 1 ? `${dial.divisions} divisions${dial.turns > 1 ? ` on ${dial.turns} turns` : ""}` : "";
+      dial && dial.scale.divisions > 1 ? `${dial.scale.divisions} ${dial.scale.cell}s${dial.scale.turns > 1 ? ` on ${dial.scale.turns} turns` : ""}` : "";
     this.node = el(
       "figure",
       { class: "card" },

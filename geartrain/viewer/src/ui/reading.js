@@ -1,4 +1,4 @@
-// What a pointer reads: its angle from the zero mark, clockwise as read, on a scale of one or several turns.
+// What a pointer reads: its angle from the zero mark, the way its scale is counted, on one turn or several.
 
 export const within = (value, size) => ((value % size) + size) % size;
 
@@ -8,21 +8,23 @@ export class Reading {
     this.index = index;
     this.pointer = scene.pointers[index];
     this.dial = this.pointer.dial === null ? null : scene.dials[this.pointer.dial];
-    this.turns = this.dial?.turns || 1;
+    this.scale = this.dial?.scale ?? { turns: 1, divisions: 0, way: 1, names: [] };
+    this.turns = this.scale.turns;
+    this.sense = this.pointer.sense * this.scale.way; // 1 where the scale is counted as the output grows
     // turns from the start of the scale at which it starts
-    this.start = (this.pointer.sense * (scene.bodies[this.pointer.body].start - scene.bodies[this.pointer.base].start)) / (2 * Math.PI);
+    this.start = (this.sense * (scene.bodies[this.pointer.body].start - scene.bodies[this.pointer.base].start)) / (2 * Math.PI);
     this.known = this.pointer.speed !== null && Boolean(machine);
   }
 
-  /** Where it stands now, {turns, degrees, cell, divisions}: turns from the start of the scale (0 to its number of turns); null where nothing turns. */
+  /** Where it stands now, {turns, degrees, cell, scale}: turns from the start of the scale (0 to its number of turns), the way it is counted; null where nothing turns. */
   get now() {
     if (!this.known) return null;
-    const turns = within(this.pointer.sense * this.machine.pointer(this.index).along, this.turns);
-    const divisions = this.dial?.divisions ?? 0;
+    const turns = within(this.sense * this.machine.pointer(this.index).along, this.turns);
+    const { divisions } = this.scale;
     return {
       turns,
       degrees: within(turns, 1) * 360,
-      divisions,
+      scale: this.scale,
       cell: divisions > 1 ? (turns / this.turns) * divisions : null,
     };
   }
@@ -35,11 +37,28 @@ export function degrees(value, places = 2) {
 }
 
 /** Number of the cell, from 1; a hand on a line stands in the cell after it, whatever floats make of the line. */
-const cellOf = ({ cell, divisions }) => (Math.floor(cell + 1e-9) % divisions) + 1;
+const cellOf = ({ cell, scale }) => Math.floor(cell + 1e-9) % scale.divisions;
+
+/** The turn of a spiral, the name of the division, the cell, as `told` of geartrain/scene/dial_scale.py has them. */
+function shownAt(reading) {
+  const { scale, turns } = reading;
+  const done = cellOf(reading);
+  const named = scale.names.find(([name, first, span]) => name && done + 1e-9 >= ratio(first) && done + 1e-9 < ratio(first) + ratio(span));
+  const parts = scale.turns > 1 ? [`turn ${(Math.floor(turns + 1e-9) % scale.turns) + 1}`] : [];
+  if (named) parts.push(named[0]);
+  if (!named) parts.push(`${scale.cell} ${done + 1}`);
+  else if (scale.names.length < scale.divisions) parts.push(`${scale.cell} ${done - Math.floor(ratio(named[1])) + 1}`);
+  return parts.join(", ");
+}
+
+const ratio = (text) => {
+  const [above, below = 1] = text.split("/");
+  return above / below;
+};
 
 /** The reading in words. */
 export function told(reading) {
   if (!reading) return "not determined";
   if (reading.cell === null) return degrees(reading.degrees);
-  return `${degrees(reading.degrees)}, cell ${cellOf(reading)}`;
+  return `${degrees(reading.degrees)}, ${shownAt(reading)}`;
 }

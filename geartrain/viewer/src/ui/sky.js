@@ -14,7 +14,7 @@ export const hasTargets = (scene) => scene.pointers.some(({ targets }) => target
 /** What a pointer should read, turns from the start of its scale, had it turned at a target's speed since the start. */
 export function skyOf(reading, target, turns) {
   const made = Fraction.of(target.speed).times(turns);
-  return within(reading.pointer.sense * (Number(made.floor % BigInt(reading.turns)) + made.part) + reading.start, reading.turns);
+  return within(reading.sense * (Number(made.floor % BigInt(reading.turns)) + made.part) + reading.start, reading.turns);
 }
 
 /** Turns by which a pointer is ahead of a target in mean motion, exactly; both in their declared sense. */

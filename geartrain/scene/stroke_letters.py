@@ -1,0 +1,156 @@
+"""Letters as strokes, such as a graver cuts: capitals of the Latin and Greek alphabets, figures, a few signs."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from math import cos, sin
+
+Point = tuple[float, float]
+Stroke = tuple[Point, ...]
+
+_HIGH = 8  # of a capital, in the grid below
+_APART, _SPACE = 2.2, 3.0
+
+# strokes by letter: corners as x and y in one figure each, from the foot of the letter; after ~ a stroke is rounded
+_LATIN = {
+    "A": "003860 1353",
+    "B": "0008 ~083857553404 ~044463614000",
+    "C": "~6648280602204062",
+    "D": "0008 ~083866623000",
+    "E": "58080050 0444",
+    "F": "580800 0444",
+    "G": "~6648280602204063 636434",
+    "H": "0008 6068 0464",
+    "I": "0008",
+    "J": "4842 ~4241201001",
+    "K": "0008 5803 2550",
+    "L": "080050",
+    "M": "0008336860",
+    "N": "00086068",
+    "O": "~200206284866624020",
+    "P": "0008 ~083857553404",
+    "Q": "~200206284866624020 3260",
+    "R": "0008 ~083857553404 2450",
+    "S": "~574818070524345351401001",
+    "T": "0868 3038",
+    "U": "0803 ~0301204061636368",
+    "V": "083068",
+    "W": "0820466088",
+    "X": "0068 0860",
+    "Y": "083468 3430",
+    "Z": "08680060",
+}
+_GREEK = {
+    "Γ": "000858",
+    "Δ": "00386000",
+    "Θ": "~200206284866624020 1454",
+    "Λ": "003860",
+    "Ξ": "0858 1444 0050",
+    "Π": "00086860",
+    "Σ": "6808340060",
+    "Φ": "3038 ~22042646644222",
+    "Ψ": "3038 ~080523436568",
+    "Ω": "0020 ~2003062848666340 4060",
+}
+_FIGURES = {
+    "0": "~200206283856523020",
+    "1": "062820",
+    "2": "~0618385754 540050",
+    "3": "~07183857553424 ~24345351301001",
+    "4": "40480252",
+    "5": "480805 ~05355451301001",
+    "6": "~4728060220305253351503",
+    "7": "085820",
+    "8": "~240507183857553424 ~240301203051533424",
+    "9": "~1130525638280605234355",
+}
+_SIGNS = {
+    ".": "0001",
+    ",": "1100",
+    "-": "0434",
+    "/": "0048",
+    "'": "0806",
+    "°": "~0608282606",
+    ":": "0102 0506",
+    "+": "0444 2226",
+}
+_SAME = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ABEZHIKMNOPTYX", strict=True))
+_LETTERS = _LATIN | _GREEK | _FIGURES | _SIGNS
+_UNKNOWN = "0008585000"
+
+
+@cache
+def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
+    """The strokes of a capital, and its width, where capitals are 1 high and stand on 0; unknown letters are a box."""
+    drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
+    strokes = tuple(_stroke(each) for each in drawn.split())
+    return strokes, max(x for stroke in strokes for x, _ in stroke)
+
+
+def _stroke(drawn: str) -> Stroke:
+    figures = drawn.lstrip("~")
+    corners = [(int(x) / _HIGH, int(y) / _HIGH) for x, y in zip(figures[::2], figures[1::2], strict=True)]
+    return tuple(_rounded(corners)) if drawn.startswith("~") else tuple(corners)
+
+
+def _rounded(corners: list[Point]) -> Iterator[Point]:
+    """Every corner cut off at a quarter of its sides (Chaikin); ends stay, but where a stroke is closed."""
+    closed = corners[0] == corners[-1]
+    found = [] if closed else corners[:1]
+    for (x, y), (u, v) in pairwise(corners):
+        found += [((3 * x + u) / 4, (3 * y + v) / 4), ((x + 3 * u) / 4, (y + 3 * v) / 4)]
+    yield from found
+    yield found[0] if closed else corners[-1]
+
+
+def capitals(text: str) -> str:
+    """A text as it is engraved: in capitals, without accents."""
+    return "".join(each for each in unicodedata.normalize("NFD", text.upper()) if not unicodedata.combining(each))
+
+
+def _advances(text: str) -> list[tuple[str, float]]:
+    """Its letters, each with its width and its gap, over their height."""
+    gap = _APART / _HIGH
+    return [(each, (_SPACE / _HIGH if each.isspace() else letter_strokes(each)[1]) + gap) for each in capitals(text)]
+
+
+def text_length(text: str) -> float:
+    """How long a text is, over the height of its letters."""
+    return max(0.0, sum(wide for _, wide in _advances(text)) - _APART / _HIGH)
+
+
+@dataclass(frozen=True, slots=True)
+class CurvedLine:
+    """A line along which text runs: round the middle at some radius, at an angle clockwise from above (rad).
+
+    inwards   its letters have their feet outside: so it is read where it runs below the middle
+    """
+
+    radius: float
+    angle: float
+    inwards: bool = False
+
+
+def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:
+    """The strokes of a text whose middle is that of its line."""
+    way = -1.0 if line.inwards else 1.0
+    along = -text_length(text) * height / 2
+    for letter, advance in _advances(text):
+        wide = (advance - _APART / _HIGH) * height
+        turned = line.angle + way * (along + wide / 2) / line.radius
+        along += advance * height
+        if letter.isspace():
+            continue
+        out, right = (sin(turned), cos(turned)), (cos(turned), -sin(turned))
+        for stroke in letter_strokes(letter)[0]:
+            yield tuple(
+                (
+                    (line.radius + v) * out[0] + u * right[0],
+                    (line.radius + v) * out[1] + u * right[1],
+                )
+                for u, v in ((way * (x * height - wide / 2), way * (y - 0.5) * height) for x, y in stroke)
+            )

@@ -1,0 +1,223 @@
+"""Scales of dials: what a pointer reads, where cells lie, what is engraved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import combinations, pairwise
+from math import atan2, hypot, pi
+
+import numpy as np
+import pytest
+import shipped
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geartrain.scene.dial_marks import Engraving, engrave
+from geartrain.scene.dial_scale import DialScale, roman, scale_of
+from geartrain.scene.stroke_letters import CurvedLine, capitals, curved_text, letter_strokes, text_length
+from geartrain.train import Dial
+
+METONIC = scale_of(Dial(turns=5, divisions=235, cell="month"))
+SAROS = scale_of(Dial(turns=4, divisions=223, cell="month"))
+ZODIAC = scale_of(Dial(names="zodiac"))
+
+
+def scales() -> Iterator[tuple[str, DialScale]]:
+    """Of all shipped trains."""
+    for name in shipped.trains():
+        for key, dial in shipped.train(name).declaration.dials.items():
+            if dial.look == "scale":
+                yield f"{name} {key}", scale_of(dial)
+
+
+# ------------------------------------------------------------------------------------------------------------- reading
+
+
+@given(st.integers(1, 7), st.integers(1, 400), st.data())
+def test_a_pointer_in_the_middle_of_a_cell_reads_it(turns: int, divisions: int, data: st.DataObject) -> None:
+    cell = data.draw(st.integers(1, divisions))
+    rounds = data.draw(st.integers(-3, 3))
+    middle = Fraction((2 * cell - 1) * turns, 2 * divisions) + rounds * turns
+    read = scale_of(Dial(turns=turns, divisions=divisions)).read(middle)
+    assert (read.cell, read.turn) == (cell, int((middle - rounds * turns) // 1) + 1)
+
+
+def test_the_month_after_nineteen_years_is_the_first_again() -> None:
+    years = [Fraction(0), Fraction(19, 5), Fraction(19) - Fraction(19, 235), Fraction(19)]
+    assert [METONIC.told(each * Fraction(5, 19)) for each in years] == [
+        "turn 1, month 1",  # a turn is 47 months, 3.8 years
+        "turn 2, month 48",
+        "turn 5, month 235",
+        "turn 1, month 1",
+    ]
+
+
+def test_saros_turns_end_within_a_month() -> None:
+    assert [SAROS.told(Fraction(turn)) for turn in range(4)] == [
+        "turn 1, month 1",  # a turn is 55 3/4 months
+        "turn 2, month 56",
+        "turn 3, month 112",
+        "turn 4, month 168",
+    ]
+
+
+def test_signs_and_days_are_told_by_name() -> None:
+    assert ZODIAC.told(Fraction(134, 360)) == "Leo, degree 15"
+    year = scale_of(Dial(names="egyptian_months"))
+    assert year.told(Fraction(364, 365)) == "Epagomenal, day 5"
+    assert scale_of(Dial(names=["Isthmia", "Nemea"])).told(Fraction(3, 4)) == "Nemea"
+    assert scale_of(Dial(names=["", "8"])).told(Fraction(1, 4)) == "cell 1", "a blank sector has its number"
+    assert scale_of(Dial()).told(Fraction(1, 4)) == ""
+
+
+def test_the_sun_passes_the_first_sign_in_a_twelfth_of_a_year() -> None:
+    scene = shipped.scene("freeth-2008")
+    zodiac = next(each.scale for each in scene.dials if each.id == "zodiac")
+    assert [zodiac.read(Fraction(month, 12)).name for month in range(12)] == [name for name, *_ in ZODIAC.names]
+
+
+def test_numerals_end_at_the_zero_mark() -> None:
+    hours = scale_of(Dial(divisions=12, numerals="roman"))
+    assert [text for text, _ in hours.numerals] == [
+        "I",
+        "II",
+        "III",
+        "IV",
+        "V",
+        "VI",
+        "VII",
+        "VIII",
+        "IX",
+        "X",
+        "XI",
+        "XII",
+    ]
+    assert dict((line, text) for text, line in hours.numerals)[0] == "XII"
+    double = scale_of(Dial(divisions=24, numerals={"style": "roman", "to": 12}))
+    assert [text for text, _ in double.numerals] == [text for text, _ in hours.numerals] * 2
+    minutes = scale_of(Dial(divisions=60, numerals="arabic"))
+    assert [int(text) for text, _ in minutes.numerals] == list(range(5, 61, 5))
+    assert all(int(text) % 60 == line for text, line in minutes.numerals)
+
+
+def test_roman_figures_are_those_of_a_table() -> None:
+    printed = {
+        1: "I",
+        4: "IV",
+        9: "IX",
+        14: "XIV",
+        40: "XL",
+        49: "XLIX",
+        90: "XC",
+        400: "CD",
+        1994: "MCMXCIV",
+        235: "CCXXXV",
+    }
+    assert {number: roman(number) for number in printed} == printed
+
+
+# ----------------------------------------------------------------------------------------------------------- engraving
+
+
+def borders(parts: list[Engraving], radius: float) -> list[float]:
+    """Turns clockwise from above of lines inwards from a circle."""
+    lines = [line for part in parts if part.kind in ("fine", "bold") for line in part.lines]
+    return sorted(atan2(*line[0]) / (2 * pi) % 1 for line in lines if abs(hypot(*line[0]) - radius) < 1e-9)
+
+
+@pytest.mark.parametrize(("way", "at"), [("clockwise", 1 / 8), ("counter-clockwise", 7 / 8)])
+def test_what_is_counted_the_other_way_is_engraved_the_other_way(way: str, at: float) -> None:
+    parts = engrave(scale_of(Dial(divisions=4, glyphs={1: "A"}, counted=way)))
+    letters = [part for part in parts if part.kind == "letters"][-1]
+    points = [point for line in letters.lines for point in line]
+    x, y = (sum(values) / len(points) for values in zip(*points, strict=True))
+    assert atan2(x, y) / (2 * pi) % 1 == pytest.approx(at, abs=0.01)
+
+
+def test_degrees_and_days_are_engraved_one_by_one() -> None:
+    parts = engrave(scale_of(Dial(names="zodiac", around={"names": "egyptian_months"})))
+    assert borders(parts, 1.0) == pytest.approx([day / 365 for day in range(365)], abs=1e-9)
+    assert borders(parts, scale_of(Dial(around={})).outer) == pytest.approx([d / 360 for d in range(360)], abs=1e-9)
+
+
+def test_a_spiral_has_a_border_at_both_ends_of_every_month() -> None:
+    for scale, months in ((METONIC, 235), (SAROS, 223)):
+        lines = [line for part in engrave(scale) if part.kind == "fine" for line in part.lines]
+        assert len(lines) == months + 1
+        pitch = 0.45 / scale.turns
+        for month, (outer, inner) in enumerate(lines):
+            turned = month * scale.turns / months
+            assert hypot(*outer) == pytest.approx(0.55 + pitch * turned)
+            assert hypot(*inner) == pytest.approx(hypot(*outer) - pitch)
+            assert atan2(*outer) / (2 * pi) % 1 == pytest.approx(turned % 1, abs=1e-9) or turned % 1 < 1e-9
+
+
+def letters_of(scale: DialScale) -> list[tuple[tuple[float, float], ...]]:
+    """Strokes of all that is written."""
+    return [line for part in engrave(scale) if part.kind == "letters" for line in part.lines]
+
+
+def crossed(scale: DialScale) -> bool:
+    """True where a stroke of a letter runs through a border."""
+    lines = [line for part in engrave(scale) if part.kind in ("fine", "bold") for line in part.lines]
+    angle = np.array([atan2(*a) for a, _ in lines])
+    low, high = (np.array([pick(hypot(*a), hypot(*b)) for a, b in lines]) for pick in (min, max))
+    for stroke in letters_of(scale):
+        for one, other in pairwise(stroke):
+            first, last = sorted((atan2(*one), atan2(*other)))
+            near, far = sorted((hypot(*one), hypot(*other)))
+            met = (first < angle) & (angle < last) & (low < far - 1e-9) & (near < high - 1e-9)
+            if last - first < 1 and met.any():  # else it lies across the line below the middle
+                return True
+    return False
+
+
+def test_engraving_keeps_within_its_dial_and_letters_off_borders() -> None:
+    for scale, name in {scale: name for name, scale in scales()}.items():
+        parts = engrave(scale)
+        assert all(hypot(*point) < 1 + 1e-9 for part in parts for line in part.lines for point in line), name
+        assert all(part.width > 0.0014 for part in parts if part.kind == "letters"), f"{name}: too small to be read"
+        assert not crossed(scale), name
+
+
+@given(st.lists(st.text("ABCDEFGHIJ", min_size=1, max_size=14), min_size=1, max_size=12))
+def test_a_name_keeps_to_its_own_divisions(names: list[str]) -> None:
+    parts = engrave(scale_of(Dial(names=[{"name": each} for each in names])))
+    for stroke in (line for part in parts if part.kind == "letters" for line in part.lines):
+        turns = [atan2(*point) / (2 * pi) % 1 * len(names) for point in stroke]
+        assert len(names) == 1 or {int(turn) for turn in turns} == {int(turns[0])}
+
+
+# ------------------------------------------------------------------------------------------------------------- letters
+
+
+def test_no_two_letters_are_drawn_alike() -> None:
+    letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZΓΔΘΛΞΠΣΦΨΩ0123456789.,-/'°:+"
+    drawn = {letter: letter_strokes(letter) for letter in letters}
+    assert not [pair for pair in combinations(letters, 2) if drawn[pair[0]] == drawn[pair[1]]]
+    assert letter_strokes("Α") == letter_strokes("A"), "Greek and Latin share their capitals"
+    assert letter_strokes("Ж") == letter_strokes("Ѭ"), "a box"
+    for letter in letters:
+        strokes, wide = drawn[letter]
+        assert all(0 <= x <= wide + 1e-9 and 0 <= y <= 1 for stroke in strokes for x, y in stroke), letter
+
+
+def test_small_letters_and_accents_are_engraved_as_capitals() -> None:
+    assert capitals("Ἴσθμια été") == "ΙΣΘΜΙΑ ETE"
+
+
+def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_asked() -> None:
+    for inwards, angle in ((False, 0.0), (True, pi)):
+        strokes = list(curved_text("HH", 0.1, CurvedLine(1000.0, angle, inwards)))
+        across = [x for stroke in strokes for x, _ in stroke]
+        up = [y for stroke in strokes for _, y in stroke]
+        assert max(across) - min(across) == pytest.approx(0.1 * text_length("HH"), rel=1e-3)
+        assert max(across) + min(across) == pytest.approx(0, abs=1e-6)
+        assert (max(up) + min(up)) / 2 == pytest.approx(1000 if angle == 0 else -1000)
+
+
+def test_text_below_the_middle_stands_upright() -> None:
+    """The bar of a T is above its foot."""
+    bar, foot = curved_text("T", 0.1, CurvedLine(1.0, pi, inwards=True))
+    assert bar[0][1] == bar[1][1] > foot[0][1]

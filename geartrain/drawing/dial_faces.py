@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Circle, Figure
+from geartrain.drawing.backend import Axes, Circle, Figure, Polygon
 from geartrain.drawing.labels import text_width
 from geartrain.drawing.style import BLACK, FINE, GREY, SMALL, series_look, sheet, title_of, write
 from geartrain.errors import Problem, QuestionError
@@ -18,6 +18,7 @@ from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.dial_scale import DialScale, clock_point, plain_circle
+from geartrain.scene.hand_outlines import HANDS
 from geartrain.scene.pose import body_errors, turns_of
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
 _OUTER = _FACE / 2 - 0.2  # radius of a face
 _FINEST = 0.3  # points: a line
+_PLAIN = len(HANDS["needle"].stations)
 _SAMPLE = 0.45  # inches of a hand in the key
 
 
@@ -37,11 +39,14 @@ class PointerReading:
 
     turned   turns of it since the zero pose on the mean, clockwise as read positive, exact; None if undetermined
     error    what teeth and pins add (turns, clockwise as read)
+    reach    length of its hand over the radius of a scale, and `outline` (x, half its width) over that length
     """
 
     output: str
     turned: Fraction | None
     error: float
+    reach: float = 1.0
+    outline: Sequence[tuple[float, float]] = ()
 
     @property
     def angle(self) -> float:
@@ -68,7 +73,8 @@ def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
         start = (body.start - base.start * body.sense * base.sense) / (2 * pi)
         swing = float(error[pointer.body] - error[pointer.base] * body.sense * base.sense) / (2 * pi) + start
         turned = turns_of(pointer.speed, turns) * pointer.sense if known else None
-        found.append(PointerReading(pointer.output, turned, pointer.sense * swing))
+        hand = (pointer.reach, pointer.outline)
+        found.append(PointerReading(pointer.output, turned, pointer.sense * swing, *hand))
     return found
 
 
@@ -152,7 +158,7 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
     outer = _OUTER
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
-        share = 1.0 if face.scale.turns > 1 else 0.97 - 0.07 * (order % 10)
+        share = 1.0 if face.scale.turns > 1 else (readings[at].reach or 0.97) - 0.07 * (order % 10)
         _draw_pointer(axes, face, readings[at], centre, outer * share, order)
     axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
     name = face.name or readings[face.pointers[0]].output
@@ -200,8 +206,20 @@ def _draw_pointer(
     axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, solid_capstyle="round", zorder=6)
     axes.plot(*zip(centre, tip, strict=True), linewidth=2.2, zorder=6, gid=f"pointer {reading.output}", **look)
     axes.plot(*zip(tail, centre, strict=True), color=look["color"], linewidth=2.2, zorder=6)
+    if scale.turns == 1 and len(reading.outline) > _PLAIN:
+        _fill_hand(axes, reading, centre, tip, look["color"])
     if scale.turns > 1 or len(face.pointers) > 1:  # of hands over each other, the ends are still seen
         axes.plot(*tip, "o", color=look["color"], markersize=4, zorder=7)
+
+
+def _fill_hand(
+    axes: Axes, reading: PointerReading, centre: tuple[float, float], tip: tuple[float, float], colour: str
+) -> None:
+    """The outline of a hand that is more than a needle."""
+    along = np.subtract(tip, centre)
+    across = np.array([along[1], -along[0]])
+    right, left = ([centre + x * along + way * w * across for x, w in reading.outline] for way in (1, -1))
+    axes.add_patch(Polygon([*right, *left[::-1]], closed=True, facecolor=colour, edgecolor="none", zorder=6))
 
 
 def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:

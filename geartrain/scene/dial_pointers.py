@@ -14,6 +14,7 @@ from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled,
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.dial_scale import RING, DialScale, scale_of
+from geartrain.scene.hand_outlines import HANDS
 from geartrain.scene.output_dependence import find_dependence
 from geartrain.scene.sky import find_targets
 from geartrain.scene.stroke_letters import Stroke
@@ -176,7 +177,9 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
         pointer = _pointer(stage, name, keys, paths.get(name, ()))
         if pointer.dial is not None:
             face = dials[keys[pointer.dial]]
-            pointer = replace(pointer, level=face.radius * (_LOWEST + _STEP * taken[face.id]))
+            hand = HANDS[stage.outputs[name].hand]
+            level = face.radius * (_LOWEST + _STEP * taken[face.id])
+            pointer = replace(pointer, level=level, reach=hand.reach, outline=hand.stations)
             taken[face.id] += 1
         found.append(pointer)
     return tuple(found)

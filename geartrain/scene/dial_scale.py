@@ -79,7 +79,9 @@ class DialScale:
     around : DialScale or None
         Another scale around it.
     radial : bool
-        Whether all numerals stand with their feet to the middle, as Roman ones do.
+        Whether all numerals stand with their feet to the middle, as Roman ones do, which know no 0.
+    counted : int
+        Where numerals are declared, the line at which they begin again; else 0: cells are counted, from 1.
     """
 
     turns: int
@@ -93,6 +95,7 @@ class DialScale:
     glyphs: tuple[tuple[int, str], ...] = ()
     around: DialScale | None = None
     radial: bool = False
+    counted: int = 0
 
     def radius(self, turned: float) -> float:
         """After some turns from the inner end; of a circle, always the outer one."""
@@ -111,6 +114,12 @@ class DialScale:
                 return ScaleReading(floor(along) + 1, floor(done) + 1, name, floor(done - first) + 1)
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
+    def number(self, cell: int) -> int:
+        """What a cell is called: its number, or with numerals that of the line before it, as on clocks."""
+        if not self.counted:
+            return cell
+        return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
+
     def told(self, turned: Fraction) -> str:
         """The same in words, such as `Leo, degree 14`; empty without divisions. Which pointer is read on what is around
         it, no train says."""
@@ -122,7 +131,7 @@ class DialScale:
         if read.name and len(self.names) < self.divisions:
             parts.append(f"{self.cell} {read.within}")
         elif not read.name and self.divisions > 1:
-            parts.append(f"{self.cell} {read.cell}")
+            parts.append(f"{self.cell} {self.number(read.cell)}")
         return ", ".join(parts)
 
 
@@ -149,6 +158,7 @@ def _scale(
         tuple(sorted(graduation.glyphs.items())),
         around,
         graduation.numerals is not None and graduation.numerals.style == "roman",
+        0 if graduation.numerals is None else graduation.numerals.to or graduation.divisions,
     )
 
 

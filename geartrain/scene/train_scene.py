@@ -170,6 +170,10 @@ class Pointer:
         How high the middle of its hand stands over its dial [mm].
     seat : float
         Diameter of the arbor or pipe on whose end the hand sits [mm]; 0 where none is made.
+    reach : float
+        Length of its hand over the radius of its scale.
+    outline : sequence of (float, float)
+        Of its hand, over its length: how far from the axis, and half its width there; none without a dial.
 
     See Also
     --------
@@ -192,6 +196,8 @@ class Pointer:
     targets: Sequence[PointerTarget] = ()
     level: float = 0.0
     seat: float = 0.0
+    reach: float = 0.0
+    outline: Sequence[tuple[float, float]] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,6 +68,10 @@ class DialNumerals(Declared):
         None, description="Where they begin again, such as 12 on a dial of 24 hours; default all divisions"
     )
 
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"enum": ["roman", "arabic"]}, handler(schema))
+
 
 class Graduation(Declared):
     """Divisions along a scale, and what is written at them.

@@ -194,6 +194,9 @@ class Output(Declared):
     published: Published | None = Field(None, description="What a source prints")
     targets: tuple[Annotated[Target, short_for("name")], ...] = Field((), description="What it should show")
     dial: Id | None = Field(None, description="The dial it is read on")
+    hand: Literal["needle", "hour", "minute", "seconds"] = Field(
+        "needle", description="How its hand is made: slender, a spade, a long leaf, or thin with a counterpoise"
+    )
     note: str | None = Field(None, description="A remark for the reader")
 
     def links(self, name: str, frame: str) -> tuple[str, str]:

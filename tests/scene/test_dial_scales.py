@@ -93,12 +93,28 @@ def test_numerals_end_at_the_zero_mark() -> None:
         "XI",
         "XII",
     ]
-    assert dict((line, text) for text, line in hours.numerals)[0] == "XII"
+    assert {line: text for text, line in hours.numerals}[0] == "XII"
     double = scale_of(Dial(divisions=24, numerals={"style": "roman", "to": 12}))
     assert [text for text, _ in double.numerals] == [text for text, _ in hours.numerals] * 2
     minutes = scale_of(Dial(divisions=60, numerals="arabic"))
     assert [int(text) for text, _ in minutes.numerals] == list(range(5, 61, 5))
     assert all(int(text) % 60 == line for text, line in minutes.numerals)
+
+
+def test_clocks_tell_the_line_that_is_past() -> None:
+    hours = scale_of(Dial(divisions=12, numerals="roman", cell="hour"))
+    minutes = scale_of(Dial(divisions=60, numerals="arabic", cell="minute"))
+    double = scale_of(Dial(divisions=24, numerals={"style": "roman", "to": 12}, cell="hour"))
+    quarter_past_twelve, half_past_four = Fraction(49, 4), Fraction(9, 2)
+    assert [hours.told(each / 12) for each in (quarter_past_twelve, half_past_four)] == ["hour 12", "hour 4"]
+    assert [minutes.told(each) for each in (quarter_past_twelve, half_past_four, Fraction(0))] == [
+        "minute 15",
+        "minute 30",
+        "minute 0",
+    ]
+    assert [double.told(Fraction(each, 24)) for each in (0, 11, 12, 13, 23)] == [
+        f"hour {hour}" for hour in (12, 11, 12, 1, 11)
+    ]
 
 
 def test_roman_figures_are_those_of_a_table() -> None:

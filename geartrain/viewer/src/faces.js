@@ -1,4 +1,4 @@
-// Dials: their scales, spirals included, and the needles that move over them.
+// Dials: their scales, spirals included, and the hands that move over them.
 
 import { NEEDLES, PARTS } from "./colours.js";
 import { band, halfBall, plate, Shape, swept } from "./shape.js";
@@ -65,11 +65,11 @@ function socket(scene, index) {
   return { body, colour: PARTS.bezel, gloss: 0.8, shape, matrix, at: vector(centre), dial: index };
 }
 
-/** What shows an output on its dial: a needle, or the two halves of a ball, black towards the reader at zero: [{colour, shape, matrix, at, dial}]. */
+/** What shows an output on its dial: a hand, or the two halves of a ball, black towards the reader at zero: [{colour, shape, matrix, at, dial}]. */
 export function pointerParts(scene, index, order) {
   const { dial } = scene.pointers[index];
   const { look, centre, normal, radius } = scene.dials[dial];
-  if (look !== "ball") return [needlePart(scene, index, order)];
+  if (look !== "ball") return handParts(scene, index, order);
   const matrix = frameAt(centre, normal, [0, 0, scene.front]);
   const common = { gloss: 0.3, matrix, at: vector(centre), dial };
   return [
@@ -78,17 +78,32 @@ export function pointerParts(scene, index, order) {
   ];
 }
 
-/** A needle from the middle of its dial to the rim: {colour, shape, matrix, at, dial}. */
-function needlePart(scene, index, order) {
+const SHORTER = 0.07; // of hands of one dial, the next one
+
+/** Stations of a hand: [x, half width], as long as its scale asks; each that stands over others a little shorter. */
+export function handOf({ outline, reach }, size, order) {
+  const length = size * reach * (1 - SHORTER * (order % 4));
+  return outline.map(([x, w]) => [length * x, length * w]);
+}
+
+/** A hand from the middle of its dial: {colour, shape, matrix, at, dial}; over a spiral an arm, and a slide in it whose pin follows the groove. */
+function handParts(scene, index, order) {
   const pointer = scene.pointers[index];
   const dial = scene.dials[pointer.dial];
-  const length = dial.radius * (0.97 - 0.07 * (order % 4));
-  const width = 0.016 * dial.radius;
-  const thick = Math.min(0.012 * dial.radius, pointer.seat ? 0.9 : Infinity);
+  const { radius, scale } = dial;
+  const thick = Math.min(0.012 * radius, pointer.seat ? 0.9 : Infinity);
   const [low, high] = [pointer.level - thick / 2, pointer.level + thick / 2];
-  const blade = [[-0.16, 1.5], [-0.12, 1.7], [0, 1.1], [0.86, 0.75], [0.88, 1.5], [1, 0.06]].map(([x, w]) => [x * length, w * width]);
-  const shape = plate(new Shape(), blade, low, high);
-  swept(shape, band(0, Math.max(0.05 * dial.radius, 0.75 * pointer.seat), low, high + 0.004 * dial.radius), 20);
   const at = vector(dial.centre);
-  return { colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, shape, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
+  const common = { colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
+  const hub = (shape) => swept(shape, band(0, Math.max(0.05 * radius, 0.75 * pointer.seat), low, high + 0.004 * radius), 20);
+  if (scale.turns === 1) return [{ ...common, shape: hub(plate(new Shape(), handOf(pointer, scale.outer * radius, order), low, high)) }];
+  const [inner, travel] = [scale.inner * radius, (scale.outer - scale.inner) * radius];
+  const arm = [[-0.2, 0.02], [-0.16, 0.035], [-0.1, 0.03], [0, 0.026], [scale.inner - 0.14, 0.026], [scale.inner - 0.12, 0.034], [scale.inner - 0.06, 0.034], [scale.inner - 0.05, 0.026]];
+  const shape = hub(plate(new Shape(), arm.map((station) => station.map((each) => each * radius)), low, high));
+  const slide = [[inner - travel - 0.1 * radius, 0.012], [inner - 0.03 * radius, 0.012], [inner - 0.02 * radius, 0.02], [inner + 0.01 * radius, 0.02], [inner + 0.03 * radius, 0.004]];
+  const slid = plate(new Shape(), slide.map(([x, w]) => [x, w * radius]), high, high + thick);
+  const corner = slid.corners;
+  swept(slid, band(0, 0.014 * radius, 0.002 * radius, high + 1.8 * thick), 12);
+  for (let n = corner; n < slid.corners; n += 1) slid.points[3 * n] += inner; // the pin
+  return [{ ...common, shape }, { ...common, colour: PARTS.silver, gloss: 0.8, shape: slid, slides: index }];
 }

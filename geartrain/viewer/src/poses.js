@@ -4,6 +4,7 @@
 import { Group, Vector3 } from "three";
 
 import { isParallel, vector } from "./space.js";
+import { Reading } from "./ui/reading.js";
 
 const APART = 3; // how far layers move when taken apart, over their distance
 
@@ -14,11 +15,16 @@ const balls = ({ bodies, dials, pointers }) =>
     return look === "ball" && as !== undefined ? [{ ...bodies[as], point: centre, as, ball }] : [];
   });
 
+/** Slides of hands over spirals move along these, `as` which they turn. */
+const slides = ({ bodies, dials, pointers }) =>
+  pointers.flatMap(({ body, dial }, slide) => (dial !== null && dials[dial].scale.turns > 1 ? [{ ...bodies[body], as: body, slide }] : []));
+
 export class Poses {
   /** main   the direction along which layers move; `middle`, what stays */
   constructor(machine, main, middle) {
     Object.assign(this, { machine, main, middle, share: 0 });
-    this.bodies = [...machine.scene.bodies, ...balls(machine.scene)];
+    this.bodies = [...machine.scene.bodies, ...balls(machine.scene), ...slides(machine.scene)];
+    this.readings = this.bodies.map(({ slide }) => (slide === undefined ? null : new Reading(machine.scene, machine, slide)));
     this.root = new Group();
     this.nodes = this.bodies.map(() => new Group());
     this.nodes.forEach((node) => (node.matrixAutoUpdate = false));
@@ -41,7 +47,8 @@ export class Poses {
       const { matrix } = this.nodes[index];
       const point = vector(body.point);
       matrix.makeRotationAxis(vector(body.direction), joint);
-      matrix.setPosition(point.clone().applyMatrix4(matrix).negate().add(point).add(this.shifts[index]));
+      const out = this.slid(index);
+      matrix.setPosition(point.clone().sub(out).applyMatrix4(matrix).negate().add(point).add(this.shifts[index]));
     });
     this.root.updateMatrixWorld(true);
     this.nodes.forEach((node, index) => array.set(node.matrixWorld.elements, 16 * index));
@@ -54,6 +61,19 @@ export class Poses {
       const own = this.skewed[index] && !this.skewed[parent] ? this.height(this.anchor(index)) : 0;
       this.shifts[index].copy(this.main).multiplyScalar(share * own);
     });
+  }
+
+  /** How far a slide is from the inner end of its spiral now. */
+  slid(index) {
+    const reading = this.readings[index];
+    if (!reading) return new Vector3();
+    const { zero, radius, scale } = reading.dial;
+    return vector(zero).multiplyScalar((radius * (scale.outer - scale.inner) * (reading.now?.turns ?? 0)) / scale.turns);
+  }
+
+  /** The node of the slide of a pointer. */
+  slide(pointer) {
+    return this.bodies.findIndex((body) => body.slide === pointer);
   }
 
   /** The node of the ball of a dial. */

@@ -70,7 +70,7 @@ export class World {
       const order = orders.get(id) ?? 0;
       orders.set(id, order + 1);
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
-      pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body }));
+      pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });
     this.crank = this.buildCrank(reach);
     this.crank?.parts.forEach((part) => this.put(part));

@@ -1,11 +1,12 @@
 // One dial as a drawing: what is engraved, zero mark, hands. Clockwise on the page is clockwise as read.
 import { NEEDLES } from "../colours.js";
-import { engraved } from "../faces.js";
+import { engraved, handOf } from "../faces.js";
 import { svg } from "./element.js";
 import { skyOf } from "./sky.js";
 
 const RIM = 90;
 const PLAIN = { turns: 1, divisions: 12, inner: 1, outer: 1, way: 1 }; // of an output without a dial
+const NEEDLE = { reach: 0.97, outline: [[-0.15, 0.018], [0, 0.014], [0.9, 0.012], [1, 0]] };
 const place = (turn, radius, zero) => {
   const angle = 2 * Math.PI * turn + zero;
   return [radius * Math.sin(angle), -radius * Math.cos(angle)];
@@ -59,9 +60,8 @@ export class Dial {
   }
 
   #hand(order, reading) {
-    const tail = 12 + (order % 3) * 3;
     const group = svg("g", { class: `hand hand-${order % NEEDLES.length}`, "data-output": reading.pointer.output });
-    this.draw(group, tail, order);
+    this.draw(group, reading, order);
     return group;
   }
 
@@ -73,15 +73,13 @@ export class Dial {
     return svg("circle", { class: `target hand-${order % NEEDLES.length}`, r: 4, "data-output": pointer.output }, title);
   }
 
-  draw(group, tail, order) {
-    const reach = RIM * this.scale.outer - 2 - (this.scale.turns === 1 ? (order % 4) * 6 : 0);
-    group.append(
-      svg("path", {
-        class: "needle",
-        d: `M-1.5 ${tail}L-1.1 ${-reach + 8}L0 ${-reach}L1.1 ${-reach + 8}L1.5 ${tail}Z`,
-      }),
-    );
-    if (this.scale.turns > 1) group.append(svg("circle", { class: "follower", r: 3.4 }));
+  draw(group, { pointer }, order) {
+    const spiral = this.scale.turns > 1;
+    const sides = handOf(pointer.outline.length ? pointer : NEEDLE, RIM * this.scale.outer, order);
+    const left = sides.map(([x, w]) => at([w, -x]));
+    const right = sides.map(([x, w]) => at([-w, -x])).reverse();
+    group.append(svg("path", { class: "needle", d: spiral ? "" : `M${[...left, ...right].join("L")}Z` }));
+    if (spiral) group.append(svg("circle", { class: "follower", r: 3 }));
   }
 
   #place(mark, turns) {
@@ -89,6 +87,13 @@ export class Dial {
     mark.setAttribute("cx", x.toFixed(3));
     mark.setAttribute("cy", y.toFixed(3));
     mark.setAttribute("data-turns", turns.toFixed(12));
+  }
+
+  /** Over a spiral a hand is as long as the turn to which it has come. */
+  #slide(node, radius) {
+    const tip = (2.6 - radius).toFixed(3);
+    node.querySelector(".needle").setAttribute("d", `M-1.6 14L-1.1 ${tip}L1.1 ${tip}L1.6 14Z`);
+    node.querySelector(".follower").setAttribute("cy", (-radius).toFixed(3));
   }
 
   /** Stands every hand where it is now. */
@@ -101,7 +106,7 @@ export class Dial {
       const turn = (this.scale.way * value.degrees + (this.zero * 180) / Math.PI) % 360;
       node.setAttribute("transform", `rotate(${turn.toFixed(6)})`);
       node.setAttribute("data-turns", value.turns.toFixed(12)); // from the start of the scale
-      node.querySelector(".follower")?.setAttribute("cy", (-this.#radius(value.turns)).toFixed(3));
+      if (this.scale.turns > 1) this.#slide(node, this.#radius(value.turns));
     }
   }
 }

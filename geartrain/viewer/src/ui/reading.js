@@ -46,10 +46,13 @@ function shownAt(reading) {
   const named = scale.names.find(([name, first, span]) => name && done + 1e-9 >= ratio(first) && done + 1e-9 < ratio(first) + ratio(span));
   const parts = scale.turns > 1 ? [`turn ${(Math.floor(turns + 1e-9) % scale.turns) + 1}`] : [];
   if (named) parts.push(named[0]);
-  if (!named) parts.push(`${scale.cell} ${done + 1}`);
+  if (!named) parts.push(`${scale.cell} ${numberOf(scale, done)}`);
   else if (scale.names.length < scale.divisions) parts.push(`${scale.cell} ${done - Math.floor(ratio(named[1])) + 1}`);
   return parts.join(", ");
 }
+
+/** As `number` there has it, after some cells. */
+const numberOf = ({ counted, radial }, done) => (!counted ? done + 1 : radial ? within(done - 1, counted) + 1 : done % counted);
 
 const ratio = (text) => {
   const [above, below = 1] = text.split("/");

@@ -505,7 +505,7 @@ def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name:
     # five turns of the Metonic spiral take nineteen years and show 235 months
     assert "a turn in 3.8," in read["metonic"]
     assert "5 turns in 19," in read["metonic"]
-    assert f"a division in {19 / 235:.7g}" in read["metonic"]
+    assert f"one month in {19 / 235:.7g}" in read["metonic"]
 
 
 # ----------------------------------------------------------------------------------------------------------- terminals

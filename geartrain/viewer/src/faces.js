@@ -4,6 +4,7 @@ import { NEEDLES, PARTS } from "./colours.js";
 import { band, halfBall, plate, Shape, swept } from "./shape.js";
 import { frameAt, vector } from "./space.js";
 
+const WIDER = 1.45; // lines on metal, which are seen from afar
 const UP = [0, 0, 1];
 const ALONG = [0, 0, 0]; // ink is not brushed
 
@@ -40,7 +41,8 @@ export function engraved(steps) {
 /** What is engraved, as thin strips just over the plate; a dial's own y looks to the reader's left. */
 function marks({ radius, engraving }) {
   const shape = new Shape();
-  for (const [, width, lines] of engraving) {
+  for (const [kind, own, lines] of engraving) {
+    const width = kind === "letters" ? own : WIDER * own;
     for (const line of lines) {
       const points = engraved(line).map(([x, y]) => [radius * y, -radius * x]);
       for (let n = 1; n < points.length; n += 1) stroke(shape, points[n - 1], points[n], width * radius, 0.004 * radius);
@@ -105,5 +107,5 @@ function handParts(scene, index, order) {
   const corner = slid.corners;
   swept(slid, band(0, 0.014 * radius, 0.002 * radius, high + 1.8 * thick), 12);
   for (let n = corner; n < slid.corners; n += 1) slid.points[3 * n] += inner; // the pin
-  return [{ ...common, shape }, { ...common, colour: PARTS.silver, gloss: 0.8, shape: slid, slides: index }];
+  return [{ ...common, shape }, { ...common, colour: PARTS.mark, gloss: 0.5, shape: slid, slides: index }];
 }

@@ -1,0 +1,61 @@
+// The ground on which a train stands: nothing but its soft shadow there, under what reaches down to it.
+
+import { CircleGeometry, GLSL3, Mesh, RawShaderMaterial } from "three";
+
+const BELOW = 0.012; // of the train's size, from its lowest point
+const SOFT = 0.32; // of the size: how far the shadow fades
+const DARK = 0.34;
+
+const corner = `
+precision highp float;
+uniform mat4 projectionMatrix, modelViewMatrix;
+uniform vec2 middle, half_wide;
+uniform float soft, low;
+in vec3 position;
+out vec2 off;
+void main() {
+  off = position.xy * (half_wide + soft); // to the right, and to the reader
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(middle.x + off.x, low, middle.y + off.y, 1.0);
+}`;
+
+const point = `
+precision highp float;
+uniform vec2 half_wide;
+uniform float soft, dark;
+in vec2 off;
+out vec4 colour;
+void main() {
+  vec2 core = 0.72 * half_wide;
+  float away = length(off / (core + soft)); // a wide one, and a narrow one of what stands on the ground
+  float near = length(off / (0.5 * core + 0.3 * soft));
+  float shade = 0.6 * pow(max(1.0 - away * away, 0.0), 2.0) + 0.4 * pow(max(1.0 - near * near, 0.0), 1.5);
+  colour = vec4(0.0, 0.0, 0.0, dark * shade);
+}`;
+
+/** A mesh below the points of an outline; `fit` moves it under others. */
+export class Ground {
+  constructor(size) {
+    const number = (value) => ({ value });
+    this.uniforms = { middle: number([0, 0]), half_wide: number([1, 1]), soft: number(SOFT * size), low: number(0), dark: number(DARK) };
+    const about = { glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, uniforms: this.uniforms, transparent: true, depthWrite: false };
+    // clockwise seen from above, so that it is not there for who looks from below
+    this.mesh = new Mesh(new CircleGeometry(1.05, 48), new RawShaderMaterial({ ...about, side: 1 }));
+    this.mesh.frustumCulled = false;
+    this.mesh.renderOrder = -1;
+    this.size = size;
+  }
+
+  fit(points) {
+    const range = (key) => points.reduce(([low, high], point) => [Math.min(low, point[key]), Math.max(high, point[key])], [Infinity, -Infinity]);
+    const [[left, right], [low], [back, front]] = ["x", "y", "z"].map(range);
+    if (!Number.isFinite(low)) return;
+    this.uniforms.middle.value = [(left + right) / 2, (back + front) / 2];
+    this.uniforms.half_wide.value = [(right - left) / 2, (front - back) / 2];
+    this.uniforms.low.value = low - BELOW * this.size;
+  }
+
+  dispose() {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+}

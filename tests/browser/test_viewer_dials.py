@@ -1,0 +1,79 @@
+"""Dials of the viewer in a browser: what hands are told to show, pins that follow spirals, directions that agree."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import hypot
+
+import pytest
+import shipped
+from viewing import Opening
+
+ANTIKYTHERA = "freeth-2008"
+
+# where the pin of the hand over a spiral is, in the dial's own right and up, over its radius
+PIN = """(name) => {
+  const [stage] = geartrain.stages, [scene] = geartrain.scenes, {poses} = stage.world;
+  stage.world.turn();
+  const index = scene.pointers.findIndex(({output}) => output === name);
+  const dial = scene.dials[scene.pointers[index].dial];
+  const Vector = stage.camera.position.constructor;
+  const [centre, zero, normal] = [dial.centre, dial.zero, dial.normal].map((v) => new Vector(...v));
+  const pin = centre.clone().addScaledVector(zero, dial.scale.inner * dial.radius);
+  const off = pin.applyMatrix4(poses.nodes[poses.slide(index)].matrixWorld).sub(centre);
+  const right = zero.clone().cross(normal);
+  return [off.dot(right) / dial.radius, off.dot(zero) / dial.radius];
+}"""
+
+
+def test_pins_follow_their_spirals_and_are_set_back_at_the_end(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    for output, turns, period in (("metonic", 5, Fraction(19)), ("saros", 4, Fraction(4237, 235))):
+        for share in (Fraction(0), Fraction(3, 10), Fraction(999, 1000), Fraction(1), Fraction(13, 8)):
+            shown.run("(t) => geartrain.setTurns(t)", str(share * period))
+            along = float(share * turns % turns)
+            x, y = shown.run(PIN, output)
+            assert hypot(x, y) == pytest.approx(0.55 + 0.45 * along / turns, abs=1e-6), (output, share)
+            angle = 2 * 3.141592653589793 * along
+            ahead = shown.run("(a) => [Math.sin(a), Math.cos(a)]", angle)
+            assert (x / hypot(x, y), y / hypot(x, y)) == pytest.approx(ahead, abs=1e-6), (output, share)
+
+
+@pytest.mark.parametrize("name", [ANTIKYTHERA, "longcase-clock", "prague-orloj", "al-biruni-box-of-the-moon"])
+def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> None:
+    shown = show(name)
+    train = shipped.train(name)
+    solved, declared = train.solve(), train.declaration
+    scene = shipped.scene(name)
+    at = Fraction(1003, 17)
+    shown.run("(t) => geartrain.setTurns(t)", str(at))
+    told = shown.run(
+        "Object.fromEntries([...document.querySelectorAll('.hands li')].map((row) => "
+        "[row.querySelector('button').textContent, row.querySelector('.value').textContent]))"
+    )
+    checked = 0
+    for pointer in scene.pointers:
+        if pointer.dial is None or pointer.output == "moon":  # its pins ripple
+            continue
+        scale = scene.dials[pointer.dial].scale
+        of, base = declared.outputs[pointer.output].links(pointer.output, declared.frame)
+        lead = scene.bodies[scene.lead or 0].id
+        speed = Fraction(solved[pointer.output]) / Fraction(solved.speeds[lead])
+        assert of != base
+        words = scale.told(pointer.sense * scale.way * speed * at)
+        assert told[pointer.output].partition(", ")[2] == words, pointer.output
+        checked += 1
+    assert checked >= 3
+
+
+def test_what_is_engraved_stands_on_the_page_stroke_by_stroke(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    drawn = shown.run(
+        "[...document.querySelectorAll('.dial')].map((d) => [d.getAttribute('aria-label'), "
+        "[...d.querySelectorAll('.letters')].map((p) => (p.getAttribute('d').match(/M/g) ?? []).length)"
+        ".reduce((sum, each) => sum + each, 0)])"
+    )
+    for label, strokes in drawn:
+        face = next(each for each in shipped.scene(ANTIKYTHERA).dials if f"dial {each.id}" == label)
+        letters = [lines for kind, _, lines in face.engraving if kind == "letters"]
+        assert strokes == sum(map(len, letters)) > 0, label

@@ -19,6 +19,8 @@ from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT, WORDS, escape_tooth
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
+from geartrain.teeth.outlines.wave_tooth import WAVE, wave_tooth
+from geartrain.teeth.outlines.wave_tooth import WORDS as WAVE_WORDS
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
 
 if TYPE_CHECKING:
@@ -135,6 +137,7 @@ class _Toothing:
         for gear in self.declared.gears:
             for wheel in gear.pair:
                 self.pairs[wheel].append(gear)
+        self.waves = {gear.name for gear in self.declared.gears if self._is_wave(gear)}
         self.shaped = {name for name in self.pairs if any(self._mesh(gear) is not None for gear in self.pairs[name])}
         self.standard = self._standard()
 
@@ -144,6 +147,14 @@ class _Toothing:
     def _mesh(self, gear: GearPair) -> GearMesh | None:
         return self.meshes.get(gear.name)
 
+    def _is_wave(self, gear: GearPair) -> bool:
+        """True of a flexible wheel in its ring."""
+        first, second = (self._wheel(name) for name in gear.pair)
+        return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
+
+    def _waved(self, name: str) -> list[GearPair]:
+        return [gear for gear in self.pairs[name] if gear.name in self.waves]
+
     def _is_flat(self, name: str) -> bool:
         kinds = {self._wheel(mate).kind for gear in self.pairs[name] for mate in gear.pair}
         return self._wheel(name).kind == "spur" and not self.places[name].cone and "worm" not in kinds
@@ -151,7 +162,8 @@ class _Toothing:
     # -------------------------------------------------------------------------------------------- teeth nobody declares
 
     def _standard(self) -> dict[str, StandardTeeth]:
-        gears = {name: self._gear(name) for name in self.pairs if name not in self.shaped and self._is_flat(name)}
+        free = (name for name in self.pairs if name not in self.shaped and not self._waved(name))
+        gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
         return standard_teeth(gears, pairs)
 
@@ -229,6 +241,9 @@ class _Toothing:
             raise GearTrainError(self.unbuilt)
         if not self.pairs[name] and (turning := self._let_through(name)):
             return [_Asked("", ESCAPEMENT, WORDS, escape_tooth(wheel.count or 1, turning))]
+        if waved := self._waved(name):
+            tooth = wave_tooth(wheel.count or 1, self._standard_play(name), wheel.internal)
+            return [_Asked(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]
         return list(self._declared_asked(name) if name in self.shaped else self._standard_asked(name))
 
     def _let_through(self, name: str) -> int:
@@ -268,6 +283,8 @@ class _Toothing:
 
     def _contact_ratio(self, gear: GearPair) -> float | None:
         mesh = self._mesh(gear)
+        if gear.name in self.waves:
+            return None
         if gear.name in self.apart or mesh is not None:
             return mesh.path.contact_ratio if isinstance(mesh, ConjugateMesh) and gear.name not in self.apart else None
         first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
@@ -277,7 +294,7 @@ class _Toothing:
     def _play(self, gear: GearPair) -> float | None:
         """Of a pair as it stands, along the pitch circles (modules); None where it does not stand as its law has it."""
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
-        if gap is not None:
+        if gap is not None and gear.name not in self.waves:
             return self._misplaced_play(gear, mesh, gap / self.places[gear.pair[0]].module)
         if mesh is None:
             return self._standard_play(gear.pair[0])

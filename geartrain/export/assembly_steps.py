@@ -145,6 +145,8 @@ class _Steps:
             if each.name == own[-1]:
                 washers = [f"{name} washer {at}" for name in own for at in (1, 2)]
                 text = f"Put {', '.join(each.wheels)} on {', '.join(own)}, to turn there between washers"
+                if each.wave is not None:
+                    text = f"Bend {', '.join(each.wheels)}, of one piece with its cup, over {each.name}"
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:

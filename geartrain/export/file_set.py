@@ -322,6 +322,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     found: list[Problem] = list(work.layout.notices)
     if work.frame is not None and parts_wanted(kinds):
         found += [*work.frame.plan.notices, *work.frame.problems()]
+        found += (told for cup in work.frame.plan.stack.cups for told in cup.told())
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):

@@ -131,7 +131,8 @@ def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
 def _turns_on(work: SolidModel, wheel: str) -> str:
     """What a wheel turns on that is fixed on no arbor."""
     own = () if work.frame is None else work.frame.plan.stack.eccentrics
-    return next((f"turns on {each.name}" for each in own if wheel in each.wheels), "")
+    on = next((each for each in own if wheel in each.wheels), None)
+    return "" if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:

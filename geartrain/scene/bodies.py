@@ -80,32 +80,22 @@ def _section(toothing: WheelTeeth) -> ToothProfile:
     return ToothProfile(toothing.form, toothing.section(), toothing.kind == "pins")
 
 
-_BENT = Problem(
-    "one of them is flexible",
-    "a wave bends it into its ring, and it is drawn round, as no rigid wheel could run there",
-    "read speeds and torques from the train, and what touches where from the maker of the set",
-)
-
-
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
     """Why wheels that lie in a plane are drawn otherwise than they could be cut, each reason once."""
     told: dict[tuple[str, str, str, bool], list[str]] = {}
-    bent = _bent(stage)
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
-            first = _BENT if wheel in bent else problems[0]
+            first = problems[0]
             told.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
     for (what, why, fix, of_first), wheels in told.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
         drawn = "drawn as their first pairs have them" if of_first else "drawn as a likeness"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
-
-
-def _bent(stage: SceneContext) -> set[str]:
-    """Flexible wheels, and those that mesh with them."""
-    wheels = stage.train.declaration.wheels
-    pairs = (circuit.wheels for circuit in stage.train.circuits if circuit.kind == "gear")
-    return {wheel for pair in pairs if any(wheels[each][1].flexible for each in pair) for wheel in pair}
+    for name, (_, flexible) in stage.train.declaration.wheels.items():
+        if flexible.flexible:
+            why = "a wave bends it into its ring on all sides of its lobes, and a picture moves it round whole"
+            fix = "take speeds and torques from the train, and its bent form from docs/reducers.md"
+            yield Problem(f"'{name}' is flexible, and drawn round", why, fix)
 
 
 def _likeness(stage: SceneContext, name: str) -> ToothProfile:

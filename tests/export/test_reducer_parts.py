@@ -85,7 +85,7 @@ def gaps(disc: shapely.Polygon, pins: tuple[shapely.MultiPoint, float]) -> list[
     return [disc.distance(middle) - pins[1] for middle in pins[0].geoms]
 
 
-REDUCERS = ("cycloidal-reducer", "rv-reducer")
+REDUCERS = ("cycloidal-reducer", "rv-reducer", "strain-wave")
 
 
 @pytest.mark.parametrize("name", REDUCERS)
@@ -190,3 +190,96 @@ def test_pins_of_a_carrier_stand_midway_between_its_cranks() -> None:
     places = [each.place for each in parts("rv-reducer", "holes pin")]
     pins = sorted(np.degrees(np.arctan2(y, x)) % 360 for x, y, _ in places)
     assert pins == pytest.approx([60, 180, 300], abs=1e-6)
+
+
+# ------------------------------------------------------------------------------------------------------------- a wave
+
+
+def bent(line: np.ndarray, turn: float, rise: float = 1.0) -> np.ndarray:
+    """Points of a ring of 200 teeth in one of 202 while a wave stands at `turn`, by steps along the middle line.
+
+    The line is bent to the curve R + rise cos 2(t - turn); places on it keep their distances, which are added up, and
+    what lies beside it stays across it.
+    """
+    middle, t = 97.9, np.linspace(0, 2 * pi, 40001)
+    curve = (middle + rise * np.cos(2 * (t - turn))) * np.exp(1j * t)
+    run = np.concatenate([[0.0], np.cumsum(abs(np.diff(curve)))])
+    run *= 2 * pi / run[-1]
+    # a symmetric wave leaves its own four axes where they are
+    run += turn - np.interp(turn, t, run)
+    angle = np.angle(line @ np.array([1, 1j])) - 2 * turn / 200
+    at = np.interp(
+        angle,
+        np.concatenate([run - 2 * pi, run[1:], run[1:] + 2 * pi]),
+        np.concatenate([t - 2 * pi, t[1:], t[1:] + 2 * pi]),
+    )
+    foot = (middle + rise * np.cos(2 * (at - turn))) * np.exp(1j * at)
+    along = (1j * (middle + rise * np.cos(2 * (at - turn))) - 2 * rise * np.sin(2 * (at - turn))) * np.exp(1j * at)
+    points = foot + (np.hypot(*line.T) - middle) * -1j * along / abs(along)
+    return np.column_stack([points.real, points.imag])
+
+
+def many(line: list[Point]) -> np.ndarray:
+    points = np.array(line)
+    points = points[:-1] if np.allclose(points[0], points[-1]) else points
+    after = np.roll(points, -1, axis=0)
+    return (
+        np.concatenate([points + (after - points) * k / 4 for k in range(4)])
+        .reshape(4, -1, 2)
+        .swapaxes(0, 1)
+        .reshape(-1, 2)
+    )
+
+
+def by_size(drawing: str) -> list[list[Point]]:
+    return sorted(written("strain-wave")[drawing], key=lambda line: -shapely.Polygon(line).area)
+
+
+def test_a_thin_wheel_bent_by_its_wave_passes_its_ring_with_play() -> None:
+    teeth, (_, ring) = by_size("spline")[0], by_size("ring")[:2]
+    around = rotate(shapely.Polygon(ring), 180 / 202, origin=(0, 0))
+    gaps = []
+    for turn in np.linspace(0, 2 * pi / 202, 9):
+        wheel = shapely.Polygon(bent(many(teeth), turn))
+        assert around.contains(wheel)
+        gaps.append(around.exterior.distance(wheel))
+    assert 0.005 < min(gaps) < 0.05 / 2, "0.05 mm of play, along both flanks"
+    assert not around.contains(shapely.Polygon(bent(many(teeth), 0.0, 0.0))), "no round wheel goes in"
+    assert not around.contains(shapely.Polygon(bent(many(teeth), 0.0, 1.2)))
+
+
+def test_the_wave_is_as_long_as_the_bore_of_the_wheel_that_it_bends() -> None:
+    wave = shapely.Polygon(by_size("generator-wave")[0])
+    low, bottom, high, top = wave.bounds
+    assert (high - low) / 2 - (top - bottom) / 2 == pytest.approx(2.0, abs=0.01), (
+        "it rises by 1 mm, and falls by as much"
+    )
+    bore = min(circles("strain-wave", "spline"), key=lambda each: each.diameter)
+    # the inside of a ring that is bent without stretching is as long as before but for the square of its bend
+    assert wave.length == pytest.approx(pi * (bore.diameter - 0.08), rel=3e-4)
+
+
+def test_a_flexible_cup_is_no_obstacle_and_is_told() -> None:
+    told = [each.problem.what for each in proof("strain-wave").findings]
+    assert any("'spline' and the wall of 'cup' are one thin piece" in each for each in told)
+    wall, wheel, bottom = (
+        part("strain-wave", name).placed.vertices[:, 2] for name in ("cup wall", "spline", "cup plate")
+    )
+    assert wall.min() == pytest.approx(wheel.max(), abs=1e-6)
+    assert wall.max() == pytest.approx(bottom.min(), abs=1e-6)
+
+
+def test_a_wave_that_does_not_bend_the_wheel_into_its_ring_is_seen() -> None:
+    from dataclasses import replace
+
+    from geartrain.export.proof.mesh_proof import read_wheels
+    from geartrain.export.proof.wave_proof import overlaps
+
+    model = work("strain-wave")
+    assert model.frame is not None
+    (wave,) = model.frame.plan.stack.eccentrics
+    cut = read_wheels(model).materials
+    assert max(overlaps(model, wave, cut["spline"], ("ring", cut["ring"]))) == 0
+    assert wave.wave is not None
+    flat = replace(wave, wave=replace(wave.wave, rise=0.5))
+    assert min(overlaps(model, flat, cut["spline"], ("ring", cut["ring"]))) > 0.1

@@ -210,9 +210,9 @@ def touching(first: Mapping[str, Any], second: Mapping[str, Any]) -> tuple[list[
     return middle.tolist(), float(apart.min())
 
 
-def test_a_bent_wheel_is_drawn_as_a_likeness_that_says_so() -> None:
+def test_a_bent_wheel_is_drawn_round_which_is_said() -> None:
     """That tips of rigid wheels would run into each other is no fault of a wave."""
     notices = [notice["what"] for notice in make_scene(load("strain-wave")).to_dict()["notices"]]
     (told,) = [what for what in notices if "'spline'" in what]
-    assert told == "the teeth of 'ring' and 'spline' are drawn as a likeness: one of them is flexible"
+    assert told == "'spline' is flexible, and drawn round"
     assert not [what for what in notices if "tips" in what]

@@ -127,7 +127,8 @@ def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairPlay, 
     """Every mesh whose two wheels are cut: its play, its wheels (a ring second), and both as they are turned."""
     found = {}
     for play in work.blanks.plays:
-        if set(play.wheels) <= set(cut.materials):
+        bent = any(work.train.declaration.wheels[name][1].flexible for name in play.wheels)
+        if set(play.wheels) <= set(cut.materials) and not bent:
             one, other = (work.blanks.wheels[name] for name in play.wheels)
             wheels = (other, one) if one.kind == "ring" else (one, other)
             names = tuple(each.wheel for each in wheels)

@@ -62,6 +62,8 @@ class _Solids:
         self.parts = work.parts
         self.placed = [part.solid.vertices @ part.turn.T + part.place for part in self.parts]
         self.meshed = {frozenset(work.scene.wheels[at].id for at in pair.wheels) for pair in work.scene.pairs}
+        # a thin wheel is drawn round, and stands bent
+        self.bent = {name for name, (_, wheel) in work.train.declaration.wheels.items() if wheel.flexible}
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
@@ -71,7 +73,8 @@ class _Solids:
         high = np.array([each.max(axis=0) for each in points])
         for one, other in combinations(range(len(self.parts)), 2):
             first, second = self.parts[one], self.parts[other]
-            if first.body == second.body or frozenset((first.name, second.name)) in self.meshed:
+            pair = {first.name, second.name}
+            if first.body == second.body or frozenset(pair) in self.meshed or pair & self.bent:
                 continue
             if (low[one] < high[other]).all() and (low[other] < high[one]).all():
                 yield one, other

@@ -11,6 +11,7 @@ from geartrain.errors import MissingExtraError, Problem
 from geartrain.export.proof.link_freedom import LinkFreedom, prove_freedom
 from geartrain.export.proof.mesh_proof import MeshProof, paired_wheels, prove_mesh, read_wheels
 from geartrain.export.proof.solid_proof import pose_count, prove_solids
+from geartrain.export.proof.wave_proof import prove_waves
 from geartrain.kinematics.buildability import BuildFinding, build_errors
 from geartrain.numerics.plain_data import Key, Result
 
@@ -101,7 +102,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     watch()
     findings = [*work.sized.build_findings, *_uncut(work), *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
-    findings += [*freedom.findings, *prove_solids(work, watch)]
+    findings += [*prove_waves(work, cut), *freedom.findings, *prove_solids(work, watch)]
     ranked = sorted(findings, key=lambda found: not found.is_error)
     return TrainProof(tuple(meshes), freedom.links, tuple(ranked))
 
@@ -133,6 +134,9 @@ def _frame(work: SolidModel) -> Iterator[BuildFinding]:
     """What the plates cannot bear (notes: a bracket is made by hand), and what is in the way of arbors."""
     if work.frame is None:
         return
+    for cup in work.frame.plan.stack.cups:
+        for problem in cup.told():
+            yield BuildFinding("W3", "note", problem)
     by_hand = set(work.frame.plan.stack.left_out())
     for problem in dict.fromkeys([*work.frame.plan.notices, *work.frame.problems()]):
         yield BuildFinding("S1", "note" if problem in by_hand else "error", problem)

@@ -12,6 +12,7 @@ be placed and why.
     carried_axes      plates and studs of carriers; discs of turning rings
     eccentrics        discs on arbors on which wheels turn that are carried close to their middle
     stack_eccentrics  which wheels of a stack these are, and which pins of round holes stand in plates
+    flexible_cups     walls between thin wheels, which a wave bends, and their cups
     pin_circles       pins in plates: of rings, and of round holes
     plate_places      between which wheels the two plates stand
     stack_heights     room for plates; heights of all

@@ -8,14 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import dist
+from math import cos, dist, sin
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, USUAL
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
+from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.wave_tooth import bent_circle
 
 if TYPE_CHECKING:
     pass
@@ -28,7 +32,23 @@ USUAL_ARBOR = 6.0
 _THIN = 0.6  # mm of an eccentric beside its arbor, or it cannot be made
 ROOM = SHAKE / 2 + HEAD
 """What a washer takes beside a wheel, along its axis [mm]."""
+_POINTS = 1440  # of the edge of a wave
 _OVER = 1.0  # mm that a washer is wider than its eccentric
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """The wave that bends a thin wheel: how far it rises (mm), how many lobes it has, and the wall of the wheel (mm).
+
+    towards   angle of the first lobe across the stack (rad)
+    length    of the wall that joins the wheel to its cup (mm), for which there is room beside
+    """
+
+    rise: float
+    lobes: int
+    wall: float
+    towards: float
+    length: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +63,7 @@ class Eccentric:
     carried      label of the axis on which these turn
     middle       radius (mm) of the hole in the middle of these, which turn on several; 0 where they turn on this alone
     coupling     of cranks side by side, which it is
+    wave         what it bends, where it is no round disc
     """
 
     name: str
@@ -55,6 +76,7 @@ class Eccentric:
     carried: str
     middle: float = 0.0
     coupling: str = ""
+    wave: Wave | None = None
 
     @property
     def offset(self) -> float:
@@ -64,7 +86,22 @@ class Eccentric:
     @property
     def wall(self) -> float:
         """From the arbor's axis to the nearest point of its edge (mm)."""
-        return self.radius - self.offset
+        return self.radius - self.rise
+
+    @property
+    def rise(self) -> float:
+        """How far its edge goes out and in (mm)."""
+        return self.offset if self.wave is None else self.wave.rise
+
+    @property
+    def edge(self) -> Contour:
+        """Across the stack."""
+        if self.wave is None:
+            return Contour.circle(self.radius, self.centre)
+        wave, half = self.wave, self.wave.wall / 2
+        points = bent_circle(self.radius + half, half, wave.rise, wave.lobes, _POINTS)
+        c, s = cos(wave.towards), sin(wave.towards)
+        return Contour(points @ np.array([[c, s], [-s, c]]) + np.array(self.centre), np.zeros(_POINTS))
 
     def turning(self, discs: Iterable[StackDisc]) -> list[StackDisc]:
         """Those of some discs that turn on it."""
@@ -74,20 +111,23 @@ class Eccentric:
         """What it sweeps in the stack, with its washers."""
         own = self.turning(discs)
         low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
-        reach = self.offset + self.radius
+        reach, high = self.rise + self.radius, high + (0.0 if self.wave is None else self.wave.length)
         root = 2 * (self.wall - WALL) / USUAL  # whose usual arbor leaves that wall
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """One on either side of the wheels, on the same arbor."""
+        """One on either side of the wheels, on the same arbor; a thin wheel is held by its wall."""
+        if self.wave is not None:
+            return
         radius = max(self.radius, self.wall + _OVER)
         for number, (low, high) in enumerate(((disc.low, disc.low + HEAD), (disc.high - HEAD, disc.high)), 1):
             name, ring = f"{self.name} washer {number}", Band(low, high, radius, bore / 2)
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
-    @staticmethod
-    def faces(disc: StackDisc) -> tuple[float, float]:
-        """Of the eccentric itself, between its washers."""
+    def faces(self, disc: StackDisc) -> tuple[float, float]:
+        """Of the eccentric itself: between its washers, or in a thin wheel below the wall of its cup."""
+        if self.wave is not None:
+            return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD
 
 

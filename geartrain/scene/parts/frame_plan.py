@@ -18,6 +18,7 @@ from geartrain.scene.parts.carried_axes import (
     ring_seats,
 )
 from geartrain.scene.parts.eccentrics import running_hole, too_thin
+from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.pin_circles import PinCircle, pin_seats
 from geartrain.scene.parts.plate_places import PlateChoice, best_column, best_places, obstacles, with_discs
@@ -99,14 +100,15 @@ class FramePlan:
             axis = self.stack.train.tree.axis(link) or ""
             own = [disc for disc in self.stack.discs if disc.link == link]
             at = self.stack.flat(self.stack.axes[axis].point)
-            circle = next((each for each in self.stack.pin_circles.values() if each.link == link), None)
-            if circle is not None and (slots := self._slots(circle)):
-                yield pin_seats(circle, axis, at, slots, self._gaps, carried)
+            own_pins = next((each for each in self.stack.pin_circles.values() if each.link == link), None)
+            if own_pins is not None and (slots := self._slots(own_pins)):
+                yield pin_seats(own_pins, axis, at, slots, self._gaps, carried)
                 continue
             ways = carrier_seats(link, axis, at, carried, own, self._gaps)
             bad = {way: self._carried_cost(way, carried) for way in ways}
             yield [way for way in ways if bad[way] == min(bad.values())]
-        for circle in self.stack.pin_circles.values():
+        circles: list[PinCircle | FlexibleCup] = [*self.stack.pin_circles.values(), *self.stack.cups]
+        for circle in circles:
             axis = self.stack.train.tree.axis(circle.link) or ""
             slots = self._slots(circle)
             if circle.link not in by_carrier and axis in self.stack.axes and slots:
@@ -116,7 +118,7 @@ class FramePlan:
             if not disc.hub and disc.link != self.stack.frame and disc.carrier is None:
                 yield ring_seats(disc, disc.outer, self._gaps)
 
-    def _slots(self, circle: PinCircle) -> list[StackDisc]:
+    def _slots(self, circle: PinCircle | FlexibleCup) -> list[StackDisc]:
         return [disc for disc in self.stack.wheel_discs if disc.link == circle.slot]
 
     def _cut(self, height: float) -> int:

@@ -155,8 +155,7 @@ class FramePlates:
             yield FlatPlate(plate.disc.link, plate.disc.name, edge, holes, low, high, plate.disc.at)
         for each in self.plan.stack.eccentrics:
             faces = each.faces(self._disc(each.name))
-            edge = Contour.circle(each.radius, each.centre)
-            yield FlatPlate(each.link, each.name, edge, tuple(self._hub(each.name)), *faces, each.centre)
+            yield FlatPlate(each.link, each.name, each.edge, tuple(self._hub(each.name)), *faces, each.centre)
 
     def _disc(self, name: str) -> StackDisc:
         return next(disc for disc in self.plan.discs if disc.name == name)
@@ -255,6 +254,8 @@ class FramePlates:
         yield from sleeves(plan)
         for each in plan.stack.eccentrics:
             yield from each.washers(self._disc(each.name), plan.bores[each.name])
+        for cup in plan.stack.cups:
+            yield cup.part(plan.heights.plates[plan.seat_of(cup.link)], self._disc(cup.wheel))
         pairs = [("pillar", self.pillars, plan.places.back, plan.places.front)]
         if plan.bridge is not None:
             below, above = sorted((plan.bridged_plate, plan.bridge))

@@ -18,9 +18,10 @@ from geartrain.numerics.vectors import Vector, dot, plus, scaled
 from geartrain.scene.parts.arbor_columns import HEAD_ROOM
 from geartrain.scene.parts.carried_axes import CarriedAxis
 from geartrain.scene.parts.eccentrics import ROOM, Eccentric, on_eccentrics
+from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.pin_circles import PinCircle
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
-from geartrain.scene.parts.stack_eccentrics import StackEccentrics, find_pin_circles
+from geartrain.scene.parts.stack_eccentrics import StackEccentrics, find_cups, find_pin_circles
 from geartrain.scene.solids.bearing_plates import basis
 
 if TYPE_CHECKING:
@@ -175,6 +176,11 @@ class FrameStack:
         """Pins in round holes that no wheel of their own link is wide enough to bear, by coupling."""
         return {each.name: each for each in find_pin_circles(self)}
 
+    @cached_property
+    def cups(self) -> tuple[FlexibleCup, ...]:
+        """Of thin wheels."""
+        return tuple(find_cups(self))
+
     @property
     def ends(self) -> dict[str, tuple[bool, bool]]:
         """Links of a reducer that go out of the stack, below and above.
@@ -183,7 +189,7 @@ class FrameStack:
         """
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
         if inner:
-            pins = {each.link for each in self.pin_circles.values()}
+            pins = {each.link for each in self.pin_circles.values()} | {cup.link for cup in self.cups}
             return dict.fromkeys(inner, (True, False)) | dict.fromkeys(pins - inner, (False, True))
         carriers = {self.layout.axes[each.axis].carrier for each in self.eccentrics}
         about = {self.train.tree.axis(link) for link in carriers}

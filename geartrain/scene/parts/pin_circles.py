@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import dist
 
 from geartrain.scene.parts.carried_axes import BOSS, NEAREST, WIDEST, CarriedAxis, CarrierSeat, TurningPlate, gap_beside
+from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 
@@ -66,14 +67,14 @@ class StandingPins:
 
 
 def pin_seats(
-    circle: PinCircle,
+    circle: PinCircle | FlexibleCup,
     axis: str,
     at: Point,
     slots: Sequence[StackDisc],
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """A plate for pins beside the disc in which they work: above it, or towards other wheels that its link carries."""
+    """A plate for pins beside the disc in which they work, or of a cup: above it, or towards what its link carries."""
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]
     below = bool(others) and sum(others) / len(others) < (low + high) / 2

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import dist, inf
+from math import atan2, dist, inf
 from typing import TYPE_CHECKING, Protocol
 
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
-from geartrain.scene.parts.eccentrics import NEAR, USUAL_ARBOR, WALL, Eccentric, eccentric_radius
+from geartrain.scene.parts.eccentrics import NEAR, USUAL_ARBOR, WALL, Eccentric, Wave, eccentric_radius
+from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.pin_circles import PinCircle
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
+from geartrain.teeth.outlines.wave_tooth import CUP
+from geartrain.teeth.outlines.wave_tooth import WALL as WALL_PART
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
@@ -19,6 +22,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.vectors import Vector
     from geartrain.scene.layout import AxisPlace, Layout
+    from geartrain.scene.solids.wheel_blanks import Blank
 
 _BESIDE = 1.0  # mm in the middle of a wheel between its hole and an arbor that passes
 
@@ -33,6 +37,10 @@ class UprightTrain(Protocol):
     @property
     def layout(self) -> Layout:
         """Where it stands."""
+
+    @property
+    def blanks(self) -> Mapping[str, Blank]:
+        """Flat shapes of its wheels."""
 
     @property
     def core(self) -> float | None:
@@ -75,12 +83,30 @@ class StackEccentrics:
                 continue
             at = self._place(own)
             if dist(at, discs[0].at) < NEAR * min(disc.root for disc in discs):
-                cranks = list(self._cranks(axis.carrier, own))
-                yield from (
-                    self._on_cranks(cranks, at, label, discs)
-                    if cranks
-                    else self._on_arbor(axis.carrier, own, label, discs)
-                )
+                if self._lobes(discs):
+                    yield self._wave(axis.carrier, own, label, discs)
+                elif cranks := list(self._cranks(axis.carrier, own)):
+                    yield from self._on_cranks(cranks, at, label, discs)
+                else:
+                    yield from self._on_arbor(axis.carrier, own, label, discs)
+
+    def _lobes(self, discs: Sequence[StackDisc]) -> int:
+        """Of the wave that bends a thin wheel: as many as its ring has teeth more; 0 of wheels that are stiff."""
+        declared = self.stack.train.declaration
+        for gear in declared.gears:
+            counts = {name: declared.wheels[name][1] for name in gear.pair}
+            thin = next((name for name, wheel in counts.items() if wheel.flexible), None)
+            if thin is not None and any(disc.name == thin for disc in discs):
+                return abs(sum((wheel.count or 0) * (1 if wheel.internal else -1) for wheel in counts.values()))
+        return 0
+
+    def _wave(self, link: str, own: str, label: str, discs: Sequence[StackDisc]) -> Eccentric:
+        at, (x, y) = self._place(own), discs[0].at
+        blank = self.stack.blanks[discs[0].name]
+        towards, length = atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius
+        wave = Wave(dist(at, (x, y)), self._lobes(discs), wall(blank), towards, length)
+        radius = blank.root_radius - wave.wall
+        return Eccentric(f"{link} wave", link, own, at, at, radius, (discs[0].name,), label, wave=wave)
 
     def _place(self, label: str) -> Point:
         return self.stack.flat(self.stack.layout.axes[label].point)
@@ -124,6 +150,23 @@ class StackEccentrics:
             moved = place[0] + centre[0] - at[0], place[1] + centre[1] - at[1]
             radius = eccentric_radius(offset, self._arbor(link), free)
             yield Eccentric(f"{link} eccentric", link, own, place, moved, radius, wheels, label, middle, name)
+
+
+def wall(blank: Blank) -> float:
+    """How thick a wheel is under its teeth (mm) that a wave bends."""
+    return WALL_PART * 2 * blank.pitch_radius
+
+
+def find_cups(stack: UprightTrain) -> Iterator[FlexibleCup]:
+    """Walls between thin wheels and links on axes of the frame."""
+    declared, tree = stack.train.declaration, stack.train.tree
+    for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
+        for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
+            own = [disc for disc in stack.wheel_discs if disc.link == thin and declared.wheels[disc.name][1].flexible]
+            place = stack.layout.axes.get(tree.axis(cup) or "")
+            if own and place is not None and place.carrier == declared.frame and stack.is_upright(place):
+                blank, at = stack.blanks[own[0].name], stack.flat(place.point)
+                yield FlexibleCup(coupling.name, cup, thin, own[0].name, at, blank.root_radius, wall(blank))
 
 
 def find_pin_circles(stack: UprightTrain) -> Iterator[PinCircle]:

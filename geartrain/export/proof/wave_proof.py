@@ -1,0 +1,87 @@
+"""Thin wheels bent into their rings, as they are written: no tooth in the ring wherever the wave stands.
+
+A wheel that a wave bends is no rigid body, and cannot be turned as others are. Its middle line keeps its length: what
+lies on it at the angle t moves outwards by w cos(n (t - s)), s the angle of the wave, and along by -w/n sin(n (t - s));
+what lies beside it stays on its normal. While the wave turns the wheel itself turns by the ring's teeth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem
+from geartrain.export.proof.cut_outlines import plane_geometry
+from geartrain.export.proof.turned_pair import NOTHING
+from geartrain.kinematics.buildability import BuildFinding
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from geartrain.export.proof.mesh_proof import CutTrain
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.parts.eccentrics import Eccentric
+    from geartrain.scene.solids.solid_assembly import SolidModel
+
+_POSITIONS = 7  # of the wave in a pitch of the ring
+_PARTS = 4  # of each chord of the wheel, which bending makes round
+
+
+def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
+    """What is in the way of thin wheels that are bent into their rings."""
+    waves = () if work.frame is None else (each for each in work.frame.plan.stack.eccentrics if each.wave is not None)
+    for each in waves:
+        for gear in work.train.declaration.gears:
+            if each.wheels[0] in gear.pair and set(gear.pair) <= set(cut.materials):
+                ring = next(name for name in gear.pair if name != each.wheels[0])
+                area = max(overlaps(work, each, cut.materials[each.wheels[0]], (ring, cut.materials[ring])))
+                if area > NOTHING:
+                    what = (
+                        f"pair '{gear.name}': bent by its wave '{each.wheels[0]}' overlaps '{ring}' by {area:.3g} mm2"
+                    )
+                    yield BuildFinding("T5", "error", Problem(what, "it cannot turn", "give more backlash"))
+
+
+def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
+    """Common areas (mm2) of a bent wheel and its ring, the wave in several places of a pitch."""
+    assert wave.wave is not None
+    shapely = plane_geometry()
+    name, material = ring
+    blank, counts = work.blanks.wheels[wave.wheels[0]], work.blanks.wheels[name].teeth
+    pitch, z = 2 * np.pi / counts, blank.teeth
+    middle = wave.radius + wave.wave.wall / 2
+    line = _divided(np.asarray(thin.exterior.coords)[:-1])
+    for turn in np.arange(_POSITIONS) * pitch / _POSITIONS * counts / (counts - z):
+        own = -turn * (counts - z) / z
+        bent = shapely.Polygon(bent_line(line, middle, (wave.wave.rise, wave.wave.lobes), (own, turn)))
+        # a tooth of the wheel stands before a space of its ring where the wave begins
+        c, s = np.cos(pitch / 2), np.sin(pitch / 2)
+        held = shapely.transform(material, lambda points, c=c, s=s: points @ np.array([[c, s], [-s, c]]))
+        yield float(shapely.intersection(bent, held).area)
+
+
+def bent_line(line: Floats, middle: float, wave: tuple[float, int], turns: tuple[float, float]) -> Floats:
+    """Points of a thin wheel (n, 2) once it is bent and turned.
+
+    middle   radius of its middle line
+    wave     how far it rises, and its lobes
+    turns    of the wheel and of the wave (rad)
+    """
+    (rise, lobes), (own, where) = wave, turns
+    place = np.arctan2(line[:, 1], line[:, 0]) + own
+    phase, off = lobes * (place - where), np.hypot(*line.T) - middle
+    out, along = rise * np.cos(phase), -rise / lobes * np.sin(phase)
+    at = place + along / middle
+    leaning = at + (lobes * rise * np.sin(phase) + along) / middle
+    points = (middle + out) * np.exp(1j * at) + off * np.exp(1j * leaning)
+    return np.column_stack([points.real, points.imag])
+
+
+def _divided(line: Floats) -> Floats:
+    """With points between its corners."""
+    steps = np.arange(_PARTS)[None, :, None] / _PARTS
+    after = np.roll(line, -1, axis=0)
+    found: Floats = (line[:, None, :] + (after - line)[:, None, :] * steps).reshape(-1, 2)
+    return found

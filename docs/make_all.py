@@ -12,9 +12,11 @@ import make_best_radii
 import make_budgets
 import make_commands
 import make_diagrams
+import make_drawn_teeth
 import make_dynamics_accuracy
 import make_errata
 import make_extremes
+import make_frames
 import make_gallery
 import make_images
 import make_left_out
@@ -56,8 +58,10 @@ def main() -> None:
         make_best_radii,
         make_commands,
         make_diagrams,
+        make_drawn_teeth,
         make_errata,
         make_extremes,
+        make_frames,
         make_gallery,
         make_images,
         make_left_out,

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from geartrain.dynamics.train_teeth import TrainTeeth, find_train_teeth
+from geartrain.dynamics.train_teeth import STANDARD, TrainTeeth, find_train_teeth
 from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.scene import nominal_teeth as likeness
@@ -66,14 +66,14 @@ class ToothProfiles:
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
     """The tooth of every wheel, as it is cut where nothing is said of play; of others a likeness."""
-    toothed = find_train_teeth(stage.train, stage.layout.wheels, 0.0)
+    toothed = find_train_teeth(stage.train, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
 
 
 def _profile(stage: SceneContext, toothed: TrainTeeth, wheel: str) -> ToothProfile:
     found = toothed.wheels.get(wheel) or toothed.likenesses.get(wheel)
-    return _likeness(stage, wheel) if found is None else _section(found)
+    return _likeness(stage, toothed, wheel) if found is None else _section(found)
 
 
 def _section(toothing: WheelTeeth) -> ToothProfile:
@@ -98,21 +98,30 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             yield Problem(f"'{name}' is flexible, and drawn round", why, fix)
 
 
-def _likeness(stage: SceneContext, name: str) -> ToothProfile:
+def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfile:
     _, wheel = stage.train.declaration.wheels[name]
     place, z = stage.layout.wheels[name], wheel.count or 1
-    if wheel.internal:
-        return likeness.ring(z)
     if wheel.kind == "worm":
         return likeness.worm(z, _mate_module(stage, name) / place.radius)
-    return likeness.bevel(z, place.cone) if place.cone else likeness.spur(z)
+    shaped = next((toothed.wheels[mate] for mate in _mates(stage, name) if mate in toothed.wheels), None)
+    if place.cone and shaped is not None and shaped.form != STANDARD and shaped.pins is None:
+        return likeness.crown(z, shaped.z, shaped.section())
+    if place.cone:
+        return likeness.bevel(z, place.cone)
+    mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
+    rooms = [likeness.room(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
+    return (likeness.ring if wheel.internal else likeness.spur)(z, *([min(rooms)] if rooms else []))
 
 
 def _mate_module(stage: SceneContext, name: str) -> float:
+    return stage.layout.wheels[next(_mates(stage, name), name)].module
+
+
+def _mates(stage: SceneContext, name: str) -> Iterator[str]:
+    """Wheels that a wheel meshes with."""
     for circuit in stage.train.circuits:
         if name in circuit.wheels:
-            return stage.layout.wheels[circuit.wheels[1 - circuit.wheels.index(name)]].module
-    return stage.layout.wheels[name].module
+            yield circuit.wheels[1 - circuit.wheels.index(name)]
 
 
 def find_wheels(

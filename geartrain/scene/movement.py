@@ -94,6 +94,7 @@ def tabulated(pair: str, law: ToothLaw) -> ErrorLawTable:
     )
 
 
+_TRIED_ERRORS = 720  # angles of a driver at which a law is compared with itself
 _TRIED = 257  # positions at which pairs that depend on each other are tried
 
 
@@ -103,12 +104,25 @@ class InitialPosition:
 
     driver    its link; `forward` 1, or -1 where it turns against its body's direction
     S, error  its forward angle, and the error of the driven side there (rad)
+    law       of the pair
     """
 
     driver: str
     forward: int
     S: float
     error: float
+    law: ToothLaw
+
+    def error_past(self, shift: float) -> float:
+        """The least error (rad) with which a driven tooth that moves by this law is never cut by its driver's, where
+        these stand `shift` (rad) before it.
+
+        The driven side then keeps e(S) + c, its mate asks for e(S + shift), and c is the most by which that is more.
+        """
+        import numpy as np
+
+        S = self.law.period * np.arange(_TRIED_ERRORS) / _TRIED_ERRORS
+        return self.error + float((self.law.error(S + shift) - self.law.error(S)).max())
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,7 +224,7 @@ def _settings(composition: ErrorComposition, error: Floats, way: int) -> Iterato
     for source in composition.sources:
         S = source.start + composition.driver_shift(source, error)
         driver = composition.spread.links[composition.spread.joints[source.pair].driver]
-        yield source.id, InitialPosition(driver, way * source.forward, S, float(source.law.error(S)))
+        yield source.id, InitialPosition(driver, way * source.forward, S, float(source.law.error(S)), source.law)
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import acos, cos, pi, sqrt, tan
+from collections.abc import Sequence
+from math import acos, atan2, cos, pi, sqrt, tan
 
 from geartrain.scene.elements import ToothProfile
 
@@ -13,27 +14,43 @@ FORM = "likeness"
 _PRESSURE = pi / 9
 _ADDENDUM, _DEDENDUM = 1.0, 1.25  # modules
 _PLAY = 0.02  # of a pitch: what each tooth is thinner
-_LEAST_ROOT = 0.25  # of the pitch radius: few teeth leave little
+_LEAST_ROOT = 0.2  # of the pitch radius: few teeth leave little
 _ROOM = 0.92  # of half a pitch: where at most a flank ends at the root
-_POINTS = 6  # on a flank
+_POINTS = 10  # on a flank
+_PASSING = 0.12  # modules for each tooth that a ring has more than its wheel
+_CROWN_PLAY = 0.06  # of a pitch: what a crown's teeth are thinner than a mate's spaces, whose flanks no rack runs with
 _LAND = 0.08  # of a pitch: least half width of a tip
 
 
-def spur(z: int) -> ToothProfile:
-    """A tooth of a wheel."""
-    return ToothProfile(FORM, _tooth(z))
+def spur(z: int, room: float = _ADDENDUM) -> ToothProfile:
+    """A tooth of a wheel, of at most the height `room` (modules) over the pitch circle."""
+    return ToothProfile(FORM, _tooth(z, min(_ADDENDUM, room)))
 
 
-def ring(z: int) -> ToothProfile:
-    """A tooth of a ring: what a wheel of as many teeth leaves between its own."""
+def ring(z: int, room: float = _ADDENDUM) -> ToothProfile:
+    """A tooth of a ring: what a wheel of as many teeth leaves between its own, within the pitch circle by `room`."""
     most = 1 + 2 * _DEDENDUM / z
     # the space of the ring is the tooth of a wheel, higher and a little wider
-    tip = max(1 - 2 * _ADDENDUM / z, _LEAST_ROOT)
+    tip = max(1 - 2 * min(_ADDENDUM, room) / z, _LEAST_ROOT)
     half = pi / z
     flank = [(r, half - _half(z, r) - 2 * _PLAY * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
         FORM, _mirrored([(r, min(max(angle, _LAND * half), _ROOM * half)) for r, angle in reversed(flank)], z)
     )
+
+
+def room(z: int, mate: int, within: bool) -> float:
+    """How tall (modules) a tooth may be for a mate: down to the roots of one of few teeth.
+
+    within   one of them is a ring: then so that tips pass each other where the teeth are long out of mesh
+    """
+    if within:
+        return _PASSING * abs(z - mate)
+    return mate / 2 * (1 - _root(mate)) - (_DEDENDUM - _ADDENDUM) / 2
+
+
+def _root(z: float) -> float:
+    return max(1 - 2 * _DEDENDUM / z, _LEAST_ROOT)
 
 
 def bevel(z: int, cone: float) -> ToothProfile:
@@ -48,6 +65,22 @@ def bevel(z: int, cone: float) -> ToothProfile:
     return ToothProfile(FORM, tuple((1 + (r - 1) / narrow, angle / narrow) for r, angle in points))
 
 
+def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
+    """A tooth of a crown wheel whose spaces are a little wider than the teeth of its mate, of which one is given.
+
+    section   of that tooth: radius over its pitch radius, and angle (rad), in order of angle
+    """
+    import numpy as np
+
+    r, angle = np.array([point for point in section if point[1] >= 0]).T
+    heights, halves = (1 - r) * mate / 2, 0.5 - angle * mate / (2 * pi) - _CROWN_PLAY
+    # short of the roots of its mate; the tips of that come as far short of its own
+    low, high = heights[0] - (_DEDENDUM - _ADDENDUM), heights[-1] - (_DEDENDUM - _ADDENDUM)
+    at = [low, *heights[heights < high], high]
+    widths = np.clip(np.interp(at, heights, halves), _LAND / 2, _ROOM / 2)
+    return ToothProfile(FORM, _mirrored([(1 + 2 * h / z, w * 2 * pi / z) for h, w in zip(at, widths, strict=True)], z))
+
+
 def worm(starts: int, height: float) -> ToothProfile:
     """A thread: its section along the axle, wound round it; height over the pitch radius."""
     half = pi / starts
@@ -56,9 +89,9 @@ def worm(starts: int, height: float) -> ToothProfile:
     return ToothProfile(FORM, ((low, -half), *flanks, (low, half)))
 
 
-def _tooth(z: float) -> Points:
-    root = max(1 - 2 * _DEDENDUM / z, _LEAST_ROOT)
-    tip = 1 + 2 * _ADDENDUM / z
+def _tooth(z: float, addendum: float = _ADDENDUM) -> Points:
+    root = _root(z)
+    tip = 1 + 2 * addendum / z
     # a pointed tooth ends where its flanks are near to meeting
     while _half(z, tip) < _LAND * pi / z and tip > 1:
         tip = 1 + 0.9 * (tip - 1)
@@ -71,10 +104,24 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Half the angle (rad) of an involute tooth of a wheel at radius r; straight towards the axle under its base."""
+    """Half the angle (rad) of a tooth of a wheel at radius r: involute, straight towards the axle under its base, and
+    undercut as much as a rack does it."""
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
-    return (pi / 2 * (1 - 2 * _PLAY)) / z + tan(_PRESSURE) - _PRESSURE - inner
+    involute = (pi / 2 * (1 - 2 * _PLAY)) / z + tan(_PRESSURE) - _PRESSURE - inner
+    return min(involute, pi / z - _swept(z, r))
+
+
+def _swept(z: float, r: float) -> float:
+    """Half the angle (rad) of a space that the tips of a rack sweep at radius r, from the middle of their own tooth.
+
+    A corner of the rack, `b` from that middle and at the height `c` over the axle, is u aside when the wheel has turned
+    by u - b: it then stands atan(u / c) - (u - b) from the middle of the space.
+    """
+    c = 1 - 2 * _ADDENDUM / z
+    b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
+    u = sqrt(max(r * r - c * c, 0.0))
+    return atan2(u, c) - u + b if c > 0 and r < 1 else 0.0
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:

@@ -3,7 +3,8 @@
 How wheels are put on their bodies, so that teeth stand as their law says when the train sets out.
 
 A law fixes where the teeth of both wheels are at its driver's angle. From wheel to wheel that leaves no choice, and a
-wheel with several mates can please one law only; of the others the driven wheel is set so that they mesh in the mean.
+wheel with several mates can please one law only; of the others the driven wheel is set on so far that its driver
+nowhere cuts into it.
 """
 
 from __future__ import annotations
@@ -71,6 +72,7 @@ def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vecto
 
 
 _NEAR = 1e-6  # of a pitch: teeth that stand as their law has them
+_ROUNDS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,28 +134,49 @@ class _Mounting:
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
         """Mount the mate of a wheel that is mounted."""
-        ahead = self._ahead(circuit)
         stands = self._stands(circuit, own)
         if own == self._driver(circuit):
-            setting = self.moved.driving.get(circuit.id)
-            if setting is not None:
-                # to the nearest whole pitch: teeth are alike
-                lag = (stands - setting.S / self._pitch(circuit.wheels[own]) + 0.5) % 1 - 0.5
-                self.off += [circuit.id] if abs(lag) > _NEAR else []
-            self._set(circuit, 1 - own, stands + ahead)
-        else:
-            self._set(circuit, 1 - own, stands - ahead)
+            self._set(circuit, 1 - own, stands + self._ahead(circuit, stands))
+            self._note_phase(circuit, stands)
+            return
+        at = stands - self._ahead(circuit)
+        for _ in range(_ROUNDS):  # how far ahead depends on where the driver stands, and that on how far ahead
+            at = stands - self._ahead(circuit, at)
+        self._set(circuit, 1 - own, at)
+        self._note_phase(circuit, at)
 
-    def _ahead(self, circuit: Circuit) -> float:
-        """How far (pitches, along the way of turning) the driven wheel's tooth stands before the driver's."""
+    def _shift(self, circuit: Circuit, stands: float) -> float:
+        """Pitches by which a driver's tooth stands before where its law has it, less whole ones: teeth are alike."""
+        setting = self.moved.driving.get(circuit.id)
+        if setting is None:
+            return 0.0
+        shift = (stands - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
+        return shift if abs(shift) > _NEAR else 0.0
+
+    def _note_phase(self, circuit: Circuit, stands: float) -> None:
+        if self._shift(circuit, stands):
+            self.off.append(circuit.id)
+
+    def _ahead(self, circuit: Circuit, stands: float | None = None) -> float:
+        """How far (pitches, along the way of turning) the driven wheel's tooth stands before the driver's.
+
+        stands   where the driver's tooth stands: off the phase of its law, the driven one is set on so far that the
+                 driver nowhere cuts into it
+        """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
             return 0.5
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return mesh.stands or 0.5
-        driven = circuit.wheels[1 - self._driver(circuit)]
-        return mesh.stands + setting.error / self._pitch(driven)
+        driver = self._driver(circuit)
+        if any(self.stage.layout.wheels[wheel].cone for wheel in circuit.wheels):
+            # no law knows the likeness of a crown: its teeth stand in the middle of spaces, in the mean
+            middle = sum(setting.law.error_range()) / 2
+            return 0.5 + (setting.error - middle) / self._pitch(circuit.wheels[1 - driver])
+        shift = 0.0 if stands is None else self._shift(circuit, stands)
+        error = setting.error_past(shift * self._pitch(circuit.wheels[driver])) if shift else setting.error
+        return mesh.stands + error / self._pitch(circuit.wheels[1 - driver])
 
     def _driver(self, circuit: Circuit) -> int:
         """0 or 1: which wheel drives."""
@@ -201,6 +224,6 @@ class _Mounting:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn off the phase of their law",
                 "their driver meshes with several wheels, and stands as the first of them has it; the motion is exact, "
-                "and the teeth drawn may cut into each other by as much as the law ripples",
+                "and the driven teeth are set on until nothing cuts into them, so that they touch but once a pitch",
                 "",
             )

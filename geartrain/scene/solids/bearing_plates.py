@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin, tan
+from math import asin, atan2, cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
@@ -135,6 +135,21 @@ def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     """A bar from its axis at the origin along x, with a slot for a pin that wanders from |r - e| to r + e (mm)."""
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
+
+
+def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
+    """A bar from its axis at the origin along x, with a round hole for a pin that goes round in it (mm).
+
+    A pin whose sizes nobody declares moves its slot evenly, by the mean of the law: with the pin's axis where the slot
+    turns as fast as it, without where it does not turn. In the frame of the bar the pin then goes round a circle.
+    """
+    wide, hole = 1.2 * pin, min(r, e) + 0.55 * pin
+    middle, rim = max(r, e), hole + 0.65 * pin
+    aside = asin(wide / rim)
+    x = middle - rim * cos(aside)
+    sweep = tan((pi - aside) / 2)
+    edge = Contour.of([(0.0, wide, 1.0), (0.0, -wide, 0.0), (x, -wide, sweep), (x, wide, 0.0)])
+    return edge, Contour.circle(hole, (middle, 0.0))
 
 
 def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:

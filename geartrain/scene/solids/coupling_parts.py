@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import around, pin_diameter, slotted_bar
-from geartrain.scene.solids.pin_couplings import pin_axis, pin_width, slot_frame
+from geartrain.scene.solids.bearing_plates import around
+from geartrain.scene.solids.pin_couplings import pin_axis, pin_width, slot_bar, slot_frame
 from geartrain.scene.solids.solid_part import SolidPart
 
 if TYPE_CHECKING:
@@ -83,9 +83,8 @@ class CouplingParts:
     def _bar(self, coupling: SceneCoupling, along: Floats) -> SolidPart:
         hub, turn = np.array(coupling.slot_at), slot_frame(self.scene, coupling)
         level = self._level(coupling.slot, float(coupling.pin_at @ along), along)
-        cut = slotted_bar(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
         place = hub + along * (level - hub @ along)
-        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", cut, _GAP)
+        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", slot_bar(coupling), _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
         """The face, nearest to a height, of the wheels of a body."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.solids.bearing_plates import around, basis, pin_diameter
+from geartrain.scene.solids.bearing_plates import around, basis, holed_bar, pin_diameter, slotted_bar
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
@@ -79,6 +79,12 @@ def _roomy(
 
 def _apart(one: SceneWheel, other: SceneWheel, along: Floats) -> float:
     return float(abs(np.subtract(one.centre, other.centre) @ along))
+
+
+def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
+    """The bar that has the slot: where nobody declares the sizes, a hole in which the pin goes round evenly."""
+    shape = slotted_bar if coupling.drawn else holed_bar
+    return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
 
 def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:

@@ -2,6 +2,7 @@
 
 import { Shape } from "./shape.js";
 
+const TURN = 2 * Math.PI;
 const FINE = 0.02; // of a tooth's depth: bends of the outline that are too slight to be drawn
 
 /**
@@ -11,7 +12,7 @@ const FINE = 0.02; // of a tooth's depth: bends of the outline that are too slig
  * apex   1 or -1: on which side of the wheel, along z, its cone runs together (or its crown's teeth stand)
  */
 export function blankOf(wheel, apex) {
-  const { radius, thickness, cone, helix } = wheel;
+  const { radius, thickness, cone, helix, teeth } = wheel;
   if (!cone) {
     const twist = (thickness * Math.tan(helix)) / radius;
     return (rho, angle, end) => {
@@ -19,21 +20,28 @@ export function blankOf(wheel, apex) {
       return [rho * radius * Math.cos(turned), rho * radius * Math.sin(turned), (end - 0.5) * thickness];
     };
   }
-  const height = cone > Math.PI / 2 - 1e-6 ? 0 : (apex * radius) / Math.tan(cone);
+  const crown = cone > Math.PI / 2 - 1e-6;
+  const height = crown ? 0 : (apex * radius) / Math.tan(cone);
   const slant = radius / Math.sin(cone);
+  const half = Math.PI / teeth;
+  const aslant = Math.sqrt(thickness / radius); // how far round a crown's teeth still come to its mate
   const taper = 1 - Math.min(0.45, thickness / slant);
   return (rho, angle, end) => {
     const depth = (rho - 1) * radius;
     const scale = end ? taper : 1;
+    // spaces of a crown grow wider inwards: what runs in them is as wide there, and off the middle they stand aslant
+    const space = half - Math.abs(angle) + aslant - Math.sin(aslant) + ((1 - scale) * aslant) / 2;
+    const turned = crown ? Math.sign(angle) * Math.max(0, half - space / scale) : angle;
     const r = (radius + depth * Math.cos(cone)) * scale;
     const z = height + (apex * depth * Math.sin(cone) - height) * scale;
-    return [r * Math.cos(angle), r * Math.sin(angle), z];
+    return [r * Math.cos(turned), r * Math.sin(turned), z];
   };
 }
 
 /** The tooth between its profile and `base` (over the pitch radius), on a blank. */
 export function toothShape(points, base, at, fine = FINE) {
-  const edge = simplify(points, fine);
+  const ring = base > Math.max(...points.map(([radius]) => radius));
+  const edge = simplify(points, fine, ring ? -1 : 1);
   const shape = flanks(new Shape(), edge, at);
   for (const end of [0, 1]) {
     for (let n = 1; n < edge.length; n += 1) {
@@ -78,27 +86,59 @@ function facing([a, b, c, d]) {
   return unit([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]);
 }
 
-/** Points kept so that no dropped one lies further off than a small part of the tooth's depth. */
-export function simplify(points, fine = FINE) {
+/**
+ * An outline with fewer corners, that leaves out what is slight. It nowhere leaves the tooth: a chord across a hollow is
+ * moved in until it touches the bottom, so that teeth which clear each other do so as they are drawn.
+ *
+ * side   1 where the wheel lies left of its outline, as a disc does; -1 of a ring
+ */
+export function simplify(points, fine = FINE, side = 1) {
   const radii = points.map(([radius]) => radius);
-  const depth = Math.max(...radii) - Math.min(...radii);
+  const slight = fine * (Math.max(...radii) - Math.min(...radii));
   const plane = points.map(([radius, angle]) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
-  const keep = new Set([0, points.length - 1]);
-  const work = [[0, points.length - 1]];
-  while (work.length) {
-    const [first, last] = work.pop();
-    let worst = fine * depth;
-    let at = -1;
-    for (let n = first + 1; n < last; n += 1) {
-      const off = offLine(plane[n], plane[first], plane[last]);
-      if (off > worst) [worst, at] = [off, n];
-    }
-    if (at < 0) continue;
-    keep.add(at);
-    work.push([first, at], [at, last]);
-  }
-  return points.filter((_, n) => keep.has(n));
+  const lines = chords(plane, slight).map(([first, last]) => movedIn(plane, first, last, side));
+  const border = (at, angle) => ({ from: at, to: at, way: [Math.cos(angle), Math.sin(angle)], in: [0, 0] });
+  const all = [border(plane[0], points[0][1]), ...lines, border(plane.at(-1), points.at(-1)[1])];
+  let before = points[0][1];
+  return all.slice(1).flatMap((line, n) =>
+    meeting(all[n], line, slight).map(([x, y]) => {
+      const angle = Math.atan2(y, x);
+      before = angle + TURN * Math.round((before - angle) / TURN);
+      return [Math.hypot(x, y), before];
+    }),
+  );
 }
+
+/** First and last of the points of each run that leaves its chord by no more than `slight`. */
+function chords(plane, slight, first = 0, last = plane.length - 1) {
+  let [worst, at] = [slight, -1];
+  for (let n = first + 1; n < last; n += 1) {
+    const off = offLine(plane[n], plane[first], plane[last]);
+    if (off > worst) [worst, at] = [off, n];
+  }
+  return at < 0 ? [[first, last]] : [...chords(plane, slight, first, at), ...chords(plane, slight, at, last)];
+}
+
+/** The chord of a run, and how far (`in`) it is to be moved into the tooth so that all of the run is outside. */
+function movedIn(plane, first, last, side) {
+  const [from, to] = [plane[first], plane[last]];
+  const way = unit([to[0] - from[0], to[1] - from[1]]);
+  const inward = [-side * way[1], side * way[0]];
+  const off = (point) => (point[0] - from[0]) * inward[0] + (point[1] - from[1]) * inward[1];
+  const most = Math.max(0, ...plane.slice(first + 1, last).map(off));
+  return { from, to, way, in: inward.map((part) => part * most) };
+}
+
+/** Where a line goes over into the next one, both moved in: a corner, or two where that were far off. */
+function meeting(line, next, slight) {
+  const [one, other] = [line.to, next.from].map((point, n) => add(point, [line, next][n].in));
+  const turn = line.way[0] * next.way[1] - line.way[1] * next.way[0];
+  const along = ((other[0] - one[0]) * next.way[1] - (other[1] - one[1]) * next.way[0]) / turn;
+  if (Math.abs(along) <= 4 * slight) return [add(one, line.way.map((part) => part * along))];
+  return Math.hypot(other[0] - one[0], other[1] - one[1]) > 1e-9 ? [one, other] : [one];
+}
+
+const add = (a, b) => a.map((part, k) => part + b[k]);
 
 function offLine([x, y], [x0, y0], [x1, y1]) {
   const [dx, dy] = [x1 - x0, y1 - y0];

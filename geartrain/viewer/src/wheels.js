@@ -23,7 +23,7 @@ export class WheelPart {
     [this.own, this.toothed, this.smooth] = [0, 1, 2].map(() => palette.slot("#ffffff", GLOSS));
     this.profile = scene.profiles[wheel.profile];
     this.apex = apexSide(scene, index);
-    this.surface = blankOf(wheel, this.apex);
+    this.surface = blankOf(alongThread(scene, index), this.apex);
     const radii = this.profile.points.map(([radius]) => radius);
     const ring = wheel.kind === "ring";
     this.root = ring ? Math.max(...radii) : Math.min(...radii);
@@ -125,6 +125,13 @@ function apexSide(scene, index) {
   const [up, down] = [gap(1), gap(-1)];
   if (Math.abs(up - down) > 1e-6 * wheel.radius) return up < down ? 1 : -1;
   return vector(mate.centre).sub(vector(wheel.centre)).dot(vector(wheel.direction)) >= 0 ? 1 : -1;
+}
+
+/** A wheel that runs on a worm has teeth that go along its thread. */
+function alongThread(scene, index) {
+  const worm = mates(scene, index).find((at) => scene.wheels[at].kind === "worm");
+  if (worm === undefined) return scene.wheels[index];
+  return { ...scene.wheels[index], helix: Math.atan(threadOf(scene, worm).lead / (2 * Math.PI * scene.wheels[worm].radius)) };
 }
 
 /** Lead of a worm's thread (mm a turn, negative for a left hand), so that it drives its wheel as the speeds say. */

@@ -14,8 +14,8 @@ const circle = (radius) => `M${radius} 0A${radius} ${radius} 0 1 0 ${-radius} 0A
 export const rimOf = ({ root, module }) => root + 2 * module;
 
 /** All teeth of a wheel about the origin; `radii` and angles of one tooth's corners as in `ToothProfile`. */
-export function teeth({ teeth: count, radius, turn }, { points }) {
-  const tooth = simplify(points);
+export function teeth({ kind, teeth: count, radius, turn }, { points }) {
+  const tooth = simplify(points, undefined, kind === "ring" ? -1 : 1);
   return Array.from({ length: count }, (_, n) =>
     tooth.slice(1).map(([r, angle]) => {
       const at = turn + angle + (TURN * n) / count;

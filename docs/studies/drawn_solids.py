@@ -1,0 +1,258 @@
+"""How far teeth run into each other as the viewer draws them: its own triangles in its own poses, by manifold3d.
+
+Everything is read out of the page in a browser: the shapes it casts, and the matrices by which it turns them.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import pi
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import manifold3d
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.scene import Scene, SceneCoupling, ScenePair, ScenePart
+from geartrain.viewer import page
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+Floats = NDArray[np.float64]
+
+# of each wheel what the viewer casts as teeth: shapes in the wheel's frame, where that stands, and how many copies
+SHAPES = """(() => {
+  const [{ world }] = globalThis["geartrain"].stages;
+  const many = world.scene.wheels.reduce((sum, { teeth }) => sum + teeth, 0);
+  return world.wheels.map((part) => {
+    const found = [];
+    const add = ({ points }, { elements }, slot, count = 1) => found.push({ points, elements, count });
+    if (part.wheel.kind === "worm") part.castBody((shape, matrix) => add(shape, matrix, null, part.wheel.teeth));
+    else part.castTeeth(add, many);
+    return found;
+  });
+})()"""
+# where all bodies stand after each of some exact numbers of turns of the lead: matrices, column by column
+POSES = """((asked) => {
+  const { machines: [machine], stages: [{ world: { poses } }] } = globalThis["geartrain"];
+  const before = machine.turns;
+  const found = asked.map((turns) => {
+    machine.turns = before.constructor.of(turns);
+    const array = new Float64Array(16 * poses.bodies.length);
+    poses.turn(array);
+    return [...array];
+  });
+  machine.turns = before;
+  return found;
+})"""
+PATIENCE = 90_000  # ms: software draws slowly on a busy machine
+CORE = 330  # corners of a worm's core: five rounds of two times 33
+
+
+class DrawnTooth:
+    """A tooth of a wheel as a closed solid about the wheel's own z axis, and where all its copies stand."""
+
+    def __init__(self, points: Floats, elements: Sequence[float], count: int, worm: bool = False) -> None:
+        sections = _turns(points, count) if worm else _sections(points)
+        self.solid = _lofted(sections)
+        self.volume = float(self.solid.volume())
+        corners = np.concatenate(sections)
+        self.middle = corners.mean(0)
+        self.reach = float(np.linalg.norm(corners - self.middle, axis=1).max())
+        stand = np.array(elements).reshape(4, 4).T
+        self.copies = np.array([stand @ _about_z(2 * pi * copy / count) for copy in range(count)])
+
+    def standing(self, body: Floats, ahead: float = 0.0) -> Floats:
+        """Matrices of all copies where their body stands, turned on by some pitches (copies, 4, 4)."""
+        found: Floats = body @ self.copies @ _about_z(2 * pi * ahead / len(self.copies))
+        return found
+
+    def middles(self, stands: Floats) -> Floats:
+        """Where the middles of its copies are (copies, 3)."""
+        return np.asarray(stands[:, :3, :3] @ self.middle + stands[:, :3, 3])
+
+    def at(self, stand: Floats) -> manifold3d.Manifold:
+        """The copy that stands so."""
+        placed: manifold3d.Manifold = self.solid.transform(stand[:3])
+        return placed
+
+
+def _sections(points: Floats) -> list[Floats]:
+    """The outlines of both faces, corner by corner, out of the corners of the triangles drawn.
+
+    Of a tooth four corners of every piece of flank, then on either face four of every strip down to its base; of a pin
+    the flanks alone.
+    """
+    quads = points.reshape(-1, 4, 3)
+    pieces = len(quads) // 3
+    strips = quads[pieces : 3 * pieces].reshape(2, pieces, 4, 3)
+    whole = len(quads) == 3 * pieces and np.allclose(strips[0, :, 3], quads[:pieces, 0])
+    flanks = quads[:pieces] if whole else quads
+    if not np.allclose(flanks[:-1, 1], flanks[1:, 0]) or not np.allclose(flanks[:-1, 2], flanks[1:, 3]):
+        raise ValueError("the pieces of a flank do not hang together: the viewer builds teeth in another way")
+    if not whole:
+        return [flanks[:, 0], flanks[:, 3]]
+    outer = [np.vstack([flanks[:, at], flanks[-1:, to]]) for at, to in ((0, 1), (3, 2))]
+    base = [np.vstack([strips[end, :, 0], strips[end, -1:, 1]]) for end in (0, 1)]
+    return [np.vstack([side, foot[::-1]]) for side, foot in zip(outer, base, strict=True)]
+
+
+def _turns(points: Floats, starts: int) -> list[Floats]:
+    """The sections of the first thread of a worm along its turns: of three strips side by side, behind the core."""
+    strips = points[CORE:].reshape(starts, 3, -1, 2, 3)[0]
+    if not np.allclose(strips[:-1, :, 1], strips[1:, :, 0]):
+        raise ValueError("the strips of a thread do not hang together: the viewer builds worms in another way")
+    return list(np.stack([*strips[:, :, 0], strips[-1, :, 1]], axis=1))
+
+
+def _lofted(sections: Sequence[Floats]) -> manifold3d.Manifold:
+    """What outlines of as many corners have between them, its flanks parted into triangles as the viewer does."""
+    count = len(sections[0])
+    here = np.arange(count)
+    after = np.roll(here, -1)
+    strip = np.vstack([np.c_[here, after, after + count], np.c_[here, after + count, here + count]])
+    sides = np.vstack([strip + at * count for at in range(len(sections) - 1)])
+    flat = _unrolled(sections[0])
+    left = np.sum(flat[:, 0] * np.roll(flat[:, 1], -1) - np.roll(flat[:, 0], -1) * flat[:, 1]) > 0
+    cap = np.array(manifold3d.triangulate([flat if left else flat[::-1]]))
+    cap = cap[:, ::-1] if left else (count - 1 - cap)[:, ::-1]  # against the way the sides go round
+    faces = np.vstack(
+        [sides, cap if left else cap[:, ::-1], (cap[:, ::-1] if left else cap) + count * (len(sections) - 1)]
+    )
+    corners = np.ascontiguousarray(np.vstack(sections))
+    for each in (faces, faces[:, ::-1]):
+        solid = manifold3d.Manifold(manifold3d.Mesh64(corners, np.ascontiguousarray(each, dtype=np.uint64)))
+        if solid.status() == manifold3d.Error.NoError and solid.volume() > 0:
+            return solid
+    raise ValueError(f"a tooth is no closed solid: {solid.status()}")
+
+
+def _unrolled(outline: Floats) -> Floats:
+    """An outline about the z axis in a plane: along the circle, and across it, radially or along the axis."""
+    x, y, z = outline.T
+    radius = np.hypot(x, y)
+    aside = radius if np.ptp(radius) >= np.ptp(z) else z
+    return np.stack([np.arctan2(y, x) * radius.mean(), aside], axis=1)
+
+
+def _about_z(angle: float) -> Floats:
+    turned = np.eye(4)
+    turned[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return turned
+
+
+@dataclass(frozen=True)
+class DrawnTeeth:
+    """The teeth of all wheels of a scene as a page draws them."""
+
+    scene: Scene
+    wheels: Sequence[DrawnTooth | None]
+    poses: Callable[[Sequence[str]], Any]
+
+    def matrices(self, turns: Sequence[Fraction]) -> Floats:
+        """Of all bodies after each of some turns of the lead, as numbers (turns, bodies, 4, 4)."""
+        found = np.array(self.poses([str(each) for each in turns]))
+        return np.asarray(found.reshape(len(turns), -1, 4, 4).swapaxes(2, 3))
+
+    def common(self, pair: ScenePair, bodies: Floats, ahead: float = 0.0) -> float:
+        """What teeth of both wheels have in common, over the volume of the smaller tooth.
+
+        bodies   where bodies stand, of one pose
+        ahead    pitches by which the second wheel is turned beyond that
+        """
+        first, second = (self.wheels[at] for at in pair.wheels)
+        if first is None or second is None:
+            raise ValueError(f"'{pair.id}' has a wheel that is drawn without teeth")
+        here, there = (bodies[self.scene.wheels[at].body] for at in pair.wheels)
+        stands = first.standing(here), second.standing(there, ahead)
+        middles = [tooth.middles(each) for tooth, each in zip((first, second), stands, strict=True)]
+        apart = np.linalg.norm(middles[0][:, None] - middles[1], axis=2)
+        shared = sum(
+            float((first.at(stands[0][one]) ^ second.at(stands[1][other])).volume())
+            for one, other in np.argwhere(apart < first.reach + second.reach)
+        )
+        return shared / min(first.volume, second.volume)
+
+    def in_slot(self, coupling: SceneCoupling, bodies: Floats, aside: float = 0.0) -> float:
+        """What a pin and the plate with its slot have in common, over the pin's part in the plate.
+
+        aside   by how much (mm, of the nearest that the pin comes) the plate is turned beyond where it stands
+        """
+        turned = aside / abs(coupling.pin_radius - coupling.offset)
+        pin, slot = (self.parts[f"{coupling.id} {kind}"] for kind in ("pin", "slot"))
+        stand = bodies[coupling.slot] @ _about(np.array(coupling.slot_at), slot, turned) @ _frame(slot)
+        cylinder = _turned(pin).transform((bodies[coupling.pin] @ _frame(pin))[:3])
+        shared: float = (cylinder ^ _plate(slot).transform(stand[:3])).volume()
+        return shared / (slot.height * pi * pin.bands[0][2] ** 2)
+
+    @cached_property
+    def parts(self) -> dict[str, ScenePart]:
+        """All that holds wheels, by name."""
+        return {part.name: part for part in self.scene.parts}
+
+    @property
+    def slotted(self) -> list[SceneCoupling]:
+        """Couplings whose slots are in plates of their own."""
+        return [each for each in self.scene.couplings if {f"{each.id} pin", f"{each.id} slot"} <= set(self.parts)]
+
+
+def _frame(part: ScenePart) -> Floats:
+    found = np.eye(4)
+    x, z = np.array(part.across), np.array(part.direction)
+    found[:3] = np.column_stack([x, np.cross(z, x), z, part.place])
+    return found
+
+
+def _about(point: Floats, part: ScenePart, angle: float) -> Floats:
+    """A turn about the line through a point along the z axis of a part."""
+    there = _frame(part)
+    there[:3, 3] = point
+    return np.asarray(there @ _about_z(angle) @ np.linalg.inv(there))
+
+
+def _turned(part: ScenePart) -> manifold3d.Manifold:
+    bars = [
+        manifold3d.Manifold.cylinder(high - low, radius, radius, 64).translate((0, 0, low))
+        for low, high, radius, _ in part.bands
+    ]
+    return manifold3d.Manifold.batch_boolean(bars, manifold3d.OpType.Add)
+
+
+def _plate(part: ScenePart) -> manifold3d.Manifold:
+    lines = [np.array(line).reshape(-1, 2) for line in part.outlines]
+    flat = manifold3d.CrossSection(lines, manifold3d.FillRule.EvenOdd)
+    return manifold3d.Manifold.extrude(flat, part.height).translate((0, 0, -part.height / 2))
+
+
+@contextmanager
+def opened(browser: Browser, scene: Scene) -> Iterator[DrawnTeeth]:
+    """The teeth of a scene while its page is open."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "page.html"
+        path.write_text(page([scene]), encoding="utf-8")
+        sheet = browser.new_page(viewport={"width": 320, "height": 240})
+        sheet.set_default_timeout(PATIENCE)
+        try:
+            sheet.goto(path.as_uri())
+            while not sheet.evaluate("Boolean(globalThis.geartrain?.ready)"):
+                time.sleep(0.02)
+            found = zip(sheet.evaluate(SHAPES), scene.wheels, strict=True)
+            wheels = [_tooth(shapes, wheel.kind == "worm") for shapes, wheel in found]
+            yield DrawnTeeth(scene, wheels, lambda asked: sheet.evaluate(POSES, asked))
+        finally:
+            sheet.close()
+
+
+def _tooth(shapes: Sequence[dict[str, Any]], worm: bool) -> DrawnTooth | None:
+    if not shapes:
+        return None
+    (shape,) = shapes
+    return DrawnTooth(np.array(shape["points"]).reshape(-1, 3), shape["elements"], shape["count"], worm)

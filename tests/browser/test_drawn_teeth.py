@@ -1,0 +1,60 @@
+"""Teeth of the viewer as solids: in the poses in which they are drawn they do not run into each other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+pytest.importorskip("manifold3d", reason="the extra proof is not installed")
+
+import shipped
+from studies.drawn_solids import opened
+from studies.drawn_study import ASIDE, NOTHING, measured, overlap, through_the_cycle
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+# rings, involutes of no play, bevels, crowns and pins, triangular teeth on and off the phase of their law, a disc among
+# pins, a worm, circular arcs that ripple, a ring of two teeth more than its wheel, wheels of three teeth
+TRAINS = (
+    "planetary-24-18-60-involute",
+    "humpage",
+    "lantern-mill",
+    "moon-triangular",
+    "pennestri-2002-teeth",
+    "cycloidal-reducer",
+    "worm",
+    "longcase-clock-bs978",
+    "norton-compound",
+    "lu-daolong-hodometer",
+    "crossed-helical",
+)
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_drawn_teeth_have_nothing_in_common_through_a_pitch_and_through_the_cycle(browser: Browser, name: str) -> None:
+    found = measured(browser, name, 4, 3)
+    assert not found.left
+    assert found.worst < NOTHING, found.pair
+
+
+def test_a_wheel_that_stands_off_its_phase_is_found(browser: Browser) -> None:
+    scene = shipped.built("planetary-24-18-60")
+    with opened(browser, scene) as teeth:
+        for pair in scene.pairs:
+            kept, turned = overlap(teeth, pair, 1, 0)
+            assert kept < NOTHING
+            assert turned > 0.5, "half a tooth and more"
+
+
+def test_a_pin_stays_in_its_slot_whether_sizes_are_declared_or_chosen(browser: Browser) -> None:
+    scene = shipped.built("freeth-2021")
+    with opened(browser, scene) as teeth:
+        names = {coupling.id for coupling in teeth.slotted}
+        assert names == {"mercury", "venus", "true_sun", "mars", "jupiter", "saturn"}
+        assert {coupling.drawn for coupling in teeth.slotted} == {True, False}
+        for coupling in teeth.slotted:
+            poses = teeth.matrices([*through_the_cycle(scene, 6)])
+            assert max(teeth.in_slot(coupling, each) for each in poses) < NOTHING, coupling.id
+            assert max(teeth.in_slot(coupling, each, ASIDE) for each in poses) > 0.01, coupling.id

@@ -37,8 +37,10 @@ FRAME = """((turn) => {
   const context = stage.renderer.getContext();
   context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
 })"""
-TRIANGLES = """globalThis["geartrain"].stages[0].world.castings.reduce((sum, { geometry }) => sum + geometry.index.count / 3, 0)"""
-CANVAS = """(({ clientWidth: width, clientHeight: height }) => [width, height])(globalThis["geartrain"].stages[0].canvas)"""
+TRIANGLES = """globalThis["geartrain"].stages[0].world.castings
+  .reduce((sum, { geometry }) => sum + geometry.index.count / 3, 0)"""
+CANVAS = """(({ clientWidth: width, clientHeight: height }) => [width, height])(
+  globalThis["geartrain"].stages[0].canvas)"""
 
 
 @dataclass(frozen=True)

@@ -77,3 +77,17 @@ def test_what_is_engraved_stands_on_the_page_stroke_by_stroke(show: Opening) -> 
         face = next(each for each in shipped.scene(ANTIKYTHERA).dials if f"dial {each.id}" == label)
         letters = [lines for kind, _, lines in face.engraving if kind == "letters"]
         assert strokes == sum(map(len, letters)) > 0, label
+
+
+def test_the_ground_is_below_all_that_turns_and_grows_as_layers_part(show: Opening) -> None:
+    shown = show("planetary-24-18-60")
+    script = """(share) => {
+      const [stage] = geartrain.stages, {world} = stage;
+      stage.explode(share);
+      const low = Math.min(...world.outline().map(({y}) => y));
+      const {low: ground, half_wide: wide} = world.ground.uniforms;
+      return [low, ground.value, wide.value[1]];
+    }"""
+    low, ground, deep = shown.run(script, 0)
+    assert ground < low
+    assert shown.run(script, 1)[2] > 1.5 * deep

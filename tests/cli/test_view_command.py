@@ -70,8 +70,9 @@ def test_the_page_of_the_largest_train_is_below_1200_kilobytes(here: Path) -> No
     assert [path.name for path in here.iterdir()] == ["freeth-2021.html"]
 
 
-def test_the_program_in_the_page_is_below_seven_hundred_kilobytes() -> None:
-    assert (VIEWER / "built" / "viewer.js").stat().st_size < 700_000
+def test_the_program_in_the_page_is_below_710_kilobytes() -> None:
+    # hands that slide on spirals, the room that brass mirrors and the ground are 4 kB of them
+    assert (VIEWER / "built" / "viewer.js").stat().st_size < 710_000
 
 
 def test_the_page_carries_the_scene_unchanged_and_nothing_that_points_elsewhere() -> None:

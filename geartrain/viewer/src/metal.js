@@ -56,6 +56,14 @@ float sheen(vec3 n, vec3 v, vec3 t, vec3 lamp) {
   float turned = dot(t, t) > 0.25 ? pow(max(1.0 - across * across, 0.0), 14.0) * smoothstep(0.2, 1.0, dot(n, half_way)) : plain;
   return 0.35 * plain + 0.65 * turned;
 }
+// the room that metal mirrors: a dark floor, a light ceiling, a window and a lamp, soft as brushed metal shows them
+float room(vec3 r) {
+  float above = mix(0.06, 0.72, smoothstep(-0.5, 0.7, r.y));
+  float window = smoothstep(-0.8, -0.4, r.x) * smoothstep(0.2, -0.2, r.x) * smoothstep(0.0, 0.35, r.y) * smoothstep(0.98, 0.65, r.y);
+  float lamp = smoothstep(0.3, 0.6, r.x) * smoothstep(0.98, 0.7, r.x);
+  float horizon = smoothstep(0.25, 0.0, abs(r.y + 0.15));
+  return above + 0.75 * window + 0.4 * lamp - 0.18 * horizon;
+}
 void main() {
   vec3 v = normalize(-seen);
   vec3 n = normalize(facing);
@@ -65,9 +73,12 @@ void main() {
   float lit = 0.30 + 0.16 * n.y + 0.62 * max(dot(n, KEY), 0.0) + 0.22 * max(dot(n, FILL), 0.0);
   float rim = pow(1.0 - max(dot(n, v), 0.0), 4.0);
   vec3 glint = mix(vec3(1.0), own * 1.9, 0.62) * (0.62 * sheen(n, v, t, KEY) + 0.26 * sheen(n, v, t, FILL) + 0.10 * rim);
-  vec3 light = own * lit * mix(1.22, 0.98, gloss) + gloss * glint;
+  vec3 mirrored = mix(own * 1.75, vec3(1.0), 0.08 + 0.5 * rim) * room(reflect(-v, n));
+  vec3 light = own * lit * mix(1.22, 0.62, gloss) + gloss * (0.85 * glint + 0.66 * mirrored);
   light *= clamp(1.0 + 0.62 * deep / size, 0.62, 1.1); // what lies deeper is darker
-  colour = vec4(sqrt(min(light, 1.0)), paint.a);
+  float most = max(light.r, max(light.g, light.b)); // what is too bright keeps its hue
+  light *= most > 0.7 ? (1.0 - 0.3 * exp((0.7 - most) / 0.3)) / most : 1.0;
+  colour = vec4(sqrt(light), paint.a);
 }`;
 
 /** What draws all that is seen, and what is half seen over it: `poses` of `count` bodies, and where their layers lie. */

@@ -5,6 +5,7 @@ import { Casting } from "./casting.js";
 import { PARTS } from "./colours.js";
 import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
 import { dialParts, pointerParts } from "./faces.js";
+import { Ground } from "./ground.js";
 import { couplingParts, crankOf } from "./joints.js";
 import { Looks } from "./looks.js";
 import { metals } from "./metal.js";
@@ -37,6 +38,8 @@ export class World {
     this.looks.paint("plain");
     this.root.add(...this.castings[0].cast(this.materials), ...this.castings[2].cast(this.materials));
     this.machine = machine;
+    this.ground = new Ground(this.size);
+    this.root.add(this.ground.mesh);
     if (machine.simulated) {
       this.sparks = new Sparks(machine.scene, this.poses, machine.run);
       this.root.add(this.sparks.points);
@@ -133,6 +136,7 @@ export class World {
     this.uniforms.share.value = share;
     this.poses.explode(share);
     this.turn();
+    this.ground.fit(this.outline());
   }
 
   /** Points that a picture of the whole must hold, taken apart as it is. */
@@ -183,6 +187,7 @@ export class World {
   dispose() {
     for (const casting of this.castings) casting.dispose();
     this.sparks?.dispose();
+    this.ground.dispose();
     this.palette.dispose();
     this.uniforms.poses.value.dispose();
     for (const material of this.materials) material.dispose();

@@ -66,6 +66,22 @@ def run(
     without: Annotated[
         Names, typer.Option("--without", help="Ask of a train as if this arbor were lost; several may be.")
     ] = None,
+    source: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            help="With --without: of several parts of the train that with this link at its beginning; default the "
+            "first that has the arbors.",
+        ),
+    ] = None,
+    seen: Annotated[
+        bool,
+        typer.Option(
+            "--seen",
+            help="With --without: the meshes of wheels that survive were seen, and no more arbors are added than are "
+            "lost.",
+        ),
+    ] = False,
     most: Annotated[
         int | None,
         typer.Option("-k", min=0, max=1000, help="The most wheels that may be added; default what the evidence says."),
@@ -126,13 +142,15 @@ def run(
     from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
     from geartrain.train.declaration_files import read_evidence, write_declaration
 
+    if not without and (seen or source is not None):
+        raise typer.BadParameter("it is said of a train without some arbors", param_hint="--seen" if seen else "--from")
     if count and folder is not None:
         raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
     if count and page is not None:
         raise typer.BadParameter("with --count there is nothing to show", param_hint="--page")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
     check_distinct_outputs(to, turning_page)
-    declared, original = _of_train(evidence, without) if without else (read_evidence(evidence), None)
+    declared, original = _of_train(evidence, without, source, seen) if without else (read_evidence(evidence), None)
     question = evidence_question(declared, most, idlers)
     ranked = known_trains(rank or (), same or (), question)
     if folder is not None:
@@ -178,14 +196,14 @@ def run(
     raise typer.Exit(GOOD if report.total else VERDICT)
 
 
-def _of_train(file: str, lost: Sequence[str]) -> tuple[Train, Arbor]:
+def _of_train(file: str, lost: Sequence[str], source: str | None, seen: bool) -> tuple[Train, Arbor]:
     """Evidence of a train whose arbors are lost, and the train itself as a candidate."""
-    from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence
-    from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
+    from geartrain.synthesis.reconstruction.lost_arbors import lost_arbors, lost_evidence
+    from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
     from geartrain.train.declaration_files import read_declaration
 
-    tree = find_spur_tree(read_declaration(file))
-    return lost_evidence(tree, lost), tree.arbor(lost)
+    tree = find_spur_tree(read_declaration(file), lost, source)
+    return lost_evidence(tree, lost, seen), tree.arbor(lost_arbors(tree, lost))
 
 
 def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrain]:

@@ -13,7 +13,8 @@ from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_e
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree
+from geartrain.synthesis.reconstruction.train_parts import find_spur_tree, find_spur_trees
 from geartrain.train.declaration_files import read_declaration, shipped
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel
@@ -99,7 +100,7 @@ def test_the_train_as_a_candidate() -> None:
     assert tree.arbor() == whole
     lost = Arbor(None, wheel(20), (), ((wheel(14), (moon,)),))
     assert tree.arbor(["b"]) == Arbor("a", None, (), ((wheel(10, "a1"), (lost,)), (wheel(12, "a2"), (sun,))))
-    assert tree.beside == ("d", "e")
+    assert not {"d", "e"} & {*tree.arbors}
     assert not tree.has_idlers
 
 
@@ -110,7 +111,7 @@ def test_the_last_arbor_whose_speed_is_known_is_a_pointer() -> None:
     tree = sample("of: c, dial: zodiac, expect: 1, targets: [{period: 365 d}]", "of: e")
     assert dict(tree.pointers) == {"sun": "s", "b": "b"}
     assert tree.wheels_of("b") == ("b1",)
-    assert tree.beside == ("c", "d", "e")
+    assert not {"c", "d", "e"} & {*tree.arbors}
 
 
 def test_a_wheel_that_is_driven_and_drives_is_an_idler() -> None:
@@ -126,7 +127,6 @@ def test_a_wheel_that_is_driven_and_drives_is_an_idler() -> None:
     [
         ("inputs: {a: 1}", "inputs: {a: 1, b: 2}", "has 2 inputs that turn"),
         ("[b2, c1]}", "[b2, c1]}\n  - {pair: [b3, s1]}", "close a loop at 'b3~s1'"),
-        ("c1: 7", "c1: {teeth: 7, internal: true}", None),
         ("inputs: {a: 1}", "inputs: {a: 1}\nfixed: [c]", None),
     ],
 )
@@ -138,13 +138,20 @@ def test_only_trees_of_spur_wheels_are_taken(old: str, new: str, why: str | None
             sample(old, new)
 
 
+def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:
+    tree = sample("c1: 7}}", "c1: {teeth: 27, internal: true}}}")
+    assert tree.pointers["moon"] == "c"
+    assert tree.able == ("b", "s")
+    assert lost_evidence_data(tree, ["b"])["links"]["c"] == {"wheels": {"c1": {"teeth": 27, "internal": True}}}
+
+
 @pytest.mark.parametrize(
     ("name", "why"),
     [
         ("four-gear-loop", "close a loop"),
         ("gm-4t60", "in each of its states"),
-        ("wolfrom-175", "it has arbors on a moving arbor, rings and arbors that are held"),
         ("lantern-mill", "it has contrate wheels"),
+        ("rv-reducer", "it has couplings that are no pins in slots"),
     ],
 )
 def test_a_train_that_is_not_taken_says_why(name: str, why: str) -> None:
@@ -168,18 +175,115 @@ def test_only_arbors_of_the_tree_can_be_lost(lost: list[str], why: str) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(shipped()))
-def test_pointers_of_the_tree_turn_as_the_whole_train_turns_them(name: str) -> None:
-    """Also where a tree is a part alone, and the rest has moving arbors and pins."""
+def test_pointers_of_every_part_turn_as_the_whole_train_turns_them(name: str) -> None:
+    """Also where a part is on a carrier, or begins behind one, and where it has rings and pins in slots."""
     try:
-        tree = find_spur_tree(read_declaration(name))
+        trees = find_spur_trees(read_declaration(name))
     except GearTrainError:
         return
-    solved = load(name).solve().outputs
-    source = concrete(tree.arbor())
-    turning = zip(nodes(source), speeds(source, tree.train.case(None).inputs[tree.source]), strict=True)
-    shown = {dial: speed for node, speed in turning for dial in node[2]}
-    assert shown == {pointer: solved[pointer].speed for pointer in tree.pointers}
-    assert all(node[2] for node in nodes(source) if not node[3])
+    solved = load(name).solve()
+    for tree in trees:
+        first = concrete(tree.arbor())
+        rings = [wheel for wheel in tree.counts if tree.train.wheels[wheel][1].internal]
+        turning = zip(nodes(first), speeds(first, tree.base.driven, rings), strict=True)
+        shown = {dial: tree.base.speed + speed for node, speed in turning for dial in node[2]}
+        assert shown == {pointer: solved[tree.link_of(pointer)] for pointer in tree.pointers}
+        assert all(node[2] for node in nodes(first) if not node[3])
+
+
+def parts_of(name: str) -> dict[str, set[str]]:
+    return {tree.name: set(tree.able) for tree in find_spur_trees(read_declaration(name))}
+
+
+def test_what_is_borne_by_a_carrier_is_a_part_and_so_is_what_it_drives() -> None:
+    """By hand, from the declarations: the links are those whose arbors a reader finds between two known speeds."""
+    back = parts_of("freeth-2008")
+    assert list(back) == ["", "on e_table, from e_pipe", "from e_inner"]
+    assert back["on e_table, from e_pipe"] == {"k1", "e_inner"}
+    assert back["from e_inner"] == {"moon"}
+    jones = parts_of("freeth-jones-2012")["on b, from frame"]
+    assert jones == {"sun_idler", "sun40", "me33", "ve64", "ma79", "mars", "ju83", "jupiter", "sa59", "saturn"}
+    assert len(parts_of("freeth-2021")["on b, from frame"]) == 20
+    assert parts_of("price-1974")["on turntable, from e1"] == {"k", "j", "e2"}
+    assert parts_of("price-1974")["from turntable"] == {"f", "g", "h", "i"}
+    # the sun and the planet of a train whose ring stands still; an arbor with a ring of its own is not lost
+    assert parts_of("planetary-24-18-60") == {"on carrier, from frame": {"planet", "sun"}}
+    assert "F" not in parts_of("norton-compound")["on arm, from ground"]
+
+
+def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
+    tree = find_spur_tree(read_declaration("freeth-2008"), ["k2"])
+    assert (tree.source, tree.joined["k1"], tree.wheels_of("k1")) == ("e_pipe", ("k1", "k2"), ("k1", "k2"))
+    data = lost_evidence_data(tree, ["e_inner"])
+    assert data["inputs"] == {"e_table": "-477/4237", "e_pipe": "-254/19"}
+    assert data["links"] == {
+        "frame": {},
+        "e_table": {},
+        "e_pipe": {"wheels": {"e5": data["links"]["e_pipe"]["wheels"]["e5"]}},
+        "k1": {"wheels": {"k1": data["links"]["k1"]["wheels"]["k1"]}},
+        "k2": {"wheels": {"k2": data["links"]["k2"]["wheels"]["k2"]}},
+    }
+    assert data["reconstruct"] == {
+        "carrier": "e_table",
+        "add": {"wheels": 1, "teeth": [12, 223]},
+        "given": [{"pair": ["k1", "k2"]}],
+    }
+    assert data["outputs"]["lunar anomaly"] == {
+        "of": "k1",
+        "relative_to": "e_table",
+        "expect": {"value": "56165/4237"},
+    }
+    without = lost_evidence_data(tree, ["k2"])
+    assert without["reconstruct"]["add"] == {"wheels": 2, "teeth": [12, 223]}
+    assert "given" not in without["reconstruct"]
+
+
+@pytest.mark.parametrize(
+    ("name", "lost", "why"),
+    [
+        ("freeth-2008", ["a"], "it has contrate wheels"),
+        ("freeth-2021", ["venus"], "mean ratio is 0"),
+        ("freeth-2021", ["frame"], "a reconstruction begins there"),
+        ("norton-compound", ["F"], "it has a ring"),
+        ("freeth-2008-doubt", ["c"], "it leads to no pointer of known speed"),
+        ("freeth-2008", ["k1", "k2"], "'k1' is left out twice"),
+        ("freeth-2008", ["c", "k1"], "'c' and 'k1' cannot be left out together"),
+    ],
+)
+def test_what_cannot_be_lost_is_told_with_the_reason(name: str, lost: list[str], why: str) -> None:
+    source = "frame" if lost == ["frame"] else "ground" if lost == ["F"] else None
+    with pytest.raises(GearTrainError, match=why):
+        lost_evidence(find_spur_tree(read_declaration(name), lost, source), lost)
+
+
+IN_PARTS = {
+    "freeth-2008": ("e_pipe", "e_inner"),
+    "planetary-24-18-60": ("frame",),
+    "wolfrom-175": ("case",),
+    "nrel-grc-750": ("housing", "low"),
+    "price-1974": ("e1", "turntable"),
+}
+
+
+@pytest.mark.parametrize("name", IN_PARTS)
+def test_an_arbor_of_a_later_part_is_found_again(name: str) -> None:
+    for source in IN_PARTS[name]:
+        tree = find_spur_tree(read_declaration(name), (), source)
+        for link in tree.able:
+            problem = evidence_question(lost_evidence(tree, [link])).problem
+            if problem.additions.wheels < 3:
+                assert rank_of(tree.arbor([link]), find_reconstructions(problem)) is not None, (source, link)
+
+
+@pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "price-1974", "clock-10000-years-exact"])
+def test_where_meshes_were_seen_the_search_of_a_large_train_is_small(name: str) -> None:
+    """In the first part and in those on carriers; none of these ends within minutes where no mesh is told."""
+    trees = find_spur_trees(read_declaration(name))
+    for tree in trees:
+        link = tree.able[0]
+        evidence = lost_evidence(tree, [link], seen=True)
+        assert {frozenset(gear.pair) for gear in evidence.gears} == set(map(frozenset, tree.meshes([link])))
+        assert rank_of(tree.arbor([link]), find_reconstructions(evidence_question(evidence).problem)) is not None
 
 
 def results(listed: list[Candidate], total: int) -> Reconstructions:

@@ -13,6 +13,7 @@ from functools import cached_property
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits.joint_tree import find_tree
+from geartrain.synthesis.reconstruction.mesh_walk import DrivenArbor, walk_meshes
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Arbor,
@@ -20,7 +21,6 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     ReconstructionProblem,
     SearchedDial,
 )
-from geartrain.synthesis.reconstruction.spur_tree import DrivenArbor, walk_meshes
 from geartrain.train import Train
 
 

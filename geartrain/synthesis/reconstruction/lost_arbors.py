@@ -10,51 +10,90 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
 from geartrain.synthesis.reconstruction.spur_tree import SpurTree
+from geartrain.synthesis.reconstruction.train_parts import why_not
 from geartrain.train import Train, declare
 from geartrain.train.reconstruction import NEW_ARBOR
 
 _KEPT = ("title", "sources", "unit", "view")
-_OF_WHEELS = ("status", "source", "note")
+_OF_WHEELS = ("internal", "status", "source", "note")
 
 
-def lost_evidence(tree: SpurTree, lost: Sequence[str]) -> Train:
+def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:
     """Evidence of a tree of which some arbors are lost.
 
-    What survives are the other arbors with the wheels that mesh in the train, counts as they are used there; every
-    pointer with its speed, on its arbor or on one that does not survive. Who meshes with whom is not known. As many
-    wheels may be added as are lost, with as many teeth as any wheel of the tree has.
+    What survives are the other arbors with the wheels that mesh in the train, counts as they are used there, and the
+    couplings of two of them; every pointer with its speed, on its arbor or on one that does not survive. As many wheels
+    may be added as are lost, with as many teeth as any wheel of the part has; of a later part, as any of all parts.
 
-    lost   names of arbors; `QuestionError` for the input, and for what is no arbor of the tree
+    lost   links; `QuestionError` for the first arbor, and for what is no arbor of the tree, or has a ring
+    seen   the meshes of wheels that survive were seen, and no more arbors may be added than are lost; else it is not
+           known who meshes with whom
     """
-    return declare(lost_evidence_data(tree, lost))
+    return declare(lost_evidence_data(tree, lost, seen))
 
 
-def lost_evidence_data(tree: SpurTree, lost: Sequence[str]) -> dict[str, Any]:
+def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> dict[str, Any]:
     """The same with the keys of a declaration."""
     _check(tree, lost)
     train = tree.train
+    arbors = lost_arbors(tree, lost)
     given = train.model_dump(mode="json", exclude_unset=True, by_alias=True)
     words = "-".join(lost).replace(" ", "-")
     kept = {key: given[key] for key in _KEPT if given.get(key)}
     if "title" in kept:
         kept["title"] += f", without {', '.join(lost)}"
-    survivors = [link for link in train.links if link in tree.arbors and link not in lost]
-    add = {
-        "wheels": sum(len(tree.wheels_of(link)) for link in lost),
-        "teeth": [min(tree.counts.values()), max(tree.counts.values())],
-    }
+    surviving = [arbor for arbor in tree.arbors if arbor not in arbors]
+    standing = {link for arbor in surviving for link in tree.links_of(arbor)}
+    links: dict[str, Any] = {train.frame: {}, **({tree.base.name: {}} if tree.base.is_carrier else {})}
+    for link in train.links:
+        if link in standing:
+            own = train.frame if link in train.fixed else link
+            links[own] = {"wheels": {**links.get(own, {}).get("wheels", {}), **_wheels(tree, given, link)}}
+    meshes = tree.meshes(arbors) if seen else ()
     return {
         "name": f"{train.name}-without-{words}",
         **kept,
         "frame": train.frame,
-        "links": {train.frame: {}, **{link: {"wheels": _wheels(tree, given, link)} for link in survivors}},
-        "inputs": {tree.source: given["inputs"][tree.source]},
+        "links": {link: one if one.get("wheels") else {} for link, one in links.items()},
+        **({"gears": [{"pair": list(pair)} for pair in meshes]} if meshes else {}),
+        "inputs": _inputs(tree, given),
         "outputs": {
-            name: {"of": NEW_ARBOR if link in lost else link} | _speed(given["outputs"][name])
-            for name, link in tree.pointers.items()
+            name: {"of": NEW_ARBOR if arbor in arbors else tree.link_of(name)} | _shown(tree, given, name)
+            for name, arbor in tree.pointers.items()
         },
-        "reconstruct": {"add": add} | ({"idlers": True} if tree.has_idlers else {}),
+        "reconstruct": _asked(tree, arbors, seen),
     }
+
+
+def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:
+    """The arbors of the tree that some links stand for."""
+    return tuple(dict.fromkeys(map(tree.arbor_of, links)))
+
+
+def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
+    """How many wheels are lost with some links."""
+    return sum(len(tree.wheels_of(arbor)) for arbor in lost_arbors(tree, lost))
+
+
+def _asked(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any]:
+    pairs = [[links[0], other] for arbor, links in tree.joined.items() if arbor not in lost for other in links[1:]]
+    return {
+        **({"carrier": tree.base.name} if tree.base.is_carrier else {}),
+        "add": {
+            "wheels": lost_wheels(tree, lost),
+            "teeth": list(tree.teeth),
+            **({"arbors": len(lost)} if seen else {}),
+        },
+        **({"idlers": True} if tree.has_idlers else {}),
+        **({"given": [{"pair": pair} for pair in pairs]} if pairs else {}),
+    }
+
+
+def _inputs(tree: SpurTree, given: dict[str, Any]) -> dict[str, Any]:
+    """The speeds of what bears the arbors and of the first of them."""
+    base, frame = tree.base, tree.train.frame
+    speeds = {base.name: base.speed, base.source: base.driven + base.speed}
+    return {link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != frame}
 
 
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
@@ -72,15 +111,18 @@ def is_all_listed(found: Reconstructions) -> bool:
 
 
 def _check(tree: SpurTree, lost: Sequence[str]) -> None:
-    able = [link for link in tree.driven if link not in lost]
-    for link in lost:
-        if link == tree.source:
+    arbors = [tree.arbor_of(link) for link in lost]
+    able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
+    for link, arbor in zip(lost, arbors, strict=True):
+        if arbor == tree.source:
             what, why = f"'{link}' carries the input", "a reconstruction begins there"
-        elif link not in tree.driven:
+        elif arbor not in tree.driven:
             what = f"'{link}' cannot be left out"
-            why = "it is none of the arbors that spur wheels on the frame drive from the input to a pointer"
-        elif list(lost).count(link) > 1:
-            what, why = f"'{link}' is left out twice", "an arbor is lost once"
+            why = why_not(tree.train, link) if link in tree.train.links else "there is no such link"
+        elif arbor not in tree.able:
+            what, why = f"'{link}' cannot be left out", "it has a ring, and no ring is added"
+        elif arbors.count(arbor) > 1:
+            what, why = f"'{link}' is left out twice", "an arbor is lost once, with all that is joined to it"
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))
@@ -89,15 +131,20 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
 def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
     """Wheels of a surviving arbor with their counts, and what is told of them."""
     found: dict[str, Any] = {}
-    for name in tree.wheels_of(link):
+    for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
         wheel = given["links"][link]["wheels"][name]
         about = {key: wheel[key] for key in _OF_WHEELS if key in wheel} if isinstance(wheel, dict) else {}
         found[name] = {"teeth": tree.counts[name], **about} if about else tree.counts[name]
     return found
 
 
-def _speed(output: dict[str, Any]) -> dict[str, Any]:
-    """How fast a pointer turns: what is expected of it, else its targets that have a tolerance."""
+def _shown(tree: SpurTree, given: dict[str, Any], pointer: str) -> dict[str, Any]:
+    """How fast a pointer turns: what is expected of it, else its targets that have a tolerance; and seen from what."""
+    output = given["outputs"].get(pointer)
+    if output is None:
+        return {"expect": given["inputs"][pointer]}
+    base = tree.train.case(None).outputs[pointer].relative_to
+    seen = {} if base in (None, tree.train.frame) else {"relative_to": base}
     if output.get("expect") is not None:
-        return {"expect": output["expect"]}
-    return {"targets": [target for target in output["targets"] if target.get("tolerance") is not None]}
+        return seen | {"expect": output["expect"]}
+    return seen | {"targets": [target for target in output["targets"] if target.get("tolerance") is not None]}

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 from geartrain.synthesis.reconstruction.added_count_sums import AddedKind
@@ -52,6 +53,17 @@ class NamedLimb:
     through: tuple[SkeletonArbor, ...]
     added: tuple[tuple[SkeletonArbor, SkeletonArbor], ...]
     end: NamedJoint | tuple[NamedLimb, ...]
+
+    @cached_property
+    def surviving_wheels(self) -> frozenset[str]:
+        """Names of the surviving wheels on it, and on all that is below."""
+        wheels = [wheel for arbor in self.through for wheel in (arbor.driven, arbor.driver)]
+        below = self.end
+        if isinstance(below, NamedJoint):
+            wheels += below.wheels()
+            below = tuple(limb for _, limbs in below.hanging for limb in limbs)
+        own = frozenset(wheel.name for wheel in wheels if wheel is not None and wheel.kind is None)
+        return own.union(*(limb.surviving_wheels for limb in below))
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,7 +26,7 @@ from geartrain.synthesis.reconstruction.end_tours import (
     shortest_tour,
     tours_with_one_more,
 )
-from geartrain.synthesis.reconstruction.path_columns import PathColumns
+from geartrain.synthesis.reconstruction.path_columns import PathColumns, all_to_use
 from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
@@ -44,6 +44,8 @@ _MOST_ENDS = 6
 """Dials whose tours are tried, in all orders; of more, some."""
 _PIECE = 1 << 21
 """Keys that are looked up at once."""
+_MOST_PAIRS = 1 << 22
+"""Pairs of paths to two dials up to which all are held against each other."""
 _EVEN_SHARES = 50
 """Paths from which on a part of the search may take every so manieth."""
 
@@ -57,7 +59,7 @@ class PathChoice:
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], keys: QuotientKeys) -> None:
         self.problem, self.lists, self.keys = problem, lists, keys
         self._idlers = int(problem.idlers)
-        self._must = _all_to_use(problem)
+        self._must = all_to_use(problem)
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
@@ -197,15 +199,27 @@ class PathChoice:
         self, dial: str, row: int, other: str, near: _Near, chosen: _Chosen, least: Mapping[EndPair, int]
     ) -> _Near:
         """The paths of another dial that go with one more that is chosen."""
-        near = near.kept(self._columns[other].fit(near.rows, self._columns[dial], row))
+        known = self._with_one(dial, row, other) if self._are_few(dial, other) else None
+        fits = self._columns[other].fit(near.rows, self._columns[dial], row) if known is None else known[0][near.rows]
+        near = near.kept(fits)
         for path in chosen.paths.items():
             near = near.kept(self._fork(path, (dial, row), other, near.rows))
-        near = near.also(dial, self._apart(dial, row, other, near.rows))
+        near = near.also(dial, self._apart(dial, row, other, near.rows) if known is None else known[1][near.rows])
         ends = (_INPUT, *[*chosen.paths, dial][-_MOST_ENDS:])
         wheels = int(self.lists[dial].wheels[row])
         good = self._closes(ends, {**chosen.far, (_INPUT, dial): wheels}, near)
         asked = least.get(end_pair(dial, other), 0)
         return near.kept(good & (near.far[dial] >= asked) if asked else good)
+
+    def _are_few(self, dial: str, other: str) -> bool:
+        """Whether each path to a dial may be held against all paths to another, once and for all."""
+        return len(self.lists[dial]) * len(self.lists[other]) <= _MOST_PAIRS
+
+    @cache  # noqa: B019 -- lives as long as the lists
+    def _with_one(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
+        """By path to another dial, whether it goes with one that is chosen, and how far it is from that at least."""
+        every = np.arange(len(self.lists[other]))
+        return self._columns[other].fit(every, self._columns[dial], row), self._apart(dial, row, other, every)
 
     def _joined(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
         """Each of some rows with those of others that go with it and are no farther from it, if there are any."""
@@ -314,17 +328,6 @@ def _equal(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, 
     at = np.repeat(np.arange(len(wanted)), number)
     first = np.repeat(start - np.append(0, np.cumsum(number)[:-1]), number)
     return at, first + np.arange(len(at))
-
-
-def _all_to_use(problem: ReconstructionProblem) -> int:
-    """Bits of surviving arbors and wheels that must be used."""
-    if problem.use == "some":
-        return 0
-    arbors = (1 << len(problem.arbors)) - 1
-    if problem.use == "arbors":
-        return arbors
-    wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
-    return arbors | ((1 << wheels) - 1) << len(problem.arbors)
 
 
 class _Share:

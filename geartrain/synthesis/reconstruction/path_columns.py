@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.seen_meshes import seen_clusters
 
 _NEVER = 100
 """Wheels apart, of paths that differ by a prime that no wheel has."""
@@ -27,6 +28,7 @@ class PathColumns:
 
     def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
         self.paths = paths
+        self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
         number = {name: at for at, name in enumerate(names, 1)}
         self.codes = np.ascontiguousarray(paths.codes.T)
@@ -55,6 +57,9 @@ class PathColumns:
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)
+        mine, theirs = self.paths.arbors[rows], other.paths.arbors[row]
+        for cluster in self._clusters:  # all paths to it lead through the arbor that is above all others of it
+            good &= (both & cluster != 0) | (mine & cluster == 0) | (theirs & cluster == 0)
         parted = np.zeros(len(rows), dtype=np.int8)
         one = isinstance(row, int)
         for at in np.flatnonzero(other.codes[:, row]).tolist() if one else range(len(self.codes)):
@@ -89,6 +94,17 @@ class PathColumns:
         good = ~ends | ((both == mine.arbors[rows]) & (compounds <= 0) & (idlers <= 0))
         good &= ~their_end | ((both == theirs.arbors[row]) & (compounds >= 0) & (idlers >= 0))
         return np.asarray(good)
+
+
+def all_to_use(problem: ReconstructionProblem) -> int:
+    """Bits of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
+    if problem.use == "some":
+        return 0
+    arbors = (1 << len(problem.arbors)) - 1
+    if problem.use == "arbors":
+        return arbors
+    wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
+    return arbors | ((1 << wheels) - 1) << len(problem.arbors)
 
 
 def _bits(each: ArborPass, number: dict[str, int]) -> int:

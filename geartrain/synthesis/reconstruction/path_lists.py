@@ -23,6 +23,7 @@ from geartrain.synthesis.reconstruction.path_growth import PathGrowth
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
 from geartrain.synthesis.reconstruction.quotient_ranges import Bounds, QuotientRanges
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
+from geartrain.synthesis.reconstruction.seen_meshes import SeenMeshes
 
 Rows = NDArray[np.int64]
 _MOST_PATHS = 1_000_000_000
@@ -62,6 +63,7 @@ class PathList:
         self.ranges = QuotientRanges(problem.additions.least, problem.additions.greatest)
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
+        self._seen = SeenMeshes(problem, self.passes)
         plans = tuple(_plans(problem.additions.wheels, problem.idlers))
         growth, possible = self._possible_paths(plans)
         rows, taken = np.nonzero(possible)
@@ -113,10 +115,9 @@ class PathList:
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
         """Paths through all arbors for which some plan is possible, and by path and plan whether it is."""
         growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
-        order = tuple(sorted(range(len(self.passes)), key=lambda at: -len(self.passes[at])))
         self._looked_at = 0
         found = []
-        for piece in self._grown(growth, order):
+        for piece in self._grown(growth, self._seen.order):
             if self.dial.place not in (None, NEW):
                 piece = piece.kept(piece.ended)
             possible = self._possible(piece, plans)
@@ -141,9 +142,13 @@ class PathList:
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int) -> PathGrowth:
-        parts = [growth] if at else []
-        for code, each in enumerate(self.passes[at], 1):
-            parts.append(growth.through(at, code, each, *self._step(each)))
+        parts = []
+        for code, each in enumerate((None, *self.passes[at])):
+            if each is None and not at:
+                continue
+            good = self._seen.allowed(growth.codes, at, code)
+            own = growth if good is None else growth.kept(good)
+            parts.append(own if each is None else own.through(at, code, each, *self._step(each)))
         self._looked_at += sum(len(part.codes) for part in parts)
         if self._looked_at > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
@@ -207,6 +212,8 @@ class PathList:
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, plan in enumerate(plans):
             fits = growth.added + new + plan.wheels <= self.problem.additions.wheels
+            if self.problem.additions.arbors is not None:
+                fits &= new + np.int64(plan.compounds + plan.idlers) <= self.problem.additions.arbors
             turned = self._turned(growth.codes, new + np.int64(plan.compounds + plan.idlers))
             fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
             fits &= self._may_be_quotient(growth, plan.compounds, turned, fits)

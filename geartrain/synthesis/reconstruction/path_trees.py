@@ -102,8 +102,8 @@ class PathTrees:
 
     def _forest(self, paths: Paths, left: _Left, least: int = 1) -> Iterator[tuple[tuple[Limb, ...], _Left]]:
         """Limbs that share out some dials; those that have an arbor in common stay together."""
-        for blocks in partitions(tuple(paths)):
-            if len(blocks) >= least and _are_parted(blocks, paths):
+        for blocks in partitions(tuple(paths), _own_arbors(paths)):
+            if len(blocks) >= least:
                 yield from self._limbs([_some(paths, block) for block in blocks], left)
 
     def _limbs(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Limb, ...], _Left]]:
@@ -214,7 +214,7 @@ class PathTrees:
             dial: path._replace(arbors=path.arbors & ~bit, wheels=path.wheels - path.passes[at].added)
             for dial, path in paths.items()
         }
-        for here, blocks in shared_out(tuple(paths), ways):
+        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(below)):
             if at and not here and len(blocks) < 2:
                 continue
             if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):
@@ -227,7 +227,7 @@ class PathTrees:
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
             return
-        for here, blocks in shared_out(tuple(paths), ways):
+        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(paths)):
             if not here and len(blocks) < 2:
                 continue
             below = dict(paths)
@@ -282,6 +282,10 @@ def paths_first(paths: Paths) -> DialPath:
 
 def _some(paths: Paths, dials: Dials) -> Paths:
     return {dial: paths[dial] for dial in dials}
+
+
+def _own_arbors(paths: Paths) -> dict[str, int]:
+    return {dial: path.arbors for dial, path in paths.items()}
 
 
 def _need(paths: Paths) -> int:

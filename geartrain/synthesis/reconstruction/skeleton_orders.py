@@ -134,7 +134,10 @@ class _Orders:
     ) -> Iterator[Alternative[Hashable]]:
         """Limbs that hang side by side, with each way in which the pairs may be shared out among them."""
         known = sorted(pairs, key=sorted)
-        for owners in product(range(len(hung)), repeat=len(known)):
+        # a pair may mesh only where both of its wheels are: on a limb, below it, or driving it
+        inside = [limb.surviving_wheels | {driving[1].name} for driving, limb in hung]
+        able = [[at for at, wheels in enumerate(inside) if pair <= wheels] for pair in known]
+        for owners in product(*able):
             parts = tuple(
                 _Ahead(
                     limb,

@@ -1,50 +1,49 @@
-"""The part of a train that a reconstruction can find: a tree of arbors on the frame, joined by external spur meshes."""
+"""A part of a train that a reconstruction can find: a tree of arbors on the frame or on one carrier.
+
+Spur wheels and rings join its arbors; those that a pin in a slot joins are one arbor of it.
+"""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
-from geartrain.errors import Problem, QuestionError
-from geartrain.kinematics.circuits.joint_tree import Tree, find_tree
-from geartrain.numerics.quantity import Figure
+from geartrain.synthesis.reconstruction.base_link import BaseLink
+from geartrain.synthesis.reconstruction.joined_arbors import Joined
+from geartrain.synthesis.reconstruction.mesh_walk import DrivenArbor
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.train import Output, Train
-
-_ALONG = (0, 0, 1)
-
-
-@dataclass(frozen=True)
-class DrivenArbor:
-    """How an arbor is driven: by which wheel of which other arbor, and by which of its own."""
-
-    parent: str
-    driving: str
-    driven: str
+from geartrain.train import Train
 
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Arbors of a train from its input to its pointers.
+    """Arbors of a train from the one at which a part of it begins to its pointers.
 
-    source    the arbor of the input
+    base      what bears the arbors, and at what speed the first of them turns
     driven    how every other arbor is driven; parents come first
-    pointers  name of an output -> its arbor
+    joined    by arbor that stands for several links, all of them, itself first
+    pointers  name of an output, or of a link whose speed is given, -> its arbor
     counts    teeth of every wheel that meshes
-    beside    arbors of the train that are not in the tree
+    teeth     the fewest and the most that an added wheel may have
     """
 
     train: Train
-    source: str
+    base: BaseLink
     driven: Mapping[str, DrivenArbor]
+    joined: Joined
     pointers: Mapping[str, str]
     counts: Mapping[str, int]
-    beside: tuple[str, ...]
+    teeth: tuple[int, int]
+
+    @property
+    def source(self) -> str:
+        """The arbor at which it begins."""
+        return self.base.source
 
     @property
     def arbors(self) -> tuple[str, ...]:
-        """Every arbor, the input first."""
+        """Every arbor, the first one first."""
         return self.source, *self.driven
 
     @property
@@ -53,15 +52,52 @@ class SpurTree:
         driving = {mesh.driving for mesh in self.driven.values()}
         return any(mesh.driven in driving for mesh in self.driven.values())
 
-    def wheels_of(self, link: str) -> tuple[str, ...]:
+    @cached_property
+    def able(self) -> tuple[str, ...]:
+        """Arbors that can be lost: all driven ones but those with a ring, for no ring is added."""
+        wheels = self.train.wheels
+        return tuple(link for link in self.driven if not any(wheels[name][1].internal for name in self.wheels_of(link)))
+
+    @property
+    def name(self) -> str:
+        """What part of the train it is; nothing for that which begins at the input, on the frame."""
+        if self.base.is_carrier:
+            return f"on {self.base.name}, from {self.source}"
+        return "" if self.source in self.train.case(None).inputs else f"from {self.source}"
+
+    def links_of(self, arbor: str) -> tuple[str, ...]:
+        """The links that an arbor stands for; those that stand still all are the frame."""
+        if arbor == self.train.frame:
+            return arbor, *self.train.fixed
+        return self.joined.get(arbor, (arbor,))
+
+    def arbor_of(self, link: str) -> str:
+        """The arbor that stands for a link: mostly itself."""
+        return next((arbor for arbor, links in self.joined.items() if link in links), link)
+
+    def link_of(self, pointer: str) -> str:
+        """The link whose speed a pointer shows."""
+        output = self.train.case(None).outputs.get(pointer)
+        return pointer if output is None else output.of or pointer
+
+    def wheels_of(self, arbor: str) -> tuple[str, ...]:
         """The wheels of an arbor that mesh, as declared."""
-        return tuple(name for name in self.train.links[link].wheels if name in self.counts)
+        links = self.links_of(arbor)
+        return tuple(name for link in links for name in self.train.links[link].wheels if name in self.counts)
+
+    def meshes(self, lost: Collection[str] = ()) -> tuple[tuple[str, str], ...]:
+        """Pairs of wheels that mesh, the driving one first, but for those of arbors that are lost."""
+        return tuple(
+            (mesh.driving, mesh.driven)
+            for arbor, mesh in self.driven.items()
+            if arbor not in lost and mesh.parent not in lost
+        )
 
     def arbor(self, lost: Collection[str] = (), link: str | None = None) -> Arbor:
         """The tree as a candidate.
 
         lost   arbors that did not survive, which have no names then
-        link   the arbor at which it begins; default the input
+        link   the arbor at which it begins; default the first
         """
         link = self.source if link is None else link
         own = self.driven[link].driven if link in self.driven else None
@@ -80,139 +116,3 @@ class SpurTree:
             tuple((placed(wheel), tuple(children)) for wheel, children in below.items() if children and wheel != own),
             () if own is None else tuple(below[own]),
         )
-
-
-def find_spur_tree(train: Train) -> SpurTree:
-    """The tree from the input of a train to all pointers that it reaches.
-
-    A pointer is an output whose speed is known (by `expect`, or a target with a tolerance) and that has a target; and
-    where no such arbor follows, the last arbor whose speed is known. What leads to no pointer is not in the tree.
-
-    Raises `QuestionError` where there is none: no single input, no pointer that it reaches, meshes that close a loop.
-    """
-    source = _source(train)
-    driven = walk_meshes(train, source, {link: link for link in train.links})
-    pointers = {
-        name: link
-        for name, link, output in _known_outputs(train)
-        if link in driven and (output.targets and link != source)
-    }
-    _prune(train, driven, pointers)
-    if not pointers:
-        what = f"no pointer of '{train.name}' is reached from its input by external meshes of spur wheels on the frame"
-        why = f"it has {_joined(_obstacles(train))}" if _obstacles(train) else "no output beyond the input has a speed"
-        raise QuestionError(Problem(what, why, "only such trees are reconstructed yet"))
-    counts = {name: train.wheels[name][1].count for mesh in driven.values() for name in (mesh.driving, mesh.driven)}
-    known = {name: count for name, count in counts.items() if count is not None}
-    if len(known) < len(counts):
-        lost = next(name for name in counts if name not in known)
-        what = f"the count of '{lost}' is still to be found"
-        raise QuestionError(Problem(what, "", "give it a value", train.place("links")))
-    beside = tuple(link for link in train.links if link not in (train.frame, source, *driven))
-    return SpurTree(train, source, driven, pointers, known, beside)
-
-
-def _source(train: Train) -> str:
-    if train.states:
-        what = f"'{train.name}' is driven otherwise in each of its states"
-        raise QuestionError(Problem(what, "a reconstruction has one input", "ask of a train without states"))
-    turning = [link for link, speed in train.case(None).inputs.items() if speed]
-    if len(turning) != 1:
-        what = f"'{train.name}' has {len(turning)} inputs that turn"
-        raise QuestionError(Problem(what, "a reconstruction has one", "ask of a train with one", train.place("inputs")))
-    return turning[0]
-
-
-def walk_meshes(
-    train: Train, source: str, arbors: Mapping[str, str], rings: Collection[str] = ()
-) -> dict[str, DrivenArbor]:
-    """How every arbor is driven that spur wheels on the frame reach from a source, breadth first.
-
-    arbors  by link, the arbor that it is, or is a part of
-    rings   wheels that may be internal
-
-    Raises `QuestionError` where meshes close a loop.
-    """
-    meshes: dict[str, list[tuple[int, str, str]]] = {}
-    tree = find_tree(train)
-    for at, gear in enumerate(train.gears):
-        if _is_taken(train, tree, gear.pair, rings):
-            for own, other in (gear.pair, gear.pair[::-1]):
-                meshes.setdefault(arbors[train.wheels[own][0]], []).append((at, own, other))
-    driven: dict[str, DrivenArbor] = {}
-    waiting, used = deque([source]), set[int]()
-    while waiting:
-        link = waiting.popleft()
-        for at, own, other in meshes.get(link, ()):
-            if at in used:
-                continue
-            used.add(at)
-            child = arbors[train.wheels[other][0]]
-            if child == source or child in driven:
-                what = f"the meshes of '{train.name}' close a loop at '{train.gears[at].name}'"
-                fix = "only trees are reconstructed yet"
-                raise QuestionError(Problem(what, "an arbor is driven on two ways", fix, train.place("gears", at)))
-            driven[child] = DrivenArbor(link, own, other)
-            waiting.append(child)
-    return driven
-
-
-def _is_taken(train: Train, tree: Tree, pair: Iterable[str], rings: Collection[str]) -> bool:
-    """Whether a mesh is of spur wheels on arbors that turn in the frame about parallel axes, no rings but some."""
-    still = {*train.fixed, train.frame, *(link for lock in train.locks for link in lock)}
-    directions = set()
-    for name in pair:
-        link, wheel = train.wheels[name]
-        if (
-            (wheel.internal and name not in rings)
-            or wheel.kind != "spur"
-            or link in still
-            or not tree.bears(train.frame, link)
-        ):
-            return False
-        axis = train.axes.get(tree.axis(link) or "")
-        directions.add(_ALONG if axis is None else tuple(map(_value, axis.direction)))
-    return len(directions) == 1
-
-
-def _value(figure: Figure) -> object:
-    return figure.value
-
-
-def _known_outputs(train: Train) -> Iterator[tuple[str, str, Output]]:
-    """Outputs seen from the frame whose speed is known, each with its link."""
-    for name, output in train.case(None).outputs.items():
-        known = output.expect is not None or any(target.tolerance is not None for target in output.targets)
-        if known and output.relative_to in (None, train.frame):
-            yield name, output.of or name, output
-
-
-def _prune(train: Train, driven: dict[str, DrivenArbor], pointers: dict[str, str]) -> None:
-    """Take away arbors that lead to no pointer, from the last ones on; their speeds, where known, are pointers."""
-    named = {link: name for name, link, _ in reversed(list(_known_outputs(train)))}
-    for link in reversed(list(driven)):
-        if link in pointers.values() or any(mesh.parent == link for mesh in driven.values()):
-            continue
-        if link in named:
-            pointers[named[link]] = link
-        else:
-            del driven[link]
-
-
-def _obstacles(train: Train) -> list[str]:
-    """What of a train no tree of spur wheels takes up."""
-    tree = find_tree(train)
-    wheels = [wheel for _, wheel in train.wheels.values()]
-    moving = any(not tree.bears(train.frame, link) for link in tree.parent)
-    found = {
-        "arbors on a moving arbor": moving,
-        "rings": any(wheel.internal for wheel in wheels),
-        **{f"{kind} wheels": any(wheel.kind == kind for wheel in wheels) for kind in ("bevel", "contrate", "worm")},
-        "pins in slots": bool(train.couplings),
-        "arbors that are held": bool(train.fixed or train.locks),
-    }
-    return [what for what, there in found.items() if there]
-
-
-def _joined(parts: list[str]) -> str:
-    return ", ".join(parts[:-1]) + " and " + parts[-1] if len(parts) > 1 else "".join(parts)

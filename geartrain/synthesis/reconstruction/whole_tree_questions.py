@@ -13,11 +13,15 @@ _MOST_DIALS = 6
 
 
 def are_whole_trees_asked(problem: ReconstructionProblem) -> bool:
-    """Whether a question may be answered so: exact dials that turn, no idlers, no rings, no arbors without wheels."""
+    """Whether a question may be answered so: exact dials that turn, no idlers, no rings, no arbors without wheels.
+
+    Where meshes of most arbors were seen, few paths are left to each dial, and these are listed instead.
+    """
     return (
         all(dial.is_exact and dial.least for dial in problem.dials)
         and 0 < len(problem.dials) <= _MOST_DIALS
         and not (problem.idlers or problem.rings)
+        and 2 * len(problem.meshes) <= len(problem.arbors)
         and all(arbor.wheels for arbor in (problem.input, *problem.arbors))
         and _most_powers(problem) <= MOST_POWER
     )

@@ -1,7 +1,8 @@
 """Write docs/left-out.md: every shipped train without some of its arbors, and the train's rank in what is found.
 
 `python docs/make_left_out.py --measure` asks anew and keeps the answers in docs/data/left-out.json (minutes to hours);
-a run that is stopped is taken up by the same command. Without it the page is written from what is kept.
+a run that is stopped is taken up by the same command. `--more 20` asks for 20 minutes what the kept run lacks. Without
+either the page is written from what is kept.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from studies.left_out_records import LeftOutRecords
-from studies.left_out_study import LIMIT, QUICK, forget, left_out, tree_records
+from studies.left_out_study import LIMIT, QUICK, SHORT, forget, left_out, more_left_out, tree_records
 from studies.page import lowered, paragraphs, read
 
 from geartrain import shipped
@@ -28,36 +29,59 @@ Written by
     python docs/make_left_out.py --measure
 
 What is a reconstruction worth? Where the answer is known, one can see. Of every shipped train arbors are left out,
-each one and each two, and `geartrain reconstruct` is asked for all trains that explain what is left: the other arbors
-with the wheels that mesh, their counts as used in the train, and the speeds of all pointers. Who meshes with whom is
-not told, nor which arbors share an axis. By hand the same is
+each one and each two of a part, and `geartrain reconstruct` is asked for all trains that explain what is left: the
+other arbors with the wheels that mesh, their counts as used in the train, and the speeds of all pointers. Who meshes
+with whom is not told, nor which arbors share an axis. By hand the same is
 
     geartrain reconstruct isfahan-astrolabe-1221 --without pivot
 """
 
 RULES = """
-- Asked are trees: arbors on the frame that spur wheels drive from one input, without rings and loops. Where a train
-has more, its tree is taken alone, such as all behind the table of the Moon in the Antikythera mechanism; what is not
-in it is named.
+- A train is asked of part by part. A part is a tree: arbors that turn on the frame, or on one carrier, and that spur
+wheels and rings drive from one of them. The first begins at the input. Where what bears the arbors changes another
+part begins: on a carrier at the fixed wheels of the frame, or else at an arbor of an earlier part, whose speed is then
+given; so behind a carrier too. Speeds are seen from the carrier, whose own is given. Links that a pin in a slot joins
+are one arbor of it, and are lost together. `--from LINK` chooses a part by the link at which it begins.
 
 - A pointer is an output that has a target and whose speed is known; where none follows, the last arbor whose speed is
 declared. It stands on its arbor where that survives, else on a new one. Its speed is exact where `expect` is
 declared, else within the tolerance of its target. Arbors that lead to no pointer, and wheels that mesh with nothing,
 are left out throughout.
 
-- As many wheels may be added as are lost, of as many teeth as any wheel of the tree has. Every surviving wheel must
-mesh, also one all of whose partners are lost. A driven wheel may drive where one does in the tree.
+- As many wheels may be added as are lost, of as many teeth as any wheel of the part has, and in later parts as any of
+all parts. Every surviving wheel must mesh, also one all of whose partners are lost. A driven wheel may drive where one
+does in the part. No ring is added, so an arbor with one is not lost.
+
+- Two arbors of different parts are not left out together: each part is a question of its own, whose answers are
+combined with all of the other.
 
 - The rank is that by weight, with the factors that evidence has by default. Explanations with equally many added
 wheels and arbors weigh the same, so that a rank mostly is a range. Classes do not tell apart what drives what.
+
+## What is asked of the rest
+
+A question may take too long. Then two smaller ones are asked, of one and of two arbors alike.
+
+- *Is the train found?* The meshes of all wheels that survive are told (`--seen`), and no more arbors may be added than
+are lost. What is found so explains the question without this too, so the train is among its explanations. It is less
+of a trial, for the search has less to choose from: it shows that the lost wheels are found, not that the meshes are.
+
+- *Does anything weigh more?* An explanation that weighs more has fewer wheels than were lost, or as many and fewer
+added arbors. All with fewer wheels are asked for; and all with as many wheels on fewer arbors, unless the pointers that
+are lost need so many by their speeds. If both end, the first rank is known, exactly. The last rank is not: it would
+take all explanations that weigh the same.
+
+- `none with 4` says that none was found with up to 4 added wheels, which is as far as the search came.
 """
 
 FOUND = """
-There are {possible} such questions. {asked} were asked and {whole} finished in the processor time that each had; two
-arbors are not left out where one of them alone was not finished. The train itself was found in {found} of the finished
-ones{lost}; {many} have too many explanations to list. In {first} it has none of more weight above it, and in {alone} it
-is the only one of the greatest weight. {more} have explanations with fewer wheels than were lost, which then weigh
-more.
+There are {possible} such questions in {parts} parts of {trains} trains. {asked} were asked, and {whole} of them to the
+end in the processor time that each had. The train itself was found in {found} of these{lost}; {many} have too many
+explanations to list. Of the others it was found in {seen} where the meshes of what survives were told; {open} are open.
+So it was found in {every} questions, and missed in {missed}.
+
+Its first rank is known in {ranked}. In {first} nothing weighs more than the train, and in {alone} it is known to be the
+only one of the greatest weight. {more} have explanations with fewer wheels than were lost.
 """
 
 
@@ -72,17 +96,27 @@ def page(records: LeftOutRecords) -> list[str]:
     """The page, part by part."""
     ranks = [row.rank for row in records.whole if row.rank is not None]
     lost = "; not: " + ", ".join(f"{row.train} without {' and '.join(row.lost)}" for row in records.lost)
+    seen = sum(row.rank is None and bool(row.seen) for row in records.rows)
+    many = sum(row.is_whole and not row.listed and row.rank is None for row in records.rows)
+    numbers = {
+        "possible": records.possible,
+        "parts": len(records.trees),
+        "trains": len({tree.train for tree in records.trees}),
+        "asked": len(records.rows),
+        "whole": len(records.whole),
+        "found": len(ranks),
+        "many": many,
+        "seen": seen,
+        "open": len(records.rows) - len(ranks) - seen - many - len(records.lost),
+        "every": len(ranks) + seen,
+        "missed": len(records.lost),
+        "ranked": sum(row.first is not None for row in records.rows),
+        "first": sum(row.first == 1 for row in records.rows),
+        "alone": sum(rank[1] == 1 for rank in ranks),
+        "more": sum(row.least is not None and row.least < row.added for row in records.rows),
+    }
     found = paragraphs(
-        FOUND,
-        possible=f"{records.possible:,}",
-        asked=f"{len(records.rows):,}",
-        whole=f"{len(records.whole):,}",
-        found=f"{len(ranks):,}",
-        many=f"{sum(not row.listed and row.rank is None for row in records.whole):,}",
-        lost=lost if records.lost else "",
-        first=f"{sum(rank[0] == 1 for rank in ranks):,}",
-        alone=f"{sum(rank[1] == 1 for rank in ranks):,}",
-        more=f"{sum(row.least is not None and row.least < row.added for row in records.whole):,}",
+        FOUND, lost=lost if records.lost else "", **{name: f"{number:,}" for name, number in numbers.items()}
     )
     return [HEAD, found, "## What is asked\n", paragraphs(RULES), lowered(records.tables())]
 
@@ -92,10 +126,14 @@ def merged(kept: LeftOutRecords, new: LeftOutRecords) -> LeftOutRecords:
     every = tree_records(tuple(shipped()))
     again = {row.train for row in new.rows}
     rows = [row for row in kept.rows if row.train not in again] + list(new.rows)
-    trees = [tree.train for tree in every.trees]
-    return replace(
-        every, rows=sorted((row for row in rows if row.train in trees), key=lambda row: trees.index(row.train))
-    )
+    parts = [(tree.train, tree.part) for tree in every.trees]
+    known = [row for row in rows if (row.train, row.part) in parts]
+    return replace(every, rows=sorted(known, key=lambda row: parts.index((row.train, row.part))))
+
+
+def _keep(found: LeftOutRecords) -> None:
+    text = json.dumps(found.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
+    DATA.write_text(text + "\n", encoding="utf-8")
 
 
 def from_command_line() -> None:
@@ -113,17 +151,28 @@ def from_command_line() -> None:
         default=[],
         help="ask of this train alone, and write nothing; with --measure put it among the others",
     )
+    asked.add_argument(
+        "--short",
+        type=float,
+        default=SHORT,
+        help="processor seconds for what is asked of an unfinished question (default %(default)g)",
+    )
+    asked.add_argument("--more", type=float, help="ask for so many minutes what the kept run has not, and keep it")
     given = asked.parse_args()
+    if given.more:
+        (kept,) = read(LeftOutRecords, DATA.stem)
+        _keep(more_left_out(kept, given.train, given.limit, given.short, given.more))
+        main()
+        return
     if given.quick or (given.train and not given.measure):
         names = given.train or QUICK
         print(left_out(names, given.limit, given.workers).to_markdown())
         return
     if given.measure:
-        found = left_out(given.train, given.limit, given.workers, JOURNAL)
+        found = left_out(given.train, given.limit, given.workers, JOURNAL, given.short)
         if given.train:
             found = merged(read(LeftOutRecords, DATA.stem)[0], found)
-        text = json.dumps(found.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
-        DATA.write_text(text + "\n", encoding="utf-8")
+        _keep(found)
         forget(JOURNAL)
     main()
 

@@ -11,28 +11,43 @@ from studies.records import StudyRecords, number_text, seconds_text, table
 
 @dataclass(frozen=True, slots=True)
 class TreeRecord:
-    """A train, or that part of it, of which arbors are left out.
+    """A part of a train of which arbors are left out.
 
-    source    the arbor of the input
+    part      what bears its arbors and where it begins; nothing for that from the input on the frame
+    source    the arbor at which it begins
     arbors    those that it drives, each of which is left out in turn
     wheels    of all of them that mesh
     pointers  outputs whose speeds are known
-    beside    arbors of the train that are no part of the tree
-    teeth     least and greatest count
+    teeth     least and greatest count that is added
     """
 
     train: str
+    part: str
     source: str
     arbors: Sequence[str]
     wheels: int
     pointers: Sequence[str]
-    beside: Sequence[str]
     teeth: Sequence[int]
 
     @property
     def questions(self) -> int:
         """How many arbors, and pairs of arbors, there are to be left out."""
         return comb(len(self.arbors) + 1, 2)
+
+
+@dataclass(frozen=True, slots=True)
+class CoverRecord:
+    """How much of a train is asked.
+
+    links     how many it has beside the frame
+    left_out  how many of them are left out, in some part
+    others    the others, each with the reason
+    """
+
+    train: str
+    links: int
+    left_out: int
+    others: Sequence[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +70,10 @@ class LeftOutRecord:
     listed       whether all explanations were listed, so that the train must be among them
     seconds      for all with up to `added` wheels; None where that was not finished
     note         why not
+    part         of the train, as of a tree
+    seen         of a question that was not finished: whether the train was found where the meshes of what survives were
+                 seen; None where that was not finished or not asked
+    better       of such a question: how many explanations weigh more; None where that is not known
     """
 
     train: str
@@ -66,6 +85,21 @@ class LeftOutRecord:
     listed: bool
     seconds: float | None
     note: str = ""
+    part: str = ""
+    seen: bool | None = None
+    better: int | None = None
+
+    @property
+    def is_found(self) -> bool:
+        """Whether the train is known to be among the explanations."""
+        return self.rank is not None or bool(self.seen)
+
+    @property
+    def first(self) -> int | None:
+        """The first rank that the train may have; None where it is open."""
+        if self.rank is not None:
+            return self.rank[0]
+        return None if self.better is None else self.better + 1
 
     @property
     def is_whole(self) -> bool:
@@ -85,6 +119,7 @@ class LeftOutRecords(StudyRecords):
     trees: Sequence[TreeRecord]
     rows: Sequence[LeftOutRecord]
     not_asked: Sequence[NotAskedRecord]
+    covers: Sequence[CoverRecord]
 
     @property
     def whole(self) -> list[LeftOutRecord]:
@@ -98,19 +133,20 @@ class LeftOutRecords(StudyRecords):
 
     @property
     def lost(self) -> list[LeftOutRecord]:
-        """Finished questions whose answer lacks the train itself: there must be none."""
-        return [row for row in self.whole if row.listed and row.rank is None]
+        """Answers that lack the train itself: there must be none."""
+        return [row for row in self.rows if (row.is_whole and row.listed and row.rank is None) or row.seen is False]
 
     def tables(self) -> list[str]:
-        """A summary, every question, and the trains that are not asked."""
+        """A summary, how much of each train is asked, every question, and the trains that are not asked."""
         lines = ["## By train", "", *table(_SUMMARY, [_TreeRows(tree, self._of(tree)) for tree in self.trees])]
+        lines += ["## Arbors that are left out", "", *table(_COVER, self.covers)]
         for tree in self.trees:
             own = self._of(tree)
-            lines += [f"## {tree.train}", "", _about(tree, tree.questions - len(own)), "", *table(_COLUMNS, own)]
+            lines += [f"## {_heading(tree)}", "", _about(tree, tree.questions - len(own)), "", *table(_COLUMNS, own)]
         return [*lines, "## Not asked", "", *table(_NOT_ASKED, self.not_asked)]
 
     def _of(self, tree: TreeRecord) -> list[LeftOutRecord]:
-        return [row for row in self.rows if row.train == tree.train]
+        return [row for row in self.rows if (row.train, row.part) == (tree.train, tree.part)]
 
 
 @dataclass(frozen=True)
@@ -123,18 +159,14 @@ class _TreeRows:
         return [row for row in self.rows if row.is_whole]
 
 
+def _heading(tree: TreeRecord) -> str:
+    return ", ".join(filter(None, (tree.train, tree.part)))
+
+
 def _about(tree: TreeRecord, unasked: int) -> str:
-    beside = f" Not in the tree: {', '.join(tree.beside)}." if tree.beside else ""
-    left = f" Pairs not asked, for one of the two alone was not finished: {unasked}." if unasked else ""
+    left = f" Not asked yet: {unasked}." if unasked else ""
     pointers = ", ".join(tree.pointers)
-    return f"From {tree.source} on; pointers: {pointers}; {tree.teeth[0]} to {tree.teeth[1]} teeth.{beside}{left}"
-
-
-def rank_text(rank: Sequence[int] | None) -> str:
-    """One rank, or the first and last of those that weigh the same."""
-    if rank is None:
-        return "-"
-    return str(rank[0]) if rank[0] == rank[1] else f"{rank[0]} to {rank[1]}"
+    return f"From {tree.source} on; pointers: {pointers}; {tree.teeth[0]} to {tree.teeth[1]} teeth.{left}"
 
 
 def _found(row: LeftOutRecord) -> str:
@@ -142,6 +174,14 @@ def _found(row: LeftOutRecord) -> str:
     if row.least is None:
         return "-" if not row.mechanisms else f"none with {len(row.mechanisms) - 1}"
     return f"{row.mechanisms[row.least]:,} with {row.least}"
+
+
+def _was_found(row: LeftOutRecord) -> str:
+    if row.is_found:
+        return "yes" if row.rank is not None else "with meshes seen"
+    if row.is_whole:
+        return "no" if row.listed else "too many"
+    return "open" if row.seen is None else "no"
 
 
 def _own(row: LeftOutRecord) -> str:
@@ -153,23 +193,29 @@ _COLUMNS: dict[str, Callable[[LeftOutRecord], str]] = {
     "fewest added wheels": _found,
     "as many as lost": _own,
     "classes": lambda row: number_text(row.classes[row.added] if row.is_whole else None, ","),
-    "rank of the train": lambda row: (
-        "too many" if row.is_whole and not row.listed and row.rank is None else rank_text(row.rank)
-    ),
+    "train found": _was_found,
+    "first rank": lambda row: number_text(row.first, ",") if row.first else "open",
+    "last rank": lambda row: number_text(row.rank[1], ",") if row.rank else "open",
     "time": lambda row: row.note or seconds_text(row.seconds),
 }
 _SUMMARY: dict[str, Callable[[_TreeRows], str]] = {
-    "train": lambda one: one.tree.train,
+    "train": lambda one: _heading(one.tree),
     "arbors": lambda one: str(len(one.tree.arbors)),
     "wheels": lambda one: str(one.tree.wheels),
     "pointers": lambda one: str(len(one.tree.pointers)),
     "questions": lambda one: str(one.tree.questions),
-    "asked": lambda one: str(len(one.rows)),
-    "finished": lambda one: str(len(one.whole)),
-    "train found": lambda one: str(sum(row.rank is not None for row in one.whole)),
+    "asked to the end": lambda one: str(len(one.whole)),
+    "train found": lambda one: str(sum(row.is_found for row in one.rows)),
+    "first rank known": lambda one: str(sum(row.first is not None for row in one.rows)),
+    "it is 1": lambda one: str(sum(row.first == 1 for row in one.rows)),
     "alone of its weight, first": lambda one: str(sum(row.rank is not None and row.rank[1] == 1 for row in one.whole)),
-    "among the first": lambda one: str(sum(row.rank is not None and row.rank[0] == 1 for row in one.whole)),
     "greatest last rank": lambda one: f"{max((row.rank[1] for row in one.whole if row.rank), default=0):,}",
+}
+_COVER: dict[str, Callable[[CoverRecord], str]] = {
+    "train": lambda row: row.train,
+    "links": lambda row: str(row.links),
+    "left out": lambda row: str(row.left_out),
+    "not left out": lambda row: "; ".join(row.others),
 }
 _NOT_ASKED: dict[str, Callable[[NotAskedRecord], str]] = {
     "train": lambda row: row.train,

@@ -1,103 +1,188 @@
 """Every shipped train without each arbor, and without each two: what explains the rest, and the train's rank in it.
 
 A question is asked in a process of its own that has so much time and memory; finished ones are kept in a journal, so
-that a run that is stopped is taken up where it was. Two arbors are left out where each alone was finished.
+that a run that is stopped is taken up where it was. Two arbors are asked to the end where each alone was. Of all that
+was not finished two questions are asked that are smaller: is the train found where meshes were seen, and does anything
+weigh more?
 """
 
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, replace
+from fractions import Fraction
 from functools import partial
 from itertools import combinations
 from pathlib import Path
-from time import process_time
+from time import monotonic, process_time
 from typing import Any
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
+from geartrain.synthesis.reconstruction.candidate_prior import prior
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.lost_arbors import is_all_listed, lost_evidence, rank_of
+from geartrain.synthesis.reconstruction.lost_arbors import is_all_listed, lost_evidence, lost_wheels, rank_of
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree
+from geartrain.synthesis.reconstruction.train_parts import find_spur_trees, why_not
 from geartrain.train.declaration_files import read_declaration, shipped
-from studies.left_out_records import LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
+from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
 from studies.measurement import gathered
 
 LIMIT = 60.0
 """Processor seconds for a question."""
+SHORT = 5.0
+"""Processor seconds for each of the two questions that are asked of what was not finished."""
 LISTED = 20_000
 """Explanations among which a train is looked for."""
 TITLE = "Trains found again"
 QUICK = ("vitruvius-hodometer", "watch-going-train", "isfahan-astrolabe-1221", "four-gear-loop")
+_SAME = "the same parts"
 _MEMORY = 4.0  # GB for a question
-Task = tuple[str, tuple[str, ...], float]
-"""A train, the arbors that are left out, and the seconds that there are."""
+Part = tuple[str, str]
+"""A train, and the name of one of its parts."""
+Question = tuple[str, str, tuple[str, ...]]
+"""A train, its part, and the arbors that are left out."""
+Rows = dict[Question, LeftOutRecord]
+Task = tuple[str, str, tuple[str, ...], float, float]
+"""A train, its part, the arbors that are left out, and the seconds that there are for all, and for each of less."""
 
 
 def left_out(
-    names: Sequence[str] = (), limit: float = LIMIT, workers: int | None = 1, journal: Path | None = None
+    names: Sequence[str] = (),
+    limit: float = LIMIT,
+    workers: int | None = 1,
+    journal: Path | None = None,
+    short: float = SHORT,
 ) -> LeftOutRecords:
     """Ask of some shipped trains, by default of all.
 
     limit    processor seconds for a question
     journal  what is finished is kept in two files beside it, for one and for two arbors, which `forget` removes
+    short    processor seconds for what is asked of a question that was not finished
     """
     trees, not_asked = find_trees(names or tuple(shipped()))
-    one = [(name, (link,), limit) for name, tree in trees.items() for link in tree.driven]
+    one = [(*part, (link,), limit, short) for part, tree in trees.items() for link in tree.able]
     singles = _asked(one, workers, _part(journal, 1))
-    short = {(row.train, row.lost[0]) for row in singles if not row.is_whole}
-    pairs = [(name, lost, limit) for name, tree in trees.items() for lost in combinations(tree.driven, 2)]
-    able = [(name, lost, seconds) for name, lost, seconds in pairs if not any((name, link) in short for link in lost)]
-    rows = [*singles, *_asked(able, workers, _part(journal, 2))]
-    return LeftOutRecords(TITLE, [_tree_record(tree) for tree in trees.values()], rows, not_asked)
+    able = _finished(singles)
+    two = [
+        (*part, lost, limit if all((*part, link) in able for link in lost) else 0.0, short)
+        for part, tree in trees.items()
+        for lost in combinations(tree.able, 2)
+    ]
+    return _records(trees, [*singles, *_asked(two, workers, _part(journal, 2))], not_asked)
+
+
+def more_left_out(
+    kept: LeftOutRecords, names: Sequence[str], limit: float, short: float, minutes: float
+) -> LeftOutRecords:
+    """A kept run with what it lacks: questions not asked yet, and less of those that were not finished.
+
+    minutes   after which no more is asked; what is left is asked by the next call
+    """
+    trees, not_asked = find_trees(tuple(shipped()))
+    known = {(row.train, row.part, tuple(row.lost)): row for row in kept.rows}
+    end = monotonic() + 60 * minutes
+    waiting = [each for each in _questions(trees) if not names or each[0][0] in names]
+    for step in (_add_new, partial(_add_less, "seen"), partial(_add_less, "better")):
+        for part, lost in waiting:
+            if monotonic() > end:
+                break
+            step(known, trees[part], (*part, lost), limit, short)
+    order = {(*part, lost): at for at, (part, lost) in enumerate(_questions(trees))}
+    rows = sorted((key for key in known if key in order), key=order.__getitem__)
+    return _records(trees, [known[key] for key in rows], not_asked)
+
+
+def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
+    """Ask to the end what is not known."""
+    if key not in known:
+        name, part, lost = key
+        able = _finished(known.values())
+        full = limit if len(lost) == 1 or all((name, part, link) in able for link in lost) else 0.0
+        known[key] = LeftOutRecord(**_asked_to_the_end(tree, key, full))
+
+
+def _add_less(what: str, known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
+    """Ask less of what was not finished."""
+    row = known.get(key)
+    if row is not None and not row.is_whole and getattr(row, what) is None:
+        known[key] = LeftOutRecord(**asdict(row) | _less(what, tree, row, short))
+
+
+def _questions(trees: dict[Part, SpurTree]) -> Iterator[tuple[Part, tuple[str, ...]]]:
+    for many in (1, 2):
+        yield from ((part, lost) for part, tree in trees.items() for lost in combinations(tree.able, many))
+
+
+def _finished(rows: Iterable[LeftOutRecord]) -> set[tuple[str, str, str]]:
+    return {(row.train, row.part, row.lost[0]) for row in rows if row.is_whole and len(row.lost) == 1}
 
 
 def tree_records(names: Sequence[str]) -> LeftOutRecords:
     """What would be asked of some trains, before it is."""
     trees, not_asked = find_trees(names)
-    return LeftOutRecords(TITLE, [_tree_record(tree) for tree in trees.values()], [], not_asked)
+    return _records(trees, [], not_asked)
 
 
-def find_trees(names: Sequence[str]) -> tuple[dict[str, SpurTree], list[NotAskedRecord]]:
-    """The trees of trains by name, and the trains that have none of their own. Of the same trees the first counts."""
-    trees: dict[str, SpurTree] = {}
+def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAskedRecord]]:
+    """The parts of trains, and the trains that have none of their own. Of the same parts the first counts."""
+    trees: dict[Part, SpurTree] = {}
     not_asked: list[NotAskedRecord] = []
     known: dict[Any, str] = {}
     for name in sorted(names, key=lambda name: (len(name), name)):  # a variant has a longer name than what it varies
         try:
-            tree = find_spur_tree(read_declaration(name))
+            parts = find_spur_trees(read_declaration(name))
         except GearTrainError as error:
             problem = error.problems[0]
             not_asked.append(NotAskedRecord(name, ": ".join(filter(None, (problem.what, problem.why)))))
             continue
-        dials = evidence_question(lost_evidence(tree, [next(iter(tree.driven))])).problem.dials
-        own = known.setdefault((mechanism(tree.arbor()), dials), name)
-        if own == name:
-            trees[name] = tree
-        else:
-            not_asked.append(NotAskedRecord(name, f"the same tree as {own}"))
+        same = set()
+        for tree in parts:
+            problem = evidence_question(lost_evidence(tree, [tree.able[0]])).problem
+            key = mechanism(tree.arbor()), problem.dials, problem.input_speed, problem.rings
+            own = known.setdefault(key, name)
+            if own == name:
+                trees[name, tree.name] = tree
+            else:
+                same.add(own)
+        if same and not any((name, tree.name) in trees for tree in parts):
+            not_asked.append(NotAskedRecord(name, f"{_SAME} as {' and '.join(sorted(same))}"))
     return dict(sorted(trees.items())), sorted(not_asked, key=lambda row: row.train)
 
 
 def ask(task: Sequence[Any]) -> dict[str, Any]:
     """What explains a train without some arbors, as plain data of its record."""
-    name, lost, limit = task
-    tree = find_spur_tree(read_declaration(name))
-    found, note = gathered(partial(_answers, tree, tuple(lost)), limit, _MEMORY)
-    own = _wheels(tree, lost)
+    name, part, lost, limit, short = task
+    tree = next(tree for tree in find_spur_trees(read_declaration(name)) if tree.name == part)
+    row = _asked_to_the_end(tree, (name, part, tuple(lost)), limit)
+    for what in ("seen", "better") if row["seconds"] is None else ():
+        row |= _less(what, tree, LeftOutRecord(**row), short)
+    return row
+
+
+def _asked_to_the_end(tree: SpurTree, question: Question, limit: float) -> dict[str, Any]:
+    """All explanations, as far as they come in time; with no time none is looked for."""
+    name, part, lost = question
+    found: list[Any] = []
+    note = "not asked to the end"
+    if limit:
+        found, note = gathered(partial(_answers, tree, lost), limit, _MEMORY)
     last: dict[str, Any] = (
         found[-1] if found else {"mechanisms": [], "classes": [], "rank": None, "listed": False, "seconds": None}
     )
-    print(f"{name} without {', '.join(lost)}: {last['mechanisms']} {note}", file=sys.stderr, flush=True)
-    return {"train": name, "lost": list(lost), "added": own, "note": note, **last}
+    print(f"{name} {part} without {', '.join(lost)}: {last['mechanisms']} {note}", file=sys.stderr, flush=True)
+    return {"train": name, "part": part, "lost": list(lost), "added": lost_wheels(tree, lost), "note": note, **last}
 
 
 def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
     """The answer with 0, 1, ... added wheels, so that there is one where the time ends before the last."""
     evidence, original = lost_evidence(tree, lost), tree.arbor(lost)
-    own = _wheels(tree, lost)
+    own = lost_wheels(tree, lost)
     for wheels in range(own + 1):
         start = process_time()
         found = find_reconstructions(evidence_question(evidence, wheels).problem, listed=LISTED)
@@ -109,6 +194,63 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
             "listed": is_all_listed(found),
             "seconds": seconds if wheels == own and found.complete else None,
         }
+
+
+# of what is not finished
+
+
+def _less(what: str, tree: SpurTree, row: LeftOutRecord, short: float) -> dict[str, Any]:
+    """Whether a train is found where meshes are seen; or how many weigh more, as far as that comes in time."""
+    lost = tuple(row.lost)
+    if what == "seen":
+        seen, _ = gathered(lambda: iter([_is_found_with_meshes(tree, lost)]), short, _MEMORY)
+        told: dict[str, Any] = {"seen": seen[0] if seen else None}
+    else:
+        steps, _ = gathered(partial(_better, tree, lost, row), short, _MEMORY)
+        mechanisms = max([list(row.mechanisms), *(step for step, _ in steps)], key=len)
+        classes = [*row.classes, *[None] * (len(mechanisms) - len(row.classes))]
+        told = {"better": steps[-1][1] if steps else None, "mechanisms": mechanisms, "classes": classes}
+    print(f"{row.train} {row.part} without {', '.join(lost)}: {told}", file=sys.stderr, flush=True)
+    return told
+
+
+def _is_found_with_meshes(tree: SpurTree, lost: tuple[str, ...]) -> bool:
+    problem = evidence_question(lost_evidence(tree, lost, seen=True)).problem
+    return rank_of(tree.arbor(lost), find_reconstructions(problem, listed=LISTED)) is not None
+
+
+def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterator[tuple[list[int], int | None]]:
+    """Numbers of explanations with 0, 1, ... wheels fewer than are lost, and at last how many weigh more in all.
+
+    With as many wheels as are lost those weigh more that have fewer added arbors.
+    """
+    evidence, original = lost_evidence(tree, lost), tree.arbor(lost)
+    whole = evidence_question(evidence).problem
+    own, weight = whole.additions.wheels, prior(original, whole)
+    mechanisms, weights = list(row.mechanisms[:own]), Counter[Fraction]()
+    if any(mechanisms):
+        mechanisms = []
+    for wheels in range(len(mechanisms), own):
+        found = find_reconstructions(evidence_question(evidence, wheels).problem)
+        mechanisms = [count.mechanisms for count in found.counts]
+        weights = Counter({each.weight: each.mechanisms for each in found.weights})
+        yield mechanisms, None
+    better = sum(number for each, number in weights.items() if each > weight)
+    fewer = original.added_arbors - 1
+    if fewest_new_arbors(whole) <= fewer:
+        found = find_reconstructions(replace(whole, additions=replace(whole.additions, arbors=fewer)))
+        better += sum(count.mechanisms for count in found.counts if count.added == own)
+    yield mechanisms, better
+
+
+def fewest_new_arbors(problem: ReconstructionProblem) -> int:
+    """How many arbors must be added at least, for pointers of different speeds that have none."""
+    bounds = [sorted((abs(dial.least), abs(dial.greatest))) for dial in problem.dials if dial.place == NEW]
+    number, last = 0, Fraction(-1)
+    for least, greatest in sorted(bounds, key=lambda each: each[1]):
+        if least > last:
+            number, last = number + 1, greatest
+    return number
 
 
 def _asked(tasks: Sequence[Task], workers: int | None, journal: Path | None) -> list[LeftOutRecord]:
@@ -129,12 +271,33 @@ def forget(journal: Path) -> None:
         journal.with_name(f"{journal.name}-{many}").unlink(missing_ok=True)
 
 
-def _wheels(tree: SpurTree, lost: Iterable[str]) -> int:
-    return sum(len(tree.wheels_of(link)) for link in lost)
+def _records(
+    trees: dict[Part, SpurTree], rows: Sequence[LeftOutRecord], not_asked: Sequence[NotAskedRecord]
+) -> LeftOutRecords:
+    names = sorted({name for name, _ in trees} | {row.train for row in not_asked if row.why.startswith(_SAME)})
+    return LeftOutRecords(
+        TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], rows, not_asked, [*map(_cover, names)]
+    )
 
 
-def _tree_record(tree: SpurTree) -> TreeRecord:
-    counts = tree.counts.values()
-    teeth = [min(counts), max(counts)]
-    parts = list(tree.driven), len(counts), list(tree.pointers), list(tree.beside)
-    return TreeRecord(tree.train.name, tree.source, *parts, teeth)
+def _tree_record(name: str, part: str, tree: SpurTree) -> TreeRecord:
+    return TreeRecord(name, part, tree.source, list(tree.able), len(tree.counts), list(tree.pointers), list(tree.teeth))
+
+
+def _cover(name: str) -> CoverRecord:
+    """How many links of a train are left out in some part, and why the others are not."""
+    train = read_declaration(name)
+    trees = find_spur_trees(train)
+    lost = {link for tree in trees for arbor in tree.able for link in tree.links_of(arbor)}
+    begins = {link for tree in trees for link in tree.links_of(tree.source)}
+    rings = {link for tree in trees for arbor in tree.driven for link in tree.links_of(arbor)}
+    why: dict[str, list[str]] = {}
+    links = [link for link in train.links if link != train.frame and link not in train.fixed]
+    for link in links:
+        if link not in lost:
+            reason = (
+                "a part begins there" if link in begins else "it has a ring" if link in rings else why_not(train, link)
+            )
+            why.setdefault(reason, []).append(link)
+    others = [f"{', '.join(some)}: {reason}" for reason, some in why.items()]
+    return CoverRecord(name, len(links), len(lost & {*links}), others)

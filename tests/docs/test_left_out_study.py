@@ -4,18 +4,35 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
 
 import pytest
+from concrete_trees import exact_dial, sure_arbor
 from make_left_out import page
 from studies import left_out_study
-from studies.left_out_records import LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
-from studies.left_out_study import QUICK, find_trees, forget, left_out
+from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
+from studies.left_out_study import (
+    QUICK,
+    fewest_new_arbors,
+    find_trees,
+    forget,
+    left_out,
+    more_left_out,
+    tree_records,
+)
 from studies.measurement import gathered
 from studies.page import read
 
-from geartrain.train.declaration_files import shipped
+from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+from geartrain.synthesis.reconstruction.known_rank import find_place
+from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_wheels
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Additions, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
+from geartrain.train.declaration_files import read_declaration, shipped
 
 
 @pytest.fixture(scope="module")
@@ -25,21 +42,32 @@ def quick() -> LeftOutRecords:
 
 def test_every_shipped_train_is_asked_or_says_why_not() -> None:
     trees, not_asked = find_trees(tuple(shipped()))
-    assert {*trees, *(row.train for row in not_asked)} == set(shipped())
-    assert len(trees) + len(not_asked) == len(shipped())
+    asked = {name for name, _ in trees}
+    assert asked | {row.train for row in not_asked} == set(shipped())
+    assert not asked & {row.train for row in not_asked}
     why = {row.train: row.why for row in not_asked}
-    assert why["longcase-clock-bs978"] == "the same tree as longcase-clock"
-    assert why["freeth-2021"] == "the same tree as freeth-2008"
+    assert why["longcase-clock-bs978"] == "the same parts as longcase-clock"
+    assert why["voulgaris-2022"] == "the same parts as freeth-2006 and freeth-2008"
     assert why["worm"].endswith("it has worm wheels")
     assert "'four-gear-loop' close a loop" in why["four-gear-loop"]
 
 
-def test_of_a_mechanism_with_pins_and_carriers_the_trains_behind_the_table_are_taken() -> None:
-    """The table of the Moon itself turns in the frame; what it carries does not."""
-    tree = find_trees(["freeth-2008"])[0]["freeth-2008"]
-    assert set(tree.driven) == {"c", "d", "e_pipe", "l", "m", "n", "o", "p", "q", "e_table", "f", "g", "h", "i"}
-    assert set(tree.beside) == {"a", "k1", "k2", "e_inner", "moon"}
-    assert set(tree.pointers) == {"e_pipe", "metonic", "games", "callippic", "apsides", "saros", "exeligmos"}
+def test_of_a_mechanism_with_pins_and_carriers_each_part_is_taken() -> None:
+    """The table of the Moon itself turns in the frame; what it carries is a part, and so is what that drives."""
+    trees = find_trees(["freeth-2008"])[0]
+    first = trees["freeth-2008", ""]
+    assert set(first.driven) == {"c", "d", "e_pipe", "l", "m", "n", "o", "p", "q", "e_table", "f", "g", "h", "i"}
+    assert set(first.pointers) == {"e_pipe", "metonic", "games", "callippic", "apsides", "saros", "exeligmos"}
+    assert set(trees["freeth-2008", "on e_table, from e_pipe"].driven) == {"k1", "e_inner"}
+    assert set(trees["freeth-2008", "from e_inner"].driven) == {"moon"}
+
+
+def test_what_is_not_left_out_says_why() -> None:
+    (cover,) = tree_records(["freeth-2008"]).covers
+    assert (cover.links, cover.left_out) == (20, 18)  # all but the crank and b
+    assert cover.others == ["a: it has contrate wheels", "b: a part begins there"]
+    (cover,) = tree_records(["prague-orloj"]).covers
+    assert (cover.left_out, cover.others) == (3, ["sun: a part begins there"])
 
 
 def test_the_quick_run_finds_every_train_again(quick: LeftOutRecords) -> None:
@@ -68,13 +96,61 @@ def test_a_stopped_run_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert not list(tmp_path.iterdir())
 
 
-def test_two_arbors_are_not_left_out_where_one_was_too_many() -> None:
+def test_of_what_is_not_finished_less_is_asked() -> None:
+    full = {tuple(row.lost): row for row in left_out(["watch-going-train"]).rows}
     found = left_out(["watch-going-train"], limit=0.0)
-    assert [tuple(row.lost) for row in found.rows] == [("third",), ("fourth",), ("escape",)]
-    assert found.possible == 6
     assert not found.whole
-    assert {row.note for row in found.rows} == {"not within 0 s"}
-    assert "not asked, for one of the two alone was not finished: 3." in found.to_markdown()
+    assert {tuple(row.lost) for row in found.rows} == {*full}
+    for row in found.rows:
+        whole = full[tuple(row.lost)]
+        assert row.seen
+        assert whole.rank is not None
+        assert row.first == whole.rank[0]
+        assert list(row.mechanisms) == list(whole.mechanisms[:-1])
+    assert "it was found in 6 where the meshes" in " ".join("\n".join(page(found)).split())
+
+
+def test_explanations_with_as_many_wheels_on_fewer_arbors_weigh_more() -> None:
+    """From 20 of a and 40 of b a pointer of 1/8 may be driven; a lost arbor has 2 wheels, and 2 stand beside others."""
+    text = """\
+name: beside
+links:
+  frame: {}
+  a: {wheels: {a1: 20}}
+  b: {wheels: {b1: 40, b2: 20}}
+  c: {wheels: {c1: 40, c2: 20}}
+  d: {wheels: {d1: 40}}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c], D: [frame, d]}
+gears: [a1 ~ b1, b2 ~ c1, c2 ~ d1]
+inputs: {a: 1}
+outputs: {d: {expect: -1/8}}
+"""
+    tree = find_spur_tree(read_declaration(text))
+    for lost in (["c"], ["b", "c"], ["d"]):
+        row = LeftOutRecord("beside", lost, lost_wheels(tree, lost), [], [], None, False, None)
+        problem = evidence_question(lost_evidence(tree, lost)).problem
+        place = find_place(tree.arbor(lost), problem, find_reconstructions(problem))
+        assert place is not None
+        assert list(left_out_study._better(tree, tuple(lost), row))[-1][1] == place.ranks[0] - 1, lost
+
+
+def test_a_pointer_of_each_speed_needs_an_arbor() -> None:
+    dials = [exact_dial("a", 2, place=NEW), exact_dial("b", -2, place=NEW), exact_dial("c", 3, place=NEW)]
+    problem = ReconstructionProblem(sure_arbor("x", x1=10), (), (*dials, exact_dial("d", 5)), Additions(1, 5, 6))
+    assert fewest_new_arbors(problem) == 2  # magnitudes alone are told apart
+    near = replace(dials[2], least=Fraction(1), greatest=Fraction(9, 2))
+    assert fewest_new_arbors(replace(problem, dials=(dials[0], near))) == 1
+
+
+def test_a_kept_run_is_added_to() -> None:
+    kept = left_out(["watch-going-train"], limit=0.0)
+    rows = [replace(row, seen=None) for row in kept.rows if len(row.lost) == 1]
+    less = replace(kept, rows=rows)
+    more = more_left_out(less, ["watch-going-train"], 60, 60, 5)
+    own = [row for row in more.rows if row.train == "watch-going-train"]
+    assert [row.seen for row in own] == [True] * 6
+    assert not any(row.is_whole for row in own)  # pairs are asked to the end only where each alone was
+    assert more_left_out(less, ["watch-going-train"], 60, 60, 0).rows == rows
 
 
 def test_what_came_in_time_is_gathered() -> None:
@@ -100,37 +176,38 @@ def test_what_came_in_time_is_gathered() -> None:
 
 def test_the_kept_run_found_every_train_again() -> None:
     (records,) = read(LeftOutRecords, "left-out")
-    trees = {tree.train: tree for tree in records.trees}
-    assert {*trees, *(row.train for row in records.not_asked)} == set(shipped())
-    asked = {(row.train, tuple(row.lost)) for row in records.rows}
-    whole = {(row.train, tuple(row.lost)) for row in records.whole}
+    trees = {(tree.train, tree.part): tree for tree in records.trees}
+    asked = {(row.train, row.part, tuple(row.lost)) for row in records.rows}
     assert len(asked) == len(records.rows)
-    for name, tree in trees.items():
-        for link in tree.arbors:
-            assert (name, (link,)) in asked
-        for pair in combinations(tree.arbors, 2):
-            assert ((name, pair) in asked) == all((name, (link,)) in whole for link in pair)
+    for part, tree in trees.items():
+        for many in (1, 2):
+            asked -= {(*part, lost) for lost in combinations(tree.arbors, many)}
+    assert not asked
     assert not records.lost
     assert all(row.note for row in records.rows if not row.is_whole)
 
 
 def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
     rows = [
-        LeftOutRecord("clock", ["a"], 2, [0, 3, 4], [0, 2, 2], [4, 7], True, 0.25),
-        LeftOutRecord("clock", ["b"], 1, [0, 5], [0, 5], None, True, 1.5),
-        LeftOutRecord("clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s"),
-        LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB"),
+        LeftOutRecord("clock", ["a"], 2, [0, 3, 4], [0, 2, 2], [4, 7], True, 0.25, "", "from y"),
+        LeftOutRecord("clock", ["b"], 1, [0, 5], [0, 5], None, True, 1.5, "", "from y"),
+        LeftOutRecord("clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s", "from y", True, 0),
+        LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB", "from y"),
     ]
-    tree = TreeRecord("clock", "x", ["a", "b", "c"], 8, ["hour"], ["crank"], [8, 96])
-    text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [NotAskedRecord("worm", "it has worm wheels")])))
-    assert "| clock | 3 | 8 | 1 | 6 | 4 | 2 | 1 | 0 | 0 | 7 |" in text
-    assert "| a | 3 with 1 | 4 with 2 | 2 | 4 to 7 | 250 ms |" in text
-    assert "| b | 5 with 1 | 5 with 1 | 5 | - | 1.5 s |" in text
-    assert "| c | none with 1 | ? with 3 | - | - | not within 60 s |" in text
-    assert "| a, b | - | ? with 3 | - | - | more than 4 GB |" in text
-    assert "From x on; pointers: hour; 8 to 96 teeth. Not in the tree: crank." in text
+    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96])
+    cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
+    worm = NotAskedRecord("worm", "it has worm wheels")
+    text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))
+    assert "| clock, from y | 3 | 8 | 1 | 6 | 2 | 2 | 2 | 1 | 0 | 7 |" in text
+    assert "| a | 3 with 1 | 4 with 2 | 2 | yes | 4 | 7 | 250 ms |" in text
+    assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | 1.5 s |" in text
+    assert "| c | none with 1 | ? with 3 | - | with meshes seen | 1 | open | not within 60 s |" in text
+    assert "| a, b | - | ? with 3 | - | open | open | open | more than 4 GB |" in text
+    assert "From x on; pointers: hour; 8 to 96 teeth. Not asked yet: 2." in text
     assert "| worm | it has worm wheels |" in text
+    assert "| clock | 4 | 3 | crank: it has worm wheels |" in text
     said = " ".join(text.split())
-    assert "There are 6 such questions. 4 were asked and 2 finished" in said
-    assert "found in 1 of the finished ones; not: clock without b; 0 have too many" in said
+    assert "There are 6 such questions in 1 parts of 1 trains. 4 were asked, and 2 of them to the end" in said
+    assert "found in 1 of these; not: clock without b; 0 have too many" in said
+    assert "found in 1 where the meshes of what survives were told; 1 are open." in said
     assert "1 have explanations with fewer wheels than were lost" in said

@@ -28,7 +28,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
+from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
 from geartrain.train import declare
 from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
 

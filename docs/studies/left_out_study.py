@@ -138,8 +138,8 @@ def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAske
         try:
             parts = find_spur_trees(read_declaration(name))
         except GearTrainError as error:
-            problem = error.problems[0]
-            not_asked.append(NotAskedRecord(name, ": ".join(filter(None, (problem.what, problem.why)))))
+            refused = error.problems[0]
+            not_asked.append(NotAskedRecord(name, ": ".join(filter(None, (refused.what, refused.why)))))
             continue
         same = set()
         for tree in parts:

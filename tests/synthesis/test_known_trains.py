@@ -149,12 +149,14 @@ def test_summed_parts_have_the_weights_of_the_listed(monkeypatch: pytest.MonkeyP
 
 
 def test_a_shipped_train_is_read_as_its_own_tree() -> None:
-    """Of each that has one, with any arbor lost."""
+    """Of each that has one on the frame, with any arbor lost."""
     read = 0
     for name in shipped():
         try:
             tree = find_spur_tree(read_declaration(name))
         except GearTrainError:
+            continue
+        if tree.base.is_carrier:
             continue
         for lost in combinations(list(tree.driven)[:6], 1):
             problem = evidence_question(lost_evidence(tree, lost)).problem

@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
+from xml.etree import ElementTree
 
 import pytest
 import shipped
@@ -42,6 +43,7 @@ def test_links_lead_only_to_the_web(show: Opening) -> None:
     assert "javascript:alert(1)" in shown.page.locator(".sources").inner_text()
 
 
+SVG = "{http://www.w3.org/2000/svg}"
 BLIND = "HTMLCanvasElement.prototype.getContext = () => null"
 
 
@@ -74,6 +76,27 @@ def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> No
     assert shown.page.locator("[data-angle='carrier']").inner_text() == f"{360 - 360 * 2 / 49:.2f}\u00b0"
     shown.page.keyboard.press("e")
     assert [error for error in shown.errors if "three dimensions" not in error and "WebGL context" not in error] == []
+
+
+def test_without_webgl_the_plan_is_saved_as_a_drawing_that_needs_no_style_sheet(show: Opening, tmp_path: Path) -> None:
+    shown = show(SIMPLE, before=BLIND)
+    with shown.page.expect_download() as download:
+        shown.page.get_by_role("button", name="Save picture").click()
+    assert download.value.suggested_filename == f"{SIMPLE}.svg"
+    download.value.save_as(tmp_path / "saved.svg")
+    sheet = ElementTree.parse(tmp_path / "saved.svg").getroot()
+    assert sheet.tag == f"{SVG}svg"
+    discs = {
+        node.get("data-wheel"): node.find(f"{SVG}path") for node in sheet.iter(f"{SVG}g") if node.get("data-wheel")
+    }
+    assert set(discs) == {"s", "p", "ring"}
+    for name, disc in discs.items():
+        style = shown.run(
+            "(name) => getComputedStyle(document.querySelector(`.plan [data-wheel='${name}'] .disc`)).fill", name
+        )
+        assert disc is not None
+        assert f"fill: {style}" in disc.get("style", ""), name
+        assert "fill-opacity: 0.55" in disc.get("style", ""), "which a style sheet says on the page"
 
 
 def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_path: Path) -> None:

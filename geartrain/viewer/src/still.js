@@ -1,6 +1,7 @@
 // Stills: a stage drawn at once, as a picture that can be kept.
 
 import { vector } from "./space.js";
+import { svg } from "./ui/element.js";
 
 const VIEWS = 24; // of a turning camera, from all of which the whole must be seen
 
@@ -79,4 +80,26 @@ export function pictureOf(stages) {
     left += canvases[n].width;
   });
   return new Promise((done) => sheet.toBlob(done, "image/png"));
+}
+
+const WORN = ["fill", "fill-opacity", "fill-rule", "stroke", "stroke-width", "stroke-linejoin", "vector-effect", "opacity", "display", "text-anchor", "font-family"];
+
+/** Plans beside each other as one SVG that needs no style sheet, as large as they are on the screen. */
+export function drawingOf(plans) {
+  let [right, lowest] = [0, 0];
+  const copies = plans.map(({ canvas }) => {
+    const copy = canvas.cloneNode(true);
+    const own = [canvas, ...canvas.querySelectorAll("*")];
+    [copy, ...copy.querySelectorAll("*")].forEach((node, n) => {
+      const style = getComputedStyle(own[n]);
+      for (const name of WORN) node.style.setProperty(name, style.getPropertyValue(name));
+    });
+    const { width, height } = canvas.getBoundingClientRect();
+    for (const [name, value] of Object.entries({ x: right, y: 0, width, height })) copy.setAttribute(name, value);
+    [right, lowest] = [right + width, Math.max(lowest, height)];
+    return copy;
+  });
+  const paper = getComputedStyle(plans[0].canvas.parentElement).backgroundColor;
+  const sheet = svg("svg", { width: right, height: lowest }, svg("rect", { width: "100%", height: "100%", fill: paper }), ...copies);
+  return new Blob([new XMLSerializer().serializeToString(sheet)], { type: "image/svg+xml" });
 }

@@ -50,10 +50,12 @@ def known_trains(files: Sequence[str], same: Sequence[str], question: EvidenceQu
     return KnownTrains(trains, names)
 
 
-def rank_trains(known: KnownTrains, problem: ReconstructionProblem, found: Reconstructions) -> tuple[KnownRank, ...]:
+def rank_trains(
+    known: KnownTrains, evidence: Train, problem: ReconstructionProblem, found: Reconstructions
+) -> tuple[KnownRank, ...]:
     """What each train costs; one that is stopped is left out."""
     from geartrain.numerics.work import Execution
-    from geartrain.synthesis.reconstruction.known_rank import rank_known_train
+    from geartrain.synthesis.reconstruction.known_rank import RankedQuestion, rank_known_train
     from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 
     ranked: list[KnownRank] = []
@@ -67,5 +69,5 @@ def rank_trains(known: KnownTrains, problem: ReconstructionProblem, found: Recon
                     raise KeyboardInterrupt
                 return answer
 
-            ranked.append(rank_known_train(train, problem, found, search, known.same))
+            ranked.append(rank_known_train(train, RankedQuestion(evidence, problem, found, search), known.same))
     return tuple(ranked)

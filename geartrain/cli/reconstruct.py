@@ -167,7 +167,7 @@ def run(
         close_journal(given.journal, not found.complete)
     listed = () if count else found.candidates if every else found.candidates[:best]
     drawn = draw_candidates(found, question.problem, tuple(declared.outputs), sample, seed) if sample else ()
-    known = rank_trains(ranked, question.problem, found)
+    known = rank_trains(ranked, declared, question.problem, found)
     report = ReconstructionReport(
         declared.name,
         question.problem,

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Sequence
 from geartrain.report.document import Section, Table, figure
 from geartrain.report.reconstruction_facts import many, share_text
 from geartrain.synthesis.reconstruction.known_rank import AdmittingQuestion, KnownRank, TrainPlace
+from geartrain.synthesis.reconstruction.telling_facts import GREATEST, LEAST, TellingFact, TellingFacts
 
+_MOST_SETS = 12
 _LINE = (
     "Where each train stands by weight among all that explain the evidence, and among those with as many added wheels; "
     "and how many times the best outweighs it."
@@ -27,6 +29,52 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
             yield Section(f"What keeps {one.train} out", [*_noted(one), *_granted(one)], [table])
         elif one.notes:
             yield Section(f"Of {one.train}", list(_noted(one)))
+        if one.telling is not None and one.place is not None:
+            yield _telling(one.train, one.telling, one.place.trains)
+
+
+def _telling(train: str, found: TellingFacts, trains: int) -> Section:
+    """Facts that single a train out, each alone and in the smallest sets."""
+    many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
+    alone = [each for each in found.facts if each.mechanisms == 1]
+    lines = ["Each fact that holds in it and not in all, and how many trains it would leave."]
+    tables = [Table(("fact", f"leaves of {trains}"), _left(found.facts))]
+    if not found.sets:
+        lines.append("No three of them leave it alone.")
+    elif not alone:
+        ways = many(len(found.sets), "way")
+        lines.append(
+            f"{many_facts[len(found.sets[0])]} together leave it alone, in {ways}; of facts that leave the same trains "
+            "one is told."
+        )
+        rows = [("; ".join(map(_said, some)),) for some in found.sets[:_MOST_SETS]]
+        if len(found.sets) > _MOST_SETS:
+            rows.append((f"... {len(found.sets) - _MOST_SETS} more",))
+        tables.append(Table(("together they leave it alone",), rows))
+    return Section(f"What singles {train} out", lines, tables)
+
+
+def _left(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
+    """Facts that leave as many trains in one row."""
+    rows: dict[int, list[str]] = {}
+    for fact in facts:
+        rows.setdefault(fact.mechanisms, []).append(_said(fact))
+    return [("; ".join(said), str(left)) for left, said in rows.items()]
+
+
+_FACTS = {
+    "pair": "{} mesh",
+    "driver": "{1} drives {0}",
+    "pointer": "the pointer of {} is on {}",
+    "count": "{} has {}",
+    "added": "{} has {}",
+    GREATEST: "no added wheel has more than {1}",
+    LEAST: "no added wheel has fewer than {1}",
+}
+
+
+def _said(fact: TellingFact) -> str:
+    return _FACTS[fact.kind].format(fact.subject, fact.answer)
 
 
 def _row(one: KnownRank) -> tuple[str, ...]:

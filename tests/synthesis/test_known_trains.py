@@ -14,8 +14,9 @@ from geartrain import GearTrainError
 from geartrain.synthesis.reconstruction import reconstruction_search
 from geartrain.synthesis.reconstruction.admitting_question import admitting_question
 from geartrain.synthesis.reconstruction.candidate_rules import broken_rules
+from geartrain.synthesis.reconstruction.candidate_train import TrainConstruction
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.known_rank import find_place, rank_known_train
+from geartrain.synthesis.reconstruction.known_rank import RankedQuestion, find_place, rank_known_train
 from geartrain.synthesis.reconstruction.known_train import check_same, find_known_train
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
@@ -28,6 +29,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
+from geartrain.synthesis.reconstruction.telling_facts import find_telling_facts
 from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
 from geartrain.train import declare
 from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
@@ -179,9 +181,13 @@ def search(problem: ReconstructionProblem) -> Reconstructions:
     return find_reconstructions(problem, listed=0)
 
 
-def test_the_train_of_2008_is_one_of_21() -> None:
+def sure_question() -> RankedQuestion:
     problem = sure_back()
-    found = rank_known_train(read_declaration("freeth-2008"), problem, search(problem), search)
+    return RankedQuestion(read_evidence("back-wheels-sure"), problem, search(problem), search)
+
+
+def test_the_train_of_2008_is_one_of_21() -> None:
+    found = rank_known_train(read_declaration("freeth-2008"), sure_question())
     assert found.wheels == {"m3": 27, "n1": 53, "nO": 57}
     assert (found.arbors, found.broken, found.admitted) == (1, (), ())
     assert found.place is not None
@@ -189,8 +195,7 @@ def test_the_train_of_2008_is_one_of_21() -> None:
 
 
 def test_the_train_of_2006_has_another_dial_on_o() -> None:
-    problem = sure_back()
-    found = rank_known_train(read_declaration("freeth-2006"), problem, search(problem), search)
+    found = rank_known_train(read_declaration("freeth-2006"), sure_question())
     (speed,) = found.broken
     assert (speed.rule, speed.subject, speed.values) == ("speed", ("games",), (Fraction(-1, 76),))
     as_it_has, without = found.admitted
@@ -201,8 +206,7 @@ def test_the_train_of_2006_has_another_dial_on_o() -> None:
 
 
 def test_prices_train_breaks_many_rules() -> None:
-    problem = sure_back()
-    found = rank_known_train(read_declaration("price-1974"), problem, search(problem), search, PRICE)
+    found = rank_known_train(read_declaration("price-1974"), sure_question(), PRICE)
     assert {(one.rule, *one.subject) for one in found.broken} >= {
         ("speed", "metonic"),
         ("dial", "saros"),
@@ -283,3 +287,75 @@ def test_wheels_that_are_on_other_arbors_are_not_taken_for_those_that_survive() 
     known = find_known_train(parted, sure_back())
     assert known.notes == ("c2 is not fixed to the other wheels of c, and is not taken for c2",)
     assert concrete(known.arbor) == ("b", (), (), ())
+
+
+# what singles a train out
+
+
+def plain_facts(tree: tuple) -> set[tuple]:
+    """Meshes of surviving wheels, drivers of surviving arbors and bounds of added wheels, of a concrete tree."""
+    found: set[tuple] = set()
+    added = []
+    for name, driven, _, drives in nodes(tree):
+        added += [
+            teeth for wheel, teeth in [one for one in (driven, *(wheel for wheel, _ in drives)) if one] if not wheel
+        ]
+        for wheel, children in drives:
+            for child in children:
+                if wheel[0] and child[1][0]:
+                    found.add(("pair", " and ".join(sorted((wheel[0], child[1][0]))), "yes"))
+                if child[0]:
+                    found.add(("driver", child[0], name or "an added arbor"))
+    return found | {("greatest", "", str(max(added))), ("least", "", str(min(added)))}
+
+
+def plainly_left(fact: tuple, facts: list[set[tuple]]) -> frozenset[int]:
+    """Trains of which a fact holds."""
+    if fact[0] in ("greatest", "least"):
+        bounds = [next(int(own[2]) for own in some if own[0] == fact[0]) for some in facts]
+        limit = int(fact[2])
+        return frozenset(
+            at for at, own in enumerate(bounds) if (own <= limit if fact[0] == "greatest" else own >= limit)
+        )
+    return frozenset(at for at, some in enumerate(facts) if fact in some)
+
+
+@pytest.mark.parametrize("name", ["back-train", "back-train-doubt", "back-wheels-sure"])
+def test_what_singles_a_train_out_is_what_plain_sets_of_trains_say(name: str) -> None:
+    """Each fact, and all sets of facts that leave as few; counts of wheels by their names are looked up in the list."""
+    evidence = read_evidence(name)
+    problem = evidence_question(evidence).problem
+    found = find_reconstructions(problem)
+    facts = []
+    for one in found.candidates:
+        train = TrainConstruction.of(evidence, one.arbor)
+        counts = {("added", wheel, str(teeth)) for wheel, teeth in train.added.items()}
+        counts |= {("count", wheel, str(teeth)) for wheel, teeth in train.doubtful.items()}
+        facts.append(plain_facts(concrete(one.arbor)) | counts)
+    sizes = set[int]()
+    for which, one in enumerate(found.candidates):
+        told = find_telling_facts(evidence, problem, found, one.arbor)
+        assert told is not None
+        left = {fact: plainly_left(fact, facts) for fact in facts[which]}
+        left = {fact: trains for fact, trains in left.items() if len(trains) < len(facts)}
+        assert {(each.kind, each.subject, each.answer): each.mechanisms for each in told.facts} == {
+            fact: len(trains) for fact, trains in left.items()
+        }
+        different = set(left.values())
+        for size in (1, 2, 3):
+            sets = [some for some in combinations(different, size) if frozenset.intersection(*some) == {which}]
+            if sets:
+                break
+        assert len(told.sets) == len(sets)
+        assert {len(some) for some in told.sets} == ({size} if sets else set())
+        for some in told.sets:
+            held = [left[each.kind, each.subject, each.answer] for each in some]
+            assert frozenset.intersection(*held) == {which}
+        sizes |= {len(some) for some in told.sets}
+    assert sizes <= {1, 2, 3}
+    assert max(sizes) > 1 or name == "back-train"
+
+
+def test_too_many_trains_single_none_out() -> None:
+    question = sure_question()  # of which none is listed
+    assert rank_known_train(read_declaration("freeth-2008"), question).telling is None

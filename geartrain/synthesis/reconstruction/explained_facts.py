@@ -39,7 +39,7 @@ YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not u
 _ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
 """The answer of a candidate that says nothing of a fact; `NO` of the other kinds."""
 
-_LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
+LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
 """Facts that may be found out by looking at what survives, or at what still turns up."""
 
 _MOST_FACTS = 200
@@ -204,7 +204,7 @@ class ExplainedFacts:
         own = FactTally(problem)
         for index, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True)):
             own.add_trains(weight)
-            for fact, answer in _facts(train, doubtful, lost):
+            for fact, answer in train_facts(train, doubtful, lost):
                 self._listed.setdefault(fact, {}).setdefault(answer, []).append(index)
                 own.add(fact, answer, weight)
         self._tally = own if tally is None else tally
@@ -216,9 +216,9 @@ class ExplainedFacts:
 
     def next_facts(self) -> tuple[NextFact, ...]:
         """Facts that would divide the trains, the most telling first."""
-        asked = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in _LOOKED_FOR]
+        asked = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         asked = [one for one in asked if len(one.answers) > 1]
-        order = {kind: at for at, kind in enumerate(_LOOKED_FOR)}
+        order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
         asked.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
         alike: dict[Hashable, list[FactMarginal]] = {}
         for one in asked[:_MOST_FACTS]:
@@ -238,7 +238,7 @@ class ExplainedFacts:
         return found, frozenset((answer.share, answer.mechanisms) for answer in one.answers)
 
 
-def _facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
+def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
     """All that a candidate says, no fact twice; of the counts in doubt, and of pointers whose place is not known."""
     wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
     for arbor in train.arbors():

@@ -15,6 +15,7 @@ from geartrain.synthesis.reconstruction.known_train import KnownTrain, find_know
 from geartrain.synthesis.reconstruction.lost_arbors import rank_of
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.synthesis.reconstruction.telling_facts import TellingFacts, find_telling_facts
 from geartrain.train import Train
 
 
@@ -97,6 +98,8 @@ class KnownRank(Result):
         What of the train plays no part.
     place : TrainPlace or None
         Where it stands; None where it breaks rules, or adds more wheels than may be added.
+    telling : TellingFacts or None
+        What singles it out, where all explanations are listed.
     admitted : tuple of AdmittingQuestion
         What it costs in questions without these rules: with its dials as it has them, and without those whose speed is
         not the given one.
@@ -109,38 +112,47 @@ class KnownRank(Result):
     notes: tuple[str, ...] = ()
     place: TrainPlace | None = None
     admitted: tuple[AdmittingQuestion, ...] = ()
+    telling: TellingFacts | None = None
 
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
 """What finds all explanations of a question."""
 
 
-def rank_known_train(
-    train: Train,
-    problem: ReconstructionProblem,
-    found: Reconstructions,
-    search: Search,
-    same: Mapping[str, str] | None = None,
-) -> KnownRank:
+@dataclass(frozen=True)
+class RankedQuestion:
+    """A question among whose explanations trains are ranked.
+
+    evidence, problem   what is known, and what it asks; arbors turn in the frame
+    found               all that explains it
+    search              what finds all that explains a changed question, with which a train is ranked that breaks rules
+    """
+
+    evidence: Train
+    problem: ReconstructionProblem
+    found: Reconstructions
+    search: Search
+
+
+def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:
     """What a train costs in a question.
 
     Parameters
     ----------
     train : Train
-    problem : ReconstructionProblem
-        Its arbors turn in the frame.
-    found : Reconstructions
-        All that explains it.
-    search : callable
-        What finds all that explains a changed question, with which a train is ranked that breaks rules.
+    question : RankedQuestion
     same : mapping of str to str, optional
         Names of the train by which the question calls something otherwise; see `find_known_train`.
     """
+    problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)
     broken = broken_rules(known.arbor, problem)
     place = None if broken else find_place(known.arbor, problem, found)
-    admitted = tuple(_all_admitted(train, problem, search, same or {})) if broken else ()
-    return KnownRank(train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, admitted)
+    admitted = tuple(_all_admitted(train, problem, question.search, same or {})) if broken else ()
+    telling = None if place is None else find_telling_facts(question.evidence, problem, found, known.arbor)
+    return KnownRank(
+        train.name, dict(known.added), known.arbor.added_arbors, broken, known.notes, place, admitted, telling
+    )
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:

@@ -4241,9 +4241,9 @@ in vec2 off;
 out vec4 colour;
 void main() {
   vec2 core = 0.72 * half_wide;
-  float away = length(off / (core + soft)); // a wide one, and a narrow one of what stands on the ground
-  float near = length(off / (0.5 * core + 0.3 * soft));
-  float shade = 0.6 * pow(max(1.0 - away * away, 0.0), 2.0) + 0.4 * pow(max(1.0 - near * near, 0.0), 1.5);
+  vec2 away = off / (core + soft), near = off / (0.5 * core + 0.3 * soft); // a wide one, and one of what stands on the ground
+  float wide = max(1.0 - dot(away, away), 0.0), narrow = max(1.0 - dot(near, near), 0.0);
+  float shade = 0.6 * wide * wide + 0.4 * narrow;
   colour = vec4(0.0, 0.0, 0.0, dark * shade);
 }`,wl=class{constructor(t){let e=s=>({value:s});this.uniforms={middle:e([0,0]),half_wide:e([1,1]),soft:e(fb*t),low:e(0),dark:e(pb)};let n={glslVersion:Qn,vertexShader:mb,fragmentShader:gb,uniforms:this.uniforms,transparent:!0,depthWrite:!1};this.mesh=new tn(new tr(1.05,48),new On({...n,side:1})),this.mesh.frustumCulled=!1,this.mesh.renderOrder=-1,this.size=t}fit(t){let e=l=>t.reduce(([c,h],u)=>[Math.min(c,u[l]),Math.max(h,u[l])],[1/0,-1/0]),[[n,s],[r],[o,a]]=["x","y","z"].map(e);Number.isFinite(r)&&(this.uniforms.middle.value=[(n+s)/2,(o+a)/2],this.uniforms.half_wide.value=[(s-n)/2,(a-o)/2],this.uniforms.low.value=r-db*this.size)}dispose(){this.mesh.geometry.dispose(),this.mesh.material.dispose()}};function vp(i,t,e){let[n,s]=[i.bodies[t.pin],i.bodies[t.slot]],[r,o]=[tt(t.pin_at),tt(t.slot_at)],a=Math.max(.005*e,Math.min(.012*e,.12*t.pin_radius)),l=4*a;if(t.hole)return _b(t,n,s,l);let c=vs(a,-l/2,l/2,16),h=ue(t.pin_at,n.direction,Mi(n.direction).toArray()),u=[{body:t.pin,colour:Jt.pin,shape:c,matrix:h,at:r},{body:t.slot,colour:Jt.slot,...xb(t,s,o,r,a),at:o}],d=Ae(n,be(n,r));if(d.distanceTo(r)>1e-6*e){let f=tt(n.direction).multiplyScalar(-l/2),{shape:m,matrix:v}=kh(d.add(f),r.clone().add(f),n.direction,[1.8*a,1.6*a],.5*a);u.push({body:t.pin,colour:Jt.slot,shape:m,matrix:v,at:r})}return u}function _b(i,t,e,n){let s=vs(i.pin_diameter/2,-n,n,24),r=i.hole/2,o=se(new Zt,_e(r,1.12*r+.1,-.6*n,.6*n),48),a=c=>Mi(c.direction).toArray(),l=(c,h,u,d)=>f=>({body:c,colour:u,shape:d,matrix:ue(f,h.direction,a(h)),at:tt(f)});return[...i.holes_at.map(l(i.slot,e,Jt.slot,o)),...i.pins_at.map(l(i.pin,t,Jt.pin,s))]}function xb(i,t,e,n,s){let{pin_radius:r,offset:o}=i,[a,l]=[Math.max(0,Math.abs(r-o)-2*s),r+o+2*s],c=new Zt,h=s/2,u=(f,m,v,p)=>Cn(c,[[f,p/2],[m,p/2]],-h,h,([g,S,E])=>[g,S+v,E]);for(let f of[1,-1])u(a,l,f*1.35*s,.6*s);u(l,l+.7*s,0,3.3*s),a>0&&u(0,a,0,3.3*s),se(c,_e(0,2.4*s,-h,h),24);let d=n.clone().sub(e).toArray();return{shape:c,matrix:ue(e.toArray(),t.direction,d,i.slot_turn??0)}}function Mp(i,t,e,n,s,r){let o=i.bodies[t],a=Ae(o,e),l=ue(a.toArray(),o.direction,Mi(o.direction).toArray()),c=(p,g)=>l.clone().multiply(new Qt().makeTranslation(p,0,g)),h=.013*r,u=.045*r*n,d=Cn(new Zt,ka(s,.022*r,.018*r,.013*r),-h/2,h/2),f=se(new Zt,[[0,-u],[.011*r,-u],[.019*r,.5*u],[.016*r,u],[0,u]],24),m=[{colour:Jt.arbor,shape:d,matrix:l},{colour:Jt.arbor,shape:vs(.016*r,-h,h),matrix:l},{colour:Ms,shape:f,matrix:c(s,u)},{colour:Ms,shape:of(.0165*r),matrix:c(s,2*u)}].map(p=>({body:t,at:a,...p})),v=tt([s,0,u]).applyMatrix4(l);return{body:t,at:a,end:Ae(o,e+2*u),knob:v,touch:.06*r,reach:s,parts:m}}var Or=256,yb=`
 precision highp float;
@@ -4285,35 +4285,41 @@ in vec4 paint;
 in float gloss, deep;
 out vec4 colour;
 const vec3 KEY = vec3(-0.45, 0.68, 0.58), FILL = vec3(0.75, 0.1, 0.65);
-float sheen(vec3 n, vec3 v, vec3 t, vec3 lamp) {
+// squares in a row are cheaper than powers, and a picture has a million points
+float square(float x) { return x * x; }
+float power16(float x) { return square(square(square(square(x)))); }
+float sheen(vec3 n, vec3 v, vec3 t, vec3 lamp, float brush) {
   vec3 half_way = normalize(lamp + v);
-  float plain = pow(max(dot(n, half_way), 0.0), 36.0);
-  float across = dot(t, half_way);
-  float turned = dot(t, t) > 0.25 ? pow(max(1.0 - across * across, 0.0), 14.0) * smoothstep(0.2, 1.0, dot(n, half_way)) : plain;
-  return 0.35 * plain + 0.65 * turned;
+  float facing = max(dot(n, half_way), 0.0);
+  float plain = square(power16(facing));
+  float turned = power16(max(1.0 - square(dot(t, half_way)), 0.0)) * min(1.0, square(facing) * 1.3);
+  return mix(plain, turned, 0.65 * brush);
 }
 // the room that metal mirrors: a dark floor, a light ceiling, a window and a lamp, soft as brushed metal shows them
 float room(vec3 r) {
-  float above = mix(0.06, 0.72, smoothstep(-0.5, 0.7, r.y));
-  float window = smoothstep(-0.8, -0.4, r.x) * smoothstep(0.2, -0.2, r.x) * smoothstep(0.0, 0.35, r.y) * smoothstep(0.98, 0.65, r.y);
-  float lamp = smoothstep(0.3, 0.6, r.x) * smoothstep(0.98, 0.7, r.x);
-  float horizon = smoothstep(0.25, 0.0, abs(r.y + 0.15));
-  return above + 0.75 * window + 0.4 * lamp - 0.18 * horizon;
+  float above = clamp(0.34 + 0.55 * r.y, 0.06, 0.72);
+  float window = square(max(1.0 - 6.0 * square(r.x + 0.3) - 5.0 * square(r.y - 0.5), 0.0));
+  float lamp = max(1.0 - 10.0 * square(r.x - 0.65), 0.0);
+  float horizon = max(1.0 - 16.0 * square(r.y + 0.15), 0.0);
+  return above + window + 0.35 * lamp - 0.18 * horizon;
 }
 void main() {
   vec3 v = normalize(-seen);
   vec3 n = normalize(facing);
   if (dot(n, v) < 0.0) n = -n;
-  vec3 t = dot(brushed, brushed) > 0.25 ? normalize(brushed) : vec3(0.0);
   vec3 own = paint.rgb * paint.rgb;
   float lit = 0.30 + 0.16 * n.y + 0.62 * max(dot(n, KEY), 0.0) + 0.22 * max(dot(n, FILL), 0.0);
-  float rim = pow(1.0 - max(dot(n, v), 0.0), 4.0);
-  vec3 glint = mix(vec3(1.0), own * 1.9, 0.62) * (0.62 * sheen(n, v, t, KEY) + 0.26 * sheen(n, v, t, FILL) + 0.10 * rim);
-  vec3 mirrored = mix(own * 1.75, vec3(1.0), 0.08 + 0.5 * rim) * room(reflect(-v, n));
-  vec3 light = own * lit * mix(1.22, 0.62, gloss) + gloss * (0.85 * glint + 0.66 * mirrored);
+  vec3 light = own * lit * mix(1.22, 0.62, gloss);
+  if (gloss > 0.1) { // else of ink, or of a dial
+    float brush = step(0.25, dot(brushed, brushed));
+    vec3 t = brush * normalize(brushed + vec3(1e-9));
+    float rim = square(square(1.0 - max(dot(n, v), 0.0)));
+    vec3 glint = mix(vec3(1.0), own * 1.9, 0.62) * (0.53 * sheen(n, v, t, KEY, brush) + 0.22 * sheen(n, v, t, FILL, brush) + 0.08 * rim);
+    light += gloss * (glint + 0.66 * mix(own * 1.75, vec3(1.0), 0.08 + 0.5 * rim) * room(reflect(-v, n)));
+  }
   light *= clamp(1.0 + 0.62 * deep / size, 0.62, 1.1); // what lies deeper is darker
   float most = max(light.r, max(light.g, light.b)); // what is too bright keeps its hue
-  light *= most > 0.7 ? (1.0 - 0.3 * exp((0.7 - most) / 0.3)) / most : 1.0;
+  light *= most > 0.7 ? (1.0 - 0.09 / (most - 0.4)) / most : 1.0;
   colour = vec4(sqrt(light), paint.a);
 }`;function bp(i,t,e,n){let s=Math.max(1,Math.ceil(4*i/Or)),r=new fi(new Float32Array(4*Or*s),Or,s,Je,hn);r.minFilter=r.magFilter=ge;let o={poses:{value:r},palette:{value:null},axis:{value:t},middle:{value:e},share:{value:0},size:{value:n}};return[!1,!0].map(a=>{let l={...o,ghosts:{value:a}},c={glslVersion:Qn,vertexShader:yb,fragmentShader:vb,side:xn};return new On({...c,uniforms:l,transparent:a,depthWrite:!a})})}var Gh=256,Tl=class{constructor(){this.looks=[]}slot(t,e){return this.looks.push({colour:new zt(t),gloss:e,opacity:1,shown:!0}),this.dispose(),this.looks.length-1}paint(t,e){Object.assign(this.looks[t],e),this.stale=!0}hasGhosts(t){return t.some(e=>this.looks[e].shown&&this.looks[e].opacity<1)}refresh(){let t=Math.max(1,Math.ceil(2*this.looks.length/Gh));if(!this.texture)this.texture=new fi(new Uint8Array(4*Gh*t),Gh,t,Je,Ze),this.texture.minFilter=this.texture.magFilter=ge;else if(!this.stale)return this.texture;let{data:e}=this.texture.image;return this.looks.forEach(({colour:n,gloss:s,opacity:r,shown:o},a)=>{let[l,c,h]=[n.r,n.g,n.b].map(u=>255*Math.sqrt(u));e.set([l,c,h,o?255*r:0,255*s],8*a)}),this.texture.needsUpdate=!0,this.stale=!1,this.texture}dispose(){this.texture?.dispose(),this.texture=void 0}};var Mb=`
 precision highp float;

@@ -26,9 +26,9 @@ in vec2 off;
 out vec4 colour;
 void main() {
   vec2 core = 0.72 * half_wide;
-  float away = length(off / (core + soft)); // a wide one, and a narrow one of what stands on the ground
-  float near = length(off / (0.5 * core + 0.3 * soft));
-  float shade = 0.6 * pow(max(1.0 - away * away, 0.0), 2.0) + 0.4 * pow(max(1.0 - near * near, 0.0), 1.5);
+  vec2 away = off / (core + soft), near = off / (0.5 * core + 0.3 * soft); // a wide one, and one of what stands on the ground
+  float wide = max(1.0 - dot(away, away), 0.0), narrow = max(1.0 - dot(near, near), 0.0);
+  float shade = 0.6 * wide * wide + 0.4 * narrow;
   colour = vec4(0.0, 0.0, 0.0, dark * shade);
 }`;
 

@@ -49,35 +49,41 @@ in vec4 paint;
 in float gloss, deep;
 out vec4 colour;
 const vec3 KEY = vec3(-0.45, 0.68, 0.58), FILL = vec3(0.75, 0.1, 0.65);
-float sheen(vec3 n, vec3 v, vec3 t, vec3 lamp) {
+// squares in a row are cheaper than powers, and a picture has a million points
+float square(float x) { return x * x; }
+float power16(float x) { return square(square(square(square(x)))); }
+float sheen(vec3 n, vec3 v, vec3 t, vec3 lamp, float brush) {
   vec3 half_way = normalize(lamp + v);
-  float plain = pow(max(dot(n, half_way), 0.0), 36.0);
-  float across = dot(t, half_way);
-  float turned = dot(t, t) > 0.25 ? pow(max(1.0 - across * across, 0.0), 14.0) * smoothstep(0.2, 1.0, dot(n, half_way)) : plain;
-  return 0.35 * plain + 0.65 * turned;
+  float facing = max(dot(n, half_way), 0.0);
+  float plain = square(power16(facing));
+  float turned = power16(max(1.0 - square(dot(t, half_way)), 0.0)) * min(1.0, square(facing) * 1.3);
+  return mix(plain, turned, 0.65 * brush);
 }
 // the room that metal mirrors: a dark floor, a light ceiling, a window and a lamp, soft as brushed metal shows them
 float room(vec3 r) {
-  float above = mix(0.06, 0.72, smoothstep(-0.5, 0.7, r.y));
-  float window = smoothstep(-0.8, -0.4, r.x) * smoothstep(0.2, -0.2, r.x) * smoothstep(0.0, 0.35, r.y) * smoothstep(0.98, 0.65, r.y);
-  float lamp = smoothstep(0.3, 0.6, r.x) * smoothstep(0.98, 0.7, r.x);
-  float horizon = smoothstep(0.25, 0.0, abs(r.y + 0.15));
-  return above + 0.75 * window + 0.4 * lamp - 0.18 * horizon;
+  float above = clamp(0.34 + 0.55 * r.y, 0.06, 0.72);
+  float window = square(max(1.0 - 6.0 * square(r.x + 0.3) - 5.0 * square(r.y - 0.5), 0.0));
+  float lamp = max(1.0 - 10.0 * square(r.x - 0.65), 0.0);
+  float horizon = max(1.0 - 16.0 * square(r.y + 0.15), 0.0);
+  return above + window + 0.35 * lamp - 0.18 * horizon;
 }
 void main() {
   vec3 v = normalize(-seen);
   vec3 n = normalize(facing);
   if (dot(n, v) < 0.0) n = -n;
-  vec3 t = dot(brushed, brushed) > 0.25 ? normalize(brushed) : vec3(0.0);
   vec3 own = paint.rgb * paint.rgb;
   float lit = 0.30 + 0.16 * n.y + 0.62 * max(dot(n, KEY), 0.0) + 0.22 * max(dot(n, FILL), 0.0);
-  float rim = pow(1.0 - max(dot(n, v), 0.0), 4.0);
-  vec3 glint = mix(vec3(1.0), own * 1.9, 0.62) * (0.62 * sheen(n, v, t, KEY) + 0.26 * sheen(n, v, t, FILL) + 0.10 * rim);
-  vec3 mirrored = mix(own * 1.75, vec3(1.0), 0.08 + 0.5 * rim) * room(reflect(-v, n));
-  vec3 light = own * lit * mix(1.22, 0.62, gloss) + gloss * (0.85 * glint + 0.66 * mirrored);
+  vec3 light = own * lit * mix(1.22, 0.62, gloss);
+  if (gloss > 0.1) { // else of ink, or of a dial
+    float brush = step(0.25, dot(brushed, brushed));
+    vec3 t = brush * normalize(brushed + vec3(1e-9));
+    float rim = square(square(1.0 - max(dot(n, v), 0.0)));
+    vec3 glint = mix(vec3(1.0), own * 1.9, 0.62) * (0.53 * sheen(n, v, t, KEY, brush) + 0.22 * sheen(n, v, t, FILL, brush) + 0.08 * rim);
+    light += gloss * (glint + 0.66 * mix(own * 1.75, vec3(1.0), 0.08 + 0.5 * rim) * room(reflect(-v, n)));
+  }
   light *= clamp(1.0 + 0.62 * deep / size, 0.62, 1.1); // what lies deeper is darker
   float most = max(light.r, max(light.g, light.b)); // what is too bright keeps its hue
-  light *= most > 0.7 ? (1.0 - 0.3 * exp((0.7 - most) / 0.3)) / most : 1.0;
+  light *= most > 0.7 ? (1.0 - 0.09 / (most - 0.4)) / most : 1.0;
   colour = vec4(sqrt(light), paint.a);
 }`;
 

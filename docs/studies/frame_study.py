@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 HERE = Path(__file__).resolve().parent
 VIEWER = Path(geartrain.__file__).parent / "viewer"
 SIZE = {"width": 1000, "height": 620}
-ROUNDS, WARM = 31, 5
+ROUNDS, WARM = 15, 3
 PATIENCE = 180_000  # ms
 
 # one frame of the viewer, with all that a turn of the crank asks of it, and its end waited for
@@ -37,6 +37,7 @@ FRAME = """((turn) => {
   const context = stage.renderer.getContext();
   context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
 })"""
+INSTANCED = "((turn) => instanced.frame(turn / 50))"
 TRIANGLES = """globalThis["geartrain"].stages[0].world.castings
   .reduce((sum, { geometry }) => sum + geometry.index.count / 3, 0)"""
 CANVAS = """(({ clientWidth: width, clientHeight: height }) => [width, height])(
@@ -45,7 +46,10 @@ CANVAS = """(({ clientWidth: width, clientHeight: height }) => [width, height])(
 
 @dataclass(frozen=True)
 class FrameRecord:
-    """Frames of a page of a train (ms) and of the instanced example, and how many times as long; the page's weight."""
+    """Frames of a page of a train (ms) and of the instanced example, and how many times as long; the page's weight.
+
+    room_ratio   over the example whose metal mirrors a room, as the viewer's does; else it has lamps only
+    """
 
     train: str
     triangles: int
@@ -54,6 +58,7 @@ class FrameRecord:
     milliseconds: float
     example_milliseconds: float
     ratio: float
+    room_ratio: float
     kilobytes: float
     requests: int
 
@@ -70,8 +75,9 @@ class FrameRecords(StudyRecords):
             "train": lambda row: f"`{row.train}`",
             "triangles": lambda row: f"{row.triangles:,}",
             "frame": lambda row: f"{row.milliseconds:.0f} ms",
-            "three.js's example": lambda row: f"{row.example_milliseconds:.0f} ms",
+            "three.js's example, lamps only": lambda row: f"{row.example_milliseconds:.0f} ms",
             "ratio": lambda row: f"{row.ratio:.2f}",
+            "ratio to one with a room": lambda row: f"{row.room_ratio:.2f}",
             "page": lambda row: f"{row.kilobytes:,.0f} kB",
             "requests": lambda row: str(row.requests),
         }
@@ -86,21 +92,28 @@ def frames(*names: str) -> FrameRecords:
 
 def measured(browser: Browser, name: str, rounds: int = ROUNDS) -> FrameRecord:
     """A page of a train and the example, each drawn once a round."""
-    with TemporaryDirectory() as folder, shown(browser) as (sheet, asked), shown(browser) as (other, _):
+    with (
+        TemporaryDirectory() as folder,
+        shown(browser) as (sheet, asked),
+        shown(browser) as (other, _),
+        shown(browser) as (roomy, _),
+    ):
         path = Path(folder) / "page.html"
         path.write_text(page([build_scene(geartrain.load(name), formulas=True)]), encoding="utf-8")
         _open(sheet, path.as_uri(), "Boolean(globalThis.geartrain?.ready)")
         triangles, canvas = sheet.evaluate(TRIANGLES), sheet.evaluate(CANVAS)
         example = Path(folder) / "instanced.html"
         example.write_text(_example(*canvas), encoding="utf-8")
-        _open(other, f"{example.as_uri()}#{triangles}", "Boolean(globalThis.instanced)")
+        for each, way in ((other, ""), (roomy, ",room")):
+            _open(each, f"{example.as_uri()}#{triangles}{way}", "Boolean(globalThis.instanced)")
         turns = count(1)
         tasks = (
             partial(_frame, sheet, FRAME, turns),
-            partial(_frame, other, "((turn) => instanced.frame(turn / 50))", turns),
+            partial(_frame, other, INSTANCED, turns),
+            partial(_frame, roomy, INSTANCED, turns),
         )
         in_turns(tasks, WARM)
-        own, base = (Rounds(each.seconds, None) for each in in_turns(tasks, rounds))
+        own, base, mirrored = (Rounds(each.seconds, None) for each in in_turns(tasks, rounds))
         return FrameRecord(
             name,
             int(triangles),
@@ -109,6 +122,7 @@ def measured(browser: Browser, name: str, rounds: int = ROUNDS) -> FrameRecord:
             1e3 * own.median,
             1e3 * base.median,
             own.over(base),
+            own.over(mirrored),
             path.stat().st_size / 1e3,
             len([each for each in asked if each != path.as_uri()]),
         )

@@ -1,8 +1,9 @@
 // three.js's own example of instances (webgl_instancing_raycast), as large as a train: balls of 1280 triangles in a cube,
-// brushed by the lamps that the viewer has. `frame(turn)` draws one picture and waits until it is there.
-import { AmbientLight, DirectionalLight, IcosahedronGeometry, InstancedMesh, Matrix4, MeshStandardMaterial, PerspectiveCamera, Scene, WebGLRenderer, DoubleSide } from "three";
+// of its standard metal under the lamps that the viewer has; after `room` in three.js's own room, which the metal mirrors. `frame(turn)` draws one picture and waits until it is there.
+import { AmbientLight, DirectionalLight, DoubleSide, IcosahedronGeometry, InstancedMesh, Matrix4, MeshStandardMaterial, PerspectiveCamera, PMREMGenerator, Scene, WebGLRenderer } from "three";
+import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 
-const triangles = Number(location.hash.slice(1));
+const [triangles, room] = location.hash.slice(1).split(",");
 const canvas = document.querySelector("canvas");
 const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
 renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
@@ -20,6 +21,7 @@ for (let n = 0; n < count; n += 1) {
   balls.setMatrixAt(n, new Matrix4().makeTranslation(x - middle, y - middle, z - middle));
 }
 const scene = new Scene();
+if (room) scene.environment = new PMREMGenerator(renderer).fromScene(new RoomEnvironment(), 0.04).texture;
 scene.add(balls, new AmbientLight("#ffffff", 1));
 for (const [x, y, z, strength] of [[-0.45, 0.68, 0.58, 2], [0.75, 0.1, 0.65, 0.7]]) {
   const lamp = new DirectionalLight("#ffffff", strength);

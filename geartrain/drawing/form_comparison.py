@@ -117,6 +117,7 @@ def _drawn(axes: Axes, text: str) -> None:
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     axes.set_title(text, fontsize=TEXT, loc="left", color=BLACK)
+    axes.locator_params(axis="x", nbins=5)  # numbers of three decimals need room
     axes.set_xlabel("along the pitch line (modules)", fontsize=SMALL)
     axes.set_ylabel("towards gear 2 (modules)", fontsize=SMALL)
 

@@ -52,7 +52,10 @@ _REGION = 0.01  # of a map: a lesser region is not named
 
 
 def sweep_figure(
-    parameters: Mapping[str, NDArray[Any]], columns: Mapping[str, NDArray[Any]], verdicts: NDArray[np.str_]
+    parameters: Mapping[str, NDArray[Any]],
+    columns: Mapping[str, NDArray[Any]],
+    verdicts: NDArray[np.str_],
+    title: str = "",
 ) -> Figure:
     """Results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
 
@@ -101,7 +104,10 @@ def sweep_figure(
                 fix="give one parameter and arrays (n,), or two and grids (n, m), and at least one column",
             )
         )
-    return _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
+    figure = _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
+    if title:
+        figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
+    return figure
 
 
 def _running(verdicts: Texts) -> list[str]:
@@ -130,7 +136,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
         rows[-1].set_xlim(x[0], x[-1])
     rows[-1].set_xlabel(name, fontsize=TEXT)
     handles = [Patch(**style, label=kind) for kind, style in styles.items()]
-    figure.legend(handles=handles, loc="outside upper left", ncols=5, fontsize=SMALL, frameon=False)
+    figure.legend(handles=handles, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
     return figure
 
 
@@ -202,7 +208,7 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
     faults = [kind for kind in _FAULTS if (verdicts == kind).any()]
     handles = [Patch(facecolor="none", edgecolor=GREY, hatch=_FAULTS[kind], label=kind) for kind in faults]
     if handles:
-        figure.legend(handles=handles, loc="outside upper left", ncols=7, fontsize=SMALL, frameon=False)
+        figure.legend(handles=handles, loc="outside lower left", ncols=7, fontsize=SMALL, frameon=False)
     return figure
 
 

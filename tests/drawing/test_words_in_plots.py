@@ -20,7 +20,10 @@ from geartrain.dynamics import MotionRun
 
 QUICK = [
     ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05", "--vary", "friction=0:0.5:6"],
+    ["mesh", "triangular", "--teeth", 60, 30, "--vary", "clearance=1.01:1.2:7", "--vary", "friction=0:0.5:6"],
     ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05"],
+    ["mesh", "involute", "--teeth", 24, 36],
+    ["mesh", "cycloidal", "--teeth", 60, 8],
     ["torques", "zf-8hp70", "--state", "1"],
     ["torques", "norton-compound"],
     ["sphere", "cube", "--teeth", "4=12"],
@@ -29,6 +32,7 @@ QUICK = [
       for picture in ("errors", "convergence", "pairs")),
 ]  # fmt: skip
 SLOW = [
+    ["montecarlo", "moon-triangular", "--set", "placement=2%", "--trials", 20, "--picture", "map"],
     ["budget", "freeth-2021"],
     ["budget", "freeth-2008"],
     ["mesh", "compare", "--teeth", 48, 24],
@@ -39,9 +43,9 @@ SLOW = [
 ]
 
 
-def check(arguments: list[object], folder: Path) -> None:
+def check(arguments: list[object], folder: Path, option: str = "--plot") -> None:
     target = folder / "plot.svg"
-    result = call(*arguments, "--plot", target)
+    result = call(*arguments, option, target)
     assert target.exists(), result.output
     found = read_picture(target.read_bytes())
     assert found.texts
@@ -52,6 +56,17 @@ def check(arguments: list[object], folder: Path) -> None:
 @pytest.mark.parametrize("arguments", QUICK, ids=lambda words: " ".join(map(str, words)))
 def test_words_of_a_plot_can_be_read(arguments: list[object], tmp_path: Path) -> None:
     check(arguments, tmp_path)
+
+
+def test_words_of_wheels_in_contact_can_be_read(tmp_path: Path) -> None:
+    check(["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05"], tmp_path, "--teeth-plot")
+
+
+def test_a_sweep_says_what_is_swept(tmp_path: Path) -> None:
+    target = tmp_path / "plot.svg"
+    call("mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05", "--vary", "friction=0:0.5:3", "--plot", target)
+    words = [text.words for text in read_picture(target.read_bytes()).texts]
+    assert "triangular teeth, 60 and 30, wheel 1 drives: friction varied" in words
 
 
 @pytest.mark.slow

@@ -132,7 +132,9 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     if picture.path is not None:
         from geartrain.drawing import sweep_figure
 
-        draw(sweep_figure(found.parameters, found.columns, found.labels), picture)
+        z1, z2 = ("varied" if name in ranges else str(z) for name, z in zip(("z1", "z2"), pair.teeth, strict=True))
+        title = f"triangular teeth, {z1} and {z2}, wheel {pair.driver} drives: {' and '.join(ranges)} varied"
+        draw(sweep_figure(found.parameters, found.columns, found.labels, title), picture)
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:

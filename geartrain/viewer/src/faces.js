@@ -97,7 +97,7 @@ function handParts(scene, index, order) {
   const [low, high] = [pointer.level - thick / 2, pointer.level + thick / 2];
   const at = vector(dial.centre);
   const common = { colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
-  const hub = (shape) => swept(shape, band(0, Math.max(0.05 * radius, 0.75 * pointer.seat), low, high + 0.004 * radius), 20);
+  const hub = (shape) => swept(shape, band(0, Math.max(0.05 * radius, Math.min(0.75 * pointer.seat, Math.max(0.55 * pointer.seat, 0.35 * radius))), low, high + 0.004 * radius), 20);
   if (scale.turns === 1) return [{ ...common, shape: hub(plate(new Shape(), handOf(pointer, scale.outer * radius, order), low, high)) }];
   const [inner, travel] = [scale.inner * radius, (scale.outer - scale.inner) * radius];
   const arm = [[-0.2, 0.02], [-0.16, 0.035], [-0.1, 0.03], [0, 0.026], [scale.inner - 0.14, 0.026], [scale.inner - 0.12, 0.034], [scale.inner - 0.06, 0.034], [scale.inner - 0.05, 0.026]];

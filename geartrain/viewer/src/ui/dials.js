@@ -5,6 +5,7 @@ import { Dial } from "./dial.js";
 import { linksInWords } from "./outputs.js";
 import { Reading, told } from "./reading.js";
 
+const MANY = 4; // names on a dial, which then is as wide as there is room, to be read
 const PLAIN = 12; // faces of their own, where the train declares none
 
 /** Dials with their hands; outputs without a dial get plain faces where the train declares no dial at all. */
@@ -46,7 +47,7 @@ class Card {
       dial && dial.scale.divisions > 1 ? `${dial.scale.divisions} ${dial.scale.cell}s${dial.scale.turns > 1 ? ` on ${dial.scale.turns} turns` : ""}` : "";
     this.node = el(
       "figure",
-      { class: "card" },
+      { class: dial?.scale.names.length > MANY ? "card wide" : "card" },
       this.dial.node,
       el(
         "figcaption",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
@@ -65,3 +67,32 @@ class Teeth(Declared):
         if self.range is None or self.range[1] - self.range[0] > 10**6:
             return ()
         return tuple(range(self.range[0], self.range[1] + 1))
+
+    @property
+    def chances(self) -> dict[int, Fraction]:
+        """The chance of each count before anything else is known, as its `weights` say, ascending; the sum is 1.
+
+        All counts are alike where no weights are declared, and those of `search`; counts of weight 0 are left out.
+        Empty where no doubt is declared. Not to be asked where there is a `fault_of_weights`.
+
+        Examples
+        --------
+        >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).chances
+        {63: Fraction(1, 4), 64: Fraction(3, 4)}
+        """
+        counts = self.allowed
+        if not counts and self.search is not None:
+            counts = tuple(range(self.search[0], self.search[1] + 1))
+        weights = [Fraction(1)] * len(counts) if self.weights is None else [figure.value for figure in self.weights]
+        whole, found = sum(weights), dict.fromkeys(sorted(counts), Fraction(0))
+        for count, weight in zip(counts, weights, strict=True):  # a count may be listed twice
+            found[count] += weight / whole
+        return {count: chance for count, chance in found.items() if chance}
+
+    @property
+    def fault_of_weights(self) -> str | None:
+        """Why its weights are no chances; None where they are."""
+        weights = [figure.value for figure in self.weights or ()]
+        if any(weight < 0 for weight in weights):
+            return "one is negative"
+        return "all are 0" if weights and not any(weights) else None

@@ -148,17 +148,11 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return ((teeth, Fraction(1)),)
-    counts = teeth.allowed
-    if not counts and teeth.search is not None:
-        counts = tuple(range(teeth.search[0], teeth.search[1] + 1))
-    if not counts:
+    chances = teeth.chances
+    if not chances:
         assert teeth.value is not None
         return ((teeth.value, Fraction(1)),)
-    weights = [figure.value for figure in teeth.weights] if teeth.weights is not None else [Fraction(1)] * len(counts)
-    whole, by_count = sum(weights), dict[int, Fraction]()
-    for count, weight in zip(counts, weights, strict=True):
-        by_count[count] = by_count.get(count, Fraction(0)) + weight / whole
-    return tuple((count, weight) for count, weight in sorted(by_count.items()) if weight)
+    return tuple(chances.items())
 
 
 # what cannot be asked
@@ -199,10 +193,9 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
         if bounds is not None and bounds[1] - bounds[0] > _MOST_COUNTS:
             what = f"{bounds[1] - bounds[0] + 1} counts are too many for one wheel"
             yield Problem(what, f"{_MOST_COUNTS} are the most", "narrow the range", evidence.place(*place, "teeth"))
-    weights = [figure.value for figure in teeth.weights or ()]
-    if weights and (min(weights) < 0 or not any(weights)):
+    if why := teeth.fault_of_weights:
         fix = "give weights of 0 or more, at least one of them above 0"
-        yield Problem("the weights of a count are no weights", "", fix, evidence.place(*place, "teeth", "weights"))
+        yield Problem("the weights of a count are no weights", why, fix, evidence.place(*place, "teeth", "weights"))
 
 
 def _unused(evidence: Train) -> Iterator[str]:

@@ -89,7 +89,8 @@ def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCoun
         elif teeth.choices is not None or teeth.range is not None:
             yield _declared(name, teeth, place)
         elif teeth.search is not None:
-            counts = _listed(name, teeth.search, place)
+            _check_width(name, teeth.search, place)
+            counts = tuple(teeth.chances)
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
 
 
@@ -108,29 +109,24 @@ def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
     return found
 
 
-def _listed(name: str, bounds: tuple[int, int], place: str) -> tuple[int, ...]:
+def _check_width(name: str, bounds: tuple[int, int], place: str) -> None:
     if bounds[1] - bounds[0] >= MOST_COUNTS:
         raise _too_wide(name, bounds[1] - bounds[0] + 1, place)
-    return tuple(range(bounds[0], bounds[1] + 1))
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     """A doubt as declared, with its weights; counts of weight 0 are left out."""
-    listed = teeth.choices if teeth.choices is not None else _listed(name, teeth.range or (1, 1), place)
-    figures = [figure.value for figure in teeth.weights] if teeth.weights is not None else [Fraction(1)] * len(listed)
-    if any(weight < 0 for weight in figures) or not any(figures):
+    if teeth.range is not None and teeth.choices is None:
+        _check_width(name, teeth.range, place)
+    if why := teeth.fault_of_weights:
         what = f"the weights of wheel '{name}' are no chances"
-        why = "one is negative" if any(weight < 0 for weight in figures) else "all are 0"
         raise QuestionError(Problem(what, why, "give weights of 0 and more, one of them above 0", place))
-    total: dict[int, Fraction] = {}
-    for count, weight in zip(listed, figures, strict=True):
-        total[count] = total.get(count, Fraction(0)) + weight  # a count may be listed twice
-    kept = {count: total[count] for count in sorted(total) if total[count]}
+    chances = teeth.chances
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""
     source = f" ({teeth.source})" if teeth.source else ""
     return ToothCountPrior(
-        name, tuple(kept), tuple(whole_multiple(kept.values())), teeth.value, f"{kind}{source}{said}"
+        name, tuple(chances), tuple(whole_multiple(chances.values())), teeth.value, f"{kind}{source}{said}"
     )
 
 

@@ -1,4 +1,4 @@
-"""Write docs/ready-to-cut.md: the verdict of `geartrain export` on twelve shipped trains; five folders measured.
+"""Write docs/ready-to-cut.md: the verdict of `geartrain export` on fifteen shipped trains; five folders measured.
 
 `python docs/make_ready_to_cut.py --measure` exports them anew and keeps what is found in docs/data/ready-to-cut.json
 (some minutes); without it the page is written from what is kept.
@@ -22,6 +22,7 @@ TRAINS = {
     "Clocks and mills": ("longcase-clock-cycloidal", "longcase-clock-bs978", "watch-going-train", "lantern-mill"),
     "Antikythera": ("price-1974", "voulgaris-2024-a", "freeth-2008", "freeth-2021"),
     "Gearboxes": ("planetary-24-18-60", "ravigneaux-set", "wolfrom-175", "nrel-grc-750"),
+    "Reducers": ("cycloidal-reducer", "rv-reducer", "strain-wave"),
 }
 ASSEMBLED = ("longcase-clock-cycloidal", "watch-going-train", "pennestri-2002", "freeth-2008", "wolfrom-175")
 SHOWN = 12  # obstacles of a train on the page
@@ -47,7 +48,7 @@ Written by
 
     python docs/make_ready_to_cut.py --measure
 
-Twelve trains, as `geartrain export TRAIN --to FOLDER` writes them without further options, and what their proof says
+Fifteen trains, as `geartrain export TRAIN --to FOLDER` writes them without further options, and what their proof says
 ([how](export.md#proved-before-it-is-cut)).
 """
 

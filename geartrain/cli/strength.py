@@ -42,5 +42,5 @@ def run(
     report = collect_strength_report(train, found)
     give(to, json, lambda: report, lambda: [describe_strength(report)])
     weak = any(each.weakest is not None and each.weakest.safety < 1 for each in found)
-    sound = all(each.verdict and (each.pairs or each.points) for each in found) and not weak
+    sound = all(each.verdict and (each.pairs or each.points or each.pins) for each in found) and not weak
     raise typer.Exit(GOOD if sound else VERDICT)

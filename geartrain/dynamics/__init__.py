@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
-    from geartrain.dynamics.strength.contact_results import FlankStrength, PointContact
+    from geartrain.dynamics.strength.contact_results import FlankStrength, PinContact, PointContact
     from geartrain.dynamics.strength.strength_results import (
         ArborStrength,
         FlankWear,
@@ -78,6 +78,7 @@ __all__ = [
     "PairSeparation",
     "PairStrength",
     "PairTorque",
+    "PinContact",
     "PlaceInRun",
     "PointContact",
     "PowerFlow",
@@ -127,6 +128,7 @@ _PLACES = {
     "PairSeparation": "inertia.separation_rate",
     "PairStrength": "strength.strength_results",
     "PairTorque": "torques.member_torques",
+    "PinContact": "strength.contact_results",
     "PlaceInRun": "turn.cycle_parts",
     "PointContact": "strength.contact_results",
     "PowerFlow": "torques.power_flow",

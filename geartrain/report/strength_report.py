@@ -11,7 +11,7 @@ from geartrain.report.document import Document, Section, Table, figure, filled_t
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ArborStrength, PairStrength, PointContact, TrainStrength
+    from geartrain.dynamics import ArborStrength, PairStrength, PinContact, PointContact, TrainStrength
     from geartrain.dynamics.strength.contact_results import WheelForce
     from geartrain.dynamics.strength.strength_results import WearRange
 
@@ -29,6 +29,18 @@ _POINT = (
     "once. The pressure is the greatest where fewest touch; safety of a flank is 1.6 times the strength over it. At "
     "the root one couple bears all at the tip, on teeth as they are seen along them, and bends twice as much of a "
     "tooth as its lever is long, without the stress concentration of the round."
+)
+_WHERE = {
+    "root": "at the root of its teeth",
+    "contact": "on its flanks",
+    "arbor": "in its arbor",
+    "pin": "in its pins",
+}
+_PINS = (
+    "Half of the pins bear at once, or fewer with a clearance, and share by their arms; here that with the greatest "
+    "pressure of all phases. Radius: of a cylinder on a plane that presses as much. Safety of a disc is 5/3 of the "
+    "strength of the weaker side over the pressure. Pins in holes stand out of a plate at one end, bent and sheared "
+    "where the disc begins, and are of the train's material, else of steel; those of a ring lie in it."
 )
 _ROOT = (
     "Bending by Lewis on the outline that is cut, without the stress concentration of its round: at the tip one couple "
@@ -131,12 +143,14 @@ def strength_sections(found: TrainStrength) -> Iterator[Section]:
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
     if found.forces:
         yield Section(_title(head, "Forces"), (_FORCES,), (_forces(found.forces),))
-    if not found.pairs and not found.arbors and not found.points:
+    if not found.pairs and not found.arbors and not found.points and not found.pins:
         return
     pairs = tuple(found.pairs.values())
     if found.points:
         notes = [f"{each.pair}: {note}." for each in found.points.values() for note in each.notes]
         yield Section(_title(head, "Contact at a point"), (_POINT, *notes), tuple(_points([*found.points.values()])))
+    if found.pins:
+        yield Section(_title(head, "Pins"), (_PINS,), (_pins([*found.pins.values()]),))
     contacts = [_contact(pair) for pair in pairs if pair.contact]
     if contacts:
         yield Section(_title(head, "Contact pressure"), (_CONTACT,), tuple(contacts))
@@ -162,12 +176,12 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
         yield f"Under the greatest torque of each pair over {figure(found.over, 6)} turns of the input; wear by means."
     weakest = found.weakest
     if weakest is not None:
-        where = {"root": "at the root of its teeth", "contact": "on its flanks", "arbor": "in its arbor"}[weakest.what]
+        where = _WHERE[weakest.what]
         yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
     for each in found.left_out:
         swings = "swing within a turn of " if each.what == "swing within a turn" else ""
         yield f"Left out: {swings}{', '.join(each.where)}: {each.why}."
-    if found.verdict and not found.pairs and not found.points and not found.left_out:
+    if found.verdict and not found.pairs and not found.points and not found.pins and not found.left_out:
         yield "There is no gear pair."
 
 
@@ -218,6 +232,22 @@ def _points(points: Sequence[PointContact]) -> Iterator[Table]:
     ]
     header = ("wheel", "material", "at the tip (MPa)", "strength (MPa)", "safety of root", "safety of flank")
     yield Table(header, wheels)
+
+
+def _pins(pins: Sequence[PinContact]) -> Table:
+    header = (
+        *("pins of", "disc", "material", "pins", "width", "force (N)", "radius (mm)", "pressure (MPa)"),
+        *("strength (MPa)", "safety of disc", "stress of pin (MPa)", "safety of pin"),
+    )
+    rows = [
+        (
+            *(each.name, each.disc, each.material, str(each.pins), figure(each.width, 4), figure(each.force, 4)),
+            *(figure(each.radius, 4), figure(each.pressure, 4), figure(each.strength, 4)),
+            *(figure(each.contact_safety, 3), figure(each.pin_stress, 4), figure(each.pin_safety, 3)),
+        )
+        for each in pins
+    ]
+    return Table(header, rows)
 
 
 def _teeth(pairs: Sequence[PairStrength]) -> Table:

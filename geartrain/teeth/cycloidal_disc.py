@@ -76,13 +76,23 @@ class CycloidalDisc:
     @cached_property
     def sharpest(self) -> float:
         """Least radius of the curve of centres where it is round outwards: a pin must be smaller."""
-        turn = np.linspace(0, 2 * pi, _SAMPLES)
+        bent = self._bend(np.linspace(0, 2 * pi, _SAMPLES))
+        return 1 / float(bent.max()) if bent.max() > 0 else inf
+
+    def _bend(self, turn: Floats) -> Floats:
+        """Curvature of the curve of centres, above 0 where it is round outwards."""
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
         first = 1j * (R / z * slow - e * (z + 1) / z * fast)
         second = -R / z**2 * slow + e * ((z + 1) / z) ** 2 * fast
-        bent = (np.conj(first) * second).imag / np.abs(first) ** 3
-        return 1 / float(bent.max()) if bent.max() > 0 else inf
+        found: Floats = (np.conj(first) * second).imag / np.abs(first) ** 3
+        return found
+
+    def curvature(self, angle: Floats) -> Floats:
+        """Of the outline where a pin touches it at an angle (rad) from the pitch point, below 0 in a hollow."""
+        bent = self._bend(angle)
+        found: Floats = bent / (1 - bent * (self.pin + self.clearance))
+        return found
 
     # ------------------------------------------------------------------------------------------------------- contacts
 
@@ -102,7 +112,7 @@ class CycloidalDisc:
 
         phase   of a pin from the line of centres (rad)
         """
-        arms = self.arms(self._angles(phase))
+        arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
             return np.maximum(self._twist(arms) * arms - self.clearance, 0.0) / self.deflection
         found: Floats = arms * self.lobes / 2 / (arms**2).sum(axis=0)
@@ -130,14 +140,15 @@ class CycloidalDisc:
         number = (loads > 1e-9 * loads.max()).sum(axis=0)
         return int(number.min()), int(number.max())
 
-    def _angles(self, phase: Floats) -> Floats:
+    def angles(self, phase: Floats) -> Floats:
+        """Of all pins from the pitch point, shape (pins, ...), one of them `phase` from it."""
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
         """Speed of sliding over that of the pitch line, in the mean of the load, and loss over friction: (6)."""
-        angles = self._angles(phase)
+        angles = self.angles(phase)
         reach = (self.distance(angles) - self.pin) / (self.lobes / 2) / self.pins
         loads = self.loads(phase)
         lost = (loads * reach).sum(axis=0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from geartrain.numerics.plain_data import Result
+from geartrain.teeth.strength.contact_pressure import YIELD_AT
 
 
 @dataclass(frozen=True)
@@ -109,3 +110,63 @@ class PointContact(Result):
     shorter: float
     wheels: tuple[FlankStrength, ...]
     notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class PinContact(Result):
+    """Pins on lobes of a disc, or in its holes, under load: docs/strength.md (28) to (30).
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or of the coupling.
+    disc, material : str
+        The wheel with the lobes or holes, and its material.
+    pins : int
+        How many there are.
+    width : float
+        Along which they touch [mm].
+    force : float
+        On the pin where pressure is greatest, at any time [N].
+    radius : float
+        Of a cylinder on a plane that presses as much [mm].
+    pressure : float
+        The greatest [MPa].
+    strength : float or None
+        Of the weaker of both materials [MPa].
+    pin_stress : float or None
+        At the foot of a pin that is held at one end [MPa]; None of pins that lie in their ring.
+    pin_strength : float or None
+        Of the material of pins [MPa].
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    KEYS = (
+        *("name", "disc", "material", "pins", "width", "force", "radius", "pressure", "strength", "contact_safety"),
+        *("pin_stress", "pin_strength", "pin_safety"),
+    )
+
+    name: str
+    disc: str
+    material: str
+    pins: int
+    width: float
+    force: float
+    radius: float
+    pressure: float
+    strength: float | None
+    pin_stress: float | None = None
+    pin_strength: float | None = None
+
+    @property
+    def contact_safety(self) -> float | None:
+        """Pressure at which yielding begins below the surface over `pressure`."""
+        return None if self.strength is None else YIELD_AT * self.strength / self.pressure
+
+    @property
+    def pin_safety(self) -> float | None:
+        """Strength of pins over their stress."""
+        return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from geartrain.dynamics.strength.contact_results import PointContact, WheelForce
+from geartrain.dynamics.strength.contact_results import PinContact, PointContact, WheelForce
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.plain_data import Result
@@ -214,7 +214,7 @@ class WeakestPart(Result):
     ----------
     part : str
         The wheel or link.
-    what : {"root", "contact", "arbor"}
+    what : {"root", "contact", "arbor", "pin"}
         By what it gives way.
     safety : float
         Its safety factor.
@@ -253,6 +253,8 @@ class TrainStrength(FrozenFields, Tabular, Result):
         Pairs of which nothing is said, and why.
     points : mapping of str to PointContact
         Loaded gear pairs whose teeth touch at a point, by name.
+    pins : mapping of str to PinContact
+        Lobes on pins, and pins in holes, by pair or coupling.
     over : float or None
         Turns of the input whose greatest torques bend and press; None where means do. Wear goes by means.
 
@@ -279,8 +281,8 @@ class TrainStrength(FrozenFields, Tabular, Result):
     """
 
     KEYS = (
-        *("state", "verdict", "over", "forces", "pairs", "points", "arbors", "weakest", "turns", "wear_coefficients"),
-        "left_out",
+        *("state", "verdict", "over", "forces", "pairs", "points", "pins", "arbors", "weakest", "turns"),
+        *("wear_coefficients", "left_out"),
     )
 
     state: str | None
@@ -293,6 +295,7 @@ class TrainStrength(FrozenFields, Tabular, Result):
     forces: tuple[WheelForce, ...] = ()
     points: Mapping[str, PointContact] = field(default_factory=dict)
     over: float | None = None
+    pins: Mapping[str, PinContact] = field(default_factory=dict)
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -326,6 +329,15 @@ class TrainStrength(FrozenFields, Tabular, Result):
             for pair in self.points.values()
             for wheel in pair.wheels
             for what, safety in (("root", wheel.root_safety), ("contact", wheel.safety))
+            if safety is not None
+        ]
+        found += [
+            WeakestPart(part, what, safety)
+            for each in self.pins.values()
+            for part, what, safety in (
+                (each.disc, "contact", each.contact_safety),
+                (each.name, "pin", each.pin_safety),
+            )
             if safety is not None
         ]
         found += [WeakestPart(each.link, "arbor", each.safety) for each in self.arbors if each.safety is not None]

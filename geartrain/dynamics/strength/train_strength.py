@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
 from geartrain.dynamics.strength.arbor_strength import ArborLoad, arbor_strength
-from geartrain.dynamics.strength.contact_results import WheelForce
+from geartrain.dynamics.strength.contact_results import PinContact, WheelForce
 from geartrain.dynamics.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
+from geartrain.dynamics.strength.pin_strength import PinnedDisc
 from geartrain.dynamics.strength.skew_pair import SkewPair
 from geartrain.dynamics.strength.strength_results import (
     ArborStrength,
@@ -21,6 +22,8 @@ from geartrain.dynamics.strength.strength_results import (
 from geartrain.dynamics.strength.tooth_forces import ToothForces
 from geartrain.dynamics.strength.virtual_spurs import VirtualSpurs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
+from geartrain.teeth.disc_mesh import DiscMesh
+from geartrain.teeth.pin_coupling import PinsInHoles
 from geartrain.train import Train
 from geartrain.train.wheel_stock import face_width, material_named
 
@@ -31,7 +34,9 @@ if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth
     from geartrain.dynamics.wheel_teeth import WheelTeeth
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import GearPair, Wheel
+    from geartrain.train import GearPair, Material, Wheel
+
+_PINS = "steel"  # what pins of couplings are made of, where the train declares no material
 
 
 @dataclass(frozen=True)
@@ -97,8 +102,10 @@ class StrengthQuestion:
         told = tuple(forces.find())
         points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
         found: dict[str, PairStrength] = {}
+        pins = dict(self._pins(meshes))
         for gear in self.declared.gears:
-            if gear.name in self.left_out or gear.name in points:
+            mesh = meshes.get(gear.name)
+            if gear.name in self.left_out or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
                 continue
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
@@ -115,6 +122,7 @@ class StrengthQuestion:
             told,
             points,
             self.over,
+            pins,
         )
 
     def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
@@ -153,6 +161,49 @@ class StrengthQuestion:
         for name, wheel in wheels.items():
             if wheel.helix_angle is None:
                 yield f"'{name}' has no `helix_angle`"
+
+    # -------------------------------------------------------------------------------------------------------- pins
+
+    def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
+        """Lobes among pins, and pins in holes of wheels of a declared width and material."""
+        for gear in self.declared.gears:
+            mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
+            if not isinstance(mesh, DiscMesh):
+                continue
+            wheels = {name: self.declared.wheels[name][1] for name in mesh.gears}
+            if lacking := list(self._lacking(mesh, wheels, torque)):
+                self._leave_out(gear.name, "; ".join(lacking))
+                continue
+            disc, ring = wheels.values()
+            moved = float(torque.torques[gear.pair.index(mesh.gears[0])]) * self.swings.get(gear.name, 1.0)
+            width = 1e3 * min(self._width(disc), self._width(ring))
+            pinned = PinnedDisc(mesh.gears[0], (self._named(disc), self._named(ring)), width, moved)
+            yield gear.name, pinned.lobes(gear.name, mesh.law.disc, 1e3 * self.modules[mesh.gears[0]])
+        for coupling in (each for each in self.declared.couplings if isinstance(each, PinsInHoles)):
+            found = self._in_holes(coupling)
+            if found is not None:
+                yield coupling.name, found
+
+    def _in_holes(self, coupling: PinsInHoles) -> PinContact | None:
+        torque = self.torques.pairs[coupling.name]
+        if torque.loose or not torque.multiplier:
+            return None
+        own = self.declared.links[coupling.slot].wheels
+        name = next((each for each, wheel in own.items() if self._width(wheel) and self._material_name(wheel)), None)
+        if name is None:
+            self._leave_out(coupling.name, f"no wheel of '{coupling.slot}' has a `material` and a `face_width`")
+            return None
+        of_pins = self.declared.material or _PINS
+        pins = of_pins, material_named(self.declared, of_pins)
+        load = float(torque.torques[0])
+        found = PinnedDisc(name, (self._named(own[name]), pins), 1e3 * self._width(own[name]), load).holes(coupling)
+        if found is None:
+            self._leave_out(coupling.name, "its pin_radius, offset and pin_diameter are not all declared")
+        return found
+
+    def _named(self, wheel: Wheel) -> tuple[str, Material]:
+        name = self._material_name(wheel)
+        return name, material_named(self.declared, name)
 
     # ------------------------------------------------------------------------------------------------------- pairs
 
@@ -194,8 +245,6 @@ class StrengthQuestion:
             yield "it declares no tooth form: give it `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
             yield "its axes are not parallel, and it has no path of contact"
-        elif mesh.form == "pin_ring":
-            yield "lobes among pins are no beams, and their pressure is not worked out"
         elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":
             yield "its teeth lean, and of such only involutes are worked out"
         elif faults := mesh.faults:

@@ -73,7 +73,14 @@ def material(blank: Any) -> Any:
         return shapely.union_all([pin for pin in pins if pin.centroid.distance(shapely.Point(0, 0)) > 1e-6])
     whole = shapely.Polygon(outer, holes)
     assert whole.is_valid, "holes lie inside and apart"
-    return whole
+    return whole if blank.pins is None else shapely.union_all([whole, *round_pins(blank)])
+
+
+def round_pins(blank: Any) -> list[Any]:
+    """Those that lie in the seats of a ring, by the chords round them."""
+    turns, sides = 2 * np.pi * np.arange(blank.teeth) / blank.teeth, 512
+    reach, R = blank.pins.radius / cos(pi / 4 / sides) * blank.module, blank.pins.circle * blank.module
+    return [shapely.Point(R * cos(t), R * sin(t)).buffer(reach, quad_segs=sides) for t in turns.tolist()]
 
 
 def facing(wheel: Any, half: float) -> Any:
@@ -202,7 +209,14 @@ def sizes(name: str, play: float) -> tuple[tuple[str, Meshed, float], ...]:
     thinned = not any(isinstance(mesh, TriangularMesh) for mesh in train.meshes)
     work = workpiece(name, **({"backlash": play} if thinned else {}))
     plays = {each.pair: each for each in work.blanks.plays}
-    gears = [gear for gear in train.declaration.gears if gear.name in plays and gear.name not in work.layout.apart]
+    wheels = train.declaration.wheels
+    gears = [
+        gear
+        for gear in train.declaration.gears
+        if gear.name in plays
+        and gear.name not in work.layout.apart
+        and not any(wheels[wheel][1].flexible for wheel in gear.pair)  # bent, not rolled, into its ring
+    ]
     return tuple((gear.name, Meshed(work, gear), plays[gear.name].length) for gear in gears)
 
 
@@ -256,6 +270,16 @@ def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
             for r, angle in points:
                 at = np.array([r * wheel.radius * cos(angle), r * wheel.radius * sin(angle)])
                 assert hypot(*(at - hole)) == pytest.approx(hypot(*(blank.contours[1].points[0] - hole)), abs=1e-12)
+            continue
+        if blank.pins is not None:  # pins are parts of their own, and the ring has seats for them
+            R, reach, inside = (
+                part * blank.module for part in (blank.pins.circle, blank.pins.radius, wheel.root / blank.module)
+            )
+            for r, a in points:
+                at = r * wheel.radius
+                on_pin = abs(hypot(at * cos(a) - R, at * sin(a)) - reach)
+                assert min(on_pin, abs(at - inside)) < 2e-3 * blank.module, "on a pin, or on the ring between pins"
+            assert wheel.tip == pytest.approx(R - reach, rel=1e-12)
             continue
         teeth = blank.contours[1 if blank.kind == "ring" else 0]
         count = len(teeth.points) // blank.teeth

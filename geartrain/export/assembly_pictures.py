@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.export.assembly_steps import AssemblyStep, assembly_steps
+from geartrain.scene.palette import THEMES, series_colour
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -22,7 +23,8 @@ _MARGIN = 0.04
 _WIDE = 720  # pixels
 _LETTER = 0.016  # of the width
 _TOLD = 14  # parts that are named in the picture
-_NEW, _OLD = ("#1f5fa8", "#9cc3ee"), ("#b8b8b8", "none")
+_PAPER = THEMES["light"]
+_NEW, _OLD = (series_colour(0), _PAPER.band), (_PAPER.line, "none")  # edge and face
 
 
 def picture_path(number: int) -> str:
@@ -76,8 +78,8 @@ class AssemblyPictures:
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDE}" height="{_WIDE * height / width:.0f}" '
             f'viewBox="0 0 {width:.3f} {height:.3f}">',
             f"<title>{number}. {escape(step.text)}</title>",
-            f'<rect width="{width:.3f}" height="{height:.3f}" fill="white"/>',
-            f'<g font-family="sans-serif" font-size="{letter:.3f}">',
+            f'<rect width="{width:.3f}" height="{height:.3f}" fill="{_PAPER.paper}"/>',
+            f'<g fill="{_PAPER.ink}" font-family="sans-serif" font-size="{letter:.3f}">',
         ]
         corner = np.array([margin, margin + 2 * letter])
         shown = [(name, _OLD) for name in before if name not in step.parts] + [(name, _NEW) for name in step.parts]

@@ -17,6 +17,7 @@ from geartrain.export import export_files
 from geartrain.export.assembly_steps import assembly_steps
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.dial_marks import engrave
+from geartrain.scene.palette import THEMES
 
 
 def model(name: str) -> SolidModel:
@@ -145,3 +146,12 @@ def test_steps_have_pictures_that_name_what_comes_in() -> None:
             root = ElementTree.fromstring(files[path].make())
             told = [each.text for each in root.iter("{http://www.w3.org/2000/svg}text")]
             assert set(step.parts) <= set(told)
+
+
+def test_pictures_of_steps_have_the_colours_of_all_pictures() -> None:
+    theme = THEMES["light"]
+    pictures = [each.make().decode() for each in export_files(model("planetary-24-18-60"), ["svg"])
+                if each.path.startswith("assembly/") and each.path.endswith(".svg")]  # fmt: skip
+    assert len(pictures) > 2
+    used = set(re.findall(r'(?:fill|stroke)="([^"]+)"', " ".join(pictures))) - {"none"}
+    assert {theme.paper, theme.ink, theme.line, theme.band, theme.series[0]} == used

@@ -74,6 +74,8 @@ def sweep_figure(
     verdicts : array of str
         Of the same shape: "jam", "clash", "standstill", "overhang", "no valley", "apart" or "none" of a pair that does
         not run; of one that runs any text, such as its phases.
+    title : str
+        What is swept, written over all.
 
     Returns
     -------

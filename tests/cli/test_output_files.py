@@ -61,6 +61,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("teeth train", "-o"): (("teeth", "train", "{hands}", "--best", "1", "--workers", "1"), (".md", ".json", ".yaml")),
     ("teeth set", "-o"): (("teeth", "set", "7/2", "--kind", "planetary"), (".md", ".json", ".yaml")),
     ("teeth orrery", "-o"): (("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40"), (".md", ".json", ".yaml")),
+    ("reconstruct", "-o"): (("reconstruct", "metonic-l-m"), (".md", ".html", ".json")),
     ("reconstruct", "--page"): (("reconstruct", "metonic-l-m", "--turning", "1"), (".html",)),
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import pytest
 import shipped
 from conftest import OpenPage, Shown
+from playwright.sync_api import Browser
 from viewing import LOCKED, SIMPLE, wait
 
 import geartrain
@@ -118,3 +120,28 @@ def test_a_page_of_somebody_else_shows_the_train_in_a_frame(open_page: OpenPage,
     frame = shown.page.frame_locator("iframe[title='A \"train\"']")
     frame.get_by_role("button", name="Stop").wait_for()
     assert frame.locator("canvas").bounding_box()["width"] > 300  # type: ignore[index]
+
+
+def test_the_element_of_the_guide_shows_any_page_of_a_train(browser: Browser, tmp_path: Path) -> None:
+    guide = (Path(__file__).parents[2] / "docs/viewer.md").read_text(encoding="utf-8")
+    (block,) = [each for each in re.findall(r"```html\n(.*?)```", guide, re.DOTALL) if "customElements" in each]
+    for name in ("worm", SIMPLE):
+        (tmp_path / f"{name}.html").write_text(page([shipped.scene(name)], teeth=False), encoding="utf-8")
+    (tmp_path / "own.html").write_text(f"<!doctype html><title>Mine</title>{block}", encoding="utf-8")
+    sheet = browser.new_page(viewport={"width": 800, "height": 600})
+    try:
+        sheet.goto((tmp_path / "own.html").as_uri())
+        frame = sheet.locator("gear-train iframe")
+        assert (frame.get_attribute("title"), frame.bounding_box()) == (
+            "Two-start worm, sixty teeth",
+            {"x": 8, "y": 8, "width": 784, "height": 320},
+        )
+        inside = sheet.frame_locator("gear-train iframe")
+        inside.get_by_role("button", name="Other side").wait_for()
+        assert "worm" in inside.get_by_role("heading").inner_text()
+        sheet.evaluate("(src) => document.querySelector('gear-train').setAttribute('src', src)", f"{SIMPLE}.html")
+        inside.get_by_role("heading", name="A simple planetary").wait_for()
+        sheet.evaluate("document.querySelector('gear-train').removeAttribute('src')")
+        assert frame.count() == 0
+    finally:
+        sheet.close()

@@ -64,7 +64,8 @@ A question may take too long. Then two smaller ones are asked, of one and of two
 
 - *Is the train found?* The meshes of all wheels that survive are told (`--seen`), and no more arbors may be added than
 are lost. What is found so explains the question without this too, so the train is among its explanations. It is less
-of a trial, for the search has less to choose from: it shows that the lost wheels are found, not that the meshes are.
+of a trial, for the search has less to choose from, and is always that by lists of paths: it shows that the lost wheels
+are found, not that the meshes are.
 
 - *Does anything weigh more?* An explanation that weighs more has fewer wheels than were lost, or as many and fewer
 added arbors. All with fewer wheels are asked for; and all with as many wheels on fewer arbors, unless the pointers that
@@ -75,13 +76,17 @@ take all explanations that weigh the same.
 """
 
 FOUND = """
-There are {possible} such questions in {parts} parts of {trains} trains. {asked} were asked, and {whole} of them to the
-end in the processor time that each had. The train itself was found in {found} of these{lost}; {many} have too many
-explanations to list. Of the others it was found in {seen} where the meshes of what survives were told; {open} are open.
-So it was found in {every} questions, and missed in {missed}.
+There are {possible} such questions in {parts} parts of {trains} trains. {whole} were asked to the end. The train itself
+was found in {found} of these{lost}; {many} have too many explanations to list. Of the others it was found in {seen}
+where the meshes of what survives were told. So it was found in {every} questions, and missed in {missed}; {open} are
+open, for what was asked of them did not end in the time that it had, or is still to be asked (`--more`).
 
 Its first rank is known in {ranked}. In {first} nothing weighs more than the train, and in {alone} it is known to be the
 only one of the greatest weight. {more} have explanations with fewer wheels than were lost.
+
+Of the questions that were not asked to the end {slow} are of parts in which paths are listed one by one, and {fast} of
+parts whose whole trees are searched, which is faster: it takes up to six dials of exact speeds and neither idlers nor
+rings (`searched by`).
 """
 
 
@@ -98,11 +103,14 @@ def page(records: LeftOutRecords) -> list[str]:
     lost = "; not: " + ", ".join(f"{row.train} without {' and '.join(row.lost)}" for row in records.lost)
     seen = sum(row.rank is None and bool(row.seen) for row in records.rows)
     many = sum(row.is_whole and not row.listed and row.rank is None for row in records.rows)
+    slower = {(tree.train, tree.part) for tree in records.trees if tree.slower}
+    rest = [(row.train, row.part) in slower for row in records.rows if not row.is_whole]
     numbers = {
+        "slow": sum(rest),
+        "fast": len(rest) - sum(rest),
         "possible": records.possible,
         "parts": len(records.trees),
         "trains": len({tree.train for tree in records.trees}),
-        "asked": len(records.rows),
         "whole": len(records.whole),
         "found": len(ranks),
         "many": many,

@@ -29,6 +29,7 @@ from geartrain.synthesis.reconstruction.reconstruction_search import find_recons
 from geartrain.synthesis.reconstruction.sameness import mechanism
 from geartrain.synthesis.reconstruction.spur_tree import SpurTree
 from geartrain.synthesis.reconstruction.train_parts import find_spur_trees, why_not
+from geartrain.synthesis.reconstruction.whole_tree_questions import whole_tree_obstacles
 from geartrain.train.declaration_files import read_declaration, shipped
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
 from studies.measurement import gathered
@@ -88,7 +89,10 @@ def more_left_out(
     known = {(row.train, row.part, tuple(row.lost)): row for row in kept.rows}
     end = monotonic() + 60 * minutes
     waiting = [each for each in _questions(trees) if not names or each[0][0] in names]
-    for step in (_add_new, partial(_add_less, "seen"), partial(_add_less, "better")):
+    # the sooner the fewer wheels are lost, and where lists are short: those of exact dials
+    quick = {part: "tolerances" not in _slower(tree) for part, tree in trees.items()}
+    waiting.sort(key=lambda each: (not quick[each[0]], lost_wheels(trees[each[0]], each[1]), len(each[1])))
+    for step in (_add_new, _add_known, partial(_add_less, "seen"), partial(_add_less, "better")):
         for part, lost in waiting:
             if monotonic() > end:
                 break
@@ -105,6 +109,16 @@ def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: fl
         able = _finished(known.values())
         full = limit if len(lost) == 1 or all((name, part, link) in able for link in lost) else 0.0
         known[key] = LeftOutRecord(**_asked_to_the_end(tree, key, full))
+
+
+def _add_known(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
+    """Tell of what was not finished that nothing weighs more, where that needs no search."""
+    row = known.get(key)
+    if row is None or row.is_whole or row.better is not None or len(row.mechanisms) < row.added or any(row.mechanisms):
+        return
+    lost = key[2]
+    if fewest_new_arbors(evidence_question(lost_evidence(tree, lost)).problem) >= tree.arbor(lost).added_arbors:
+        known[key] = replace(row, better=0)
 
 
 def _add_less(what: str, known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
@@ -281,7 +295,12 @@ def _records(
 
 
 def _tree_record(name: str, part: str, tree: SpurTree) -> TreeRecord:
-    return TreeRecord(name, part, tree.source, list(tree.able), len(tree.counts), list(tree.pointers), list(tree.teeth))
+    counted = tree.source, list(tree.able), len(tree.counts), list(tree.pointers), list(tree.teeth)
+    return TreeRecord(name, part, *counted, _slower(tree))
+
+
+def _slower(tree: SpurTree) -> list[str]:
+    return list(whole_tree_obstacles(evidence_question(lost_evidence(tree, tree.able[:1])).problem))
 
 
 def _cover(name: str) -> CoverRecord:

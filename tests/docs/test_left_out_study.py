@@ -62,6 +62,14 @@ def test_of_a_mechanism_with_pins_and_carriers_each_part_is_taken() -> None:
     assert set(trees["freeth-2008", "from e_inner"].driven) == {"moon"}
 
 
+def test_a_part_says_how_it_is_searched() -> None:
+    found = {(tree.train, tree.part): tree.slower for tree in tree_records(["freeth-2006", "price-1974"]).trees}
+    assert found["freeth-2006", ""] == []
+    assert found["price-1974", ""] == ["idlers"]
+    assert found["price-1974", "from turntable"] == []
+    assert tree_records(["clock-10000-years-exact"]).trees[0].slower == ["7 dials", "idlers"]
+
+
 def test_what_is_not_left_out_says_why() -> None:
     (cover,) = tree_records(["freeth-2008"]).covers
     assert (cover.links, cover.left_out) == (20, 18)  # all but the crank and b
@@ -194,11 +202,11 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
         LeftOutRecord("clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s", "from y", True, 0),
         LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB", "from y"),
     ]
-    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96])
+    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96], ["idlers"])
     cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
     worm = NotAskedRecord("worm", "it has worm wheels")
     text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))
-    assert "| clock, from y | 3 | 8 | 1 | 6 | 2 | 2 | 2 | 1 | 0 | 7 |" in text
+    assert "| clock, from y | 3 | 8 | 1 | paths: idlers | 6 | 2 | 2 | 2 | 1 | 0 | 7 |" in text
     assert "| a | 3 with 1 | 4 with 2 | 2 | yes | 4 | 7 | 250 ms |" in text
     assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | 1.5 s |" in text
     assert "| c | none with 1 | ? with 3 | - | with meshes seen | 1 | open | not within 60 s |" in text
@@ -207,7 +215,8 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
     assert "| worm | it has worm wheels |" in text
     assert "| clock | 4 | 3 | crank: it has worm wheels |" in text
     said = " ".join(text.split())
-    assert "There are 6 such questions in 1 parts of 1 trains. 4 were asked, and 2 of them to the end" in said
+    assert "There are 6 such questions in 1 parts of 1 trains. 2 were asked to the end." in said
     assert "found in 1 of these; not: clock without b; 0 have too many" in said
-    assert "found in 1 where the meshes of what survives were told; 1 are open." in said
+    assert "found in 1 where the meshes of what survives were told." in said
+    assert "missed in 1; 1 are open" in said
     assert "1 have explanations with fewer wheels than were lost" in said

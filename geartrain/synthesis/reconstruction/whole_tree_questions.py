@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 
 from geartrain.synthesis.reconstruction.prime_shares import MOST_POWER
 from geartrain.synthesis.reconstruction.quotient_keys import prime_powers
@@ -13,18 +14,30 @@ _MOST_DIALS = 6
 
 
 def are_whole_trees_asked(problem: ReconstructionProblem) -> bool:
-    """Whether a question may be answered so: exact dials that turn, no idlers, no rings, no arbors without wheels.
+    """Whether a question may be answered so: nothing of `whole_tree_obstacles` is there."""
+    return not any(whole_tree_obstacles(problem))
 
-    Where meshes of most arbors were seen, few paths are left to each dial, and these are listed instead.
+
+def whole_tree_obstacles(problem: ReconstructionProblem) -> Iterator[str]:
+    """Why a question is answered by lists of paths instead.
+
+    Where meshes of most arbors were seen, few paths are left to each dial.
     """
-    return (
-        all(dial.is_exact and dial.least for dial in problem.dials)
-        and 0 < len(problem.dials) <= _MOST_DIALS
-        and not (problem.idlers or problem.rings)
-        and 2 * len(problem.meshes) <= len(problem.arbors)
-        and all(arbor.wheels for arbor in (problem.input, *problem.arbors))
-        and _most_powers(problem) <= MOST_POWER
-    )
+    if not all(dial.is_exact and dial.least for dial in problem.dials):
+        yield "tolerances"
+    if not 0 < len(problem.dials) <= _MOST_DIALS:
+        yield f"{len(problem.dials)} dials"
+    if problem.idlers:
+        yield "idlers"
+    if problem.rings:
+        yield "rings"
+    if not all(arbor.wheels for arbor in (problem.input, *problem.arbors)):
+        yield "arbors without wheels"
+    if 2 * len(problem.meshes) > len(problem.arbors):
+        yield "meshes that were seen"
+    # with a tolerance there is no one speed of which to take primes
+    if all(dial.is_exact for dial in problem.dials) and _most_powers(problem) > MOST_POWER:
+        yield "high powers of primes"
 
 
 def _most_powers(problem: ReconstructionProblem) -> int:

@@ -78,7 +78,7 @@ def material(blank: Any) -> Any:
 
 def round_pins(blank: Any) -> list[Any]:
     """Those that lie in the seats of a ring, by the chords round them."""
-    turns, sides = 2 * np.pi * np.arange(blank.teeth) / blank.teeth, 512
+    turns, sides = 2 * np.pi * np.arange(blank.teeth) / blank.teeth, 2048
     reach, R = blank.pins.radius / cos(pi / 4 / sides) * blank.module, blank.pins.circle * blank.module
     return [shapely.Point(R * cos(t), R * sin(t)).buffer(reach, quad_segs=sides) for t in turns.tolist()]
 
@@ -282,9 +282,6 @@ def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
             assert wheel.tip == pytest.approx(R - reach, rel=1e-12)
             continue
         teeth = blank.contours[1 if blank.kind == "ring" else 0]
-        if blank.form == "pin ring" and blank.kind == "ring":
-            assert_pins_are_those_in_their_holes(points, wheel.radius, teeth.points @ (1, 1j), teeth.bulges)
-            continue
         count = len(teeth.points) // blank.teeth
         own = np.array([(r * wheel.radius * cos(a), r * wheel.radius * sin(a)) for r, a in points])
         cut = [*teeth.points[: count + 1]] if len(teeth.points) > count else [*teeth.points]
@@ -294,17 +291,6 @@ def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
         assert apart < 1e-12 * max(wheel.radius, 1), f"{wheel.id}: a vertex that is cut is {apart} off the screen's"
         assert wheel.tip == pytest.approx(blank.tip_radius, rel=1e-12)
         assert wheel.root == pytest.approx(blank.root_radius, rel=1e-12)
-
-
-def assert_pins_are_those_in_their_holes(points: Any, radius: float, corners: np.ndarray, bulges: np.ndarray) -> None:
-    """A pin is drawn round up to its middle; its hole is the rest of that circle, and opens to the lobes."""
-    a, b = corners[:2]
-    centre = a + (b - a) / 2 * (1 + 1j / np.tan(2 * np.arctan(bulges[0])))
-    own = np.array([r * radius * np.exp(1j * angle) for r, angle in points])
-    assert np.abs(own).max() == pytest.approx(abs(a), rel=1e-12)
-    before = own[np.abs(own) < abs(centre) * (1 - 1e-9)]
-    assert len(before) > 5
-    assert np.abs(before - abs(centre)) == pytest.approx(np.full(len(before), abs(a - centre)), rel=1e-12)
 
 
 def beside(points: np.ndarray, vertices: np.ndarray, bulges: np.ndarray) -> np.ndarray:

@@ -145,3 +145,26 @@ def test_the_element_of_the_guide_shows_any_page_of_a_train(browser: Browser, tm
         assert frame.count() == 0
     finally:
         sheet.close()
+
+
+def test_a_kiosk_tells_the_date_and_outputs_as_it_turns(showcase: Showing) -> None:
+    shown = showcase("kiosk", "freeth-2021", viewport={"width": 390, "height": 844})
+    shown.page.get_by_role("button", name="Stop").click()
+    epoch = shipped.train("freeth-2021").declaration.epoch
+    assert epoch is not None
+    shown.run("(turns) => geartrain.setTurns(turns)", str(shipped.scene("freeth-2021").epoch.turns))  # type: ignore[union-attr]
+    date = "header .date"
+    wait(shown, f"document.querySelector('{date}').textContent.includes('205 BC')")
+    read = shown.page.locator("header .read > div")
+    assert read.count() == 6
+    shown.run("geartrain.setTurns('7/3')")
+    wait(shown, "document.querySelector('.read dd').textContent.startsWith('120.00')")  # the Sun, a turn in one of b
+    assert read.first.inner_text().split() == ["sun", "120.00°,", "Leo,", "degree", "1"]
+    fits = "document.querySelector('.read').scrollWidth <= innerWidth"
+    assert shown.run(fits)
+    assert shown.errors == shown.requests == []
+
+
+def test_a_frame_in_another_page_tells_turns_only(showcase: Showing) -> None:
+    shown = showcase("embed")
+    assert shown.page.locator("header .read, header .date").count() == 0

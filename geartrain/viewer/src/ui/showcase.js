@@ -1,4 +1,5 @@
 // The picture with three buttons: for a frame in another page, and for a screen in a museum.
+import { Epoch, inWords } from "../calendar.js";
 import { Fraction } from "../fraction.js";
 import { PAUSE, PLAY } from "./crank.js";
 import { Drive } from "./drive.js";
@@ -6,12 +7,14 @@ import { el, icon } from "./element.js";
 import { pace } from "./interface.js";
 import { decimal } from "./number.js";
 import { paceOf } from "./playhead.js";
+import { Reading, told } from "./reading.js";
 import { Theme } from "./theme.js";
 
 const LOOKS = ["free", "front", "side", "back"];
 const EYE = "M2 12c3-5 6.5-7 10-7s7 2 10 7c-3 5-6.5 7-10 7s-7-2-10-7zM12 9.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z";
 const LAYERS = "M12 3l9 4.5-9 4.5-9-4.5zM3 12l9 4.5 9-4.5M3 16.5l9 4.5 9-4.5";
 const IDLE = 45; // s without a hand until a kiosk goes on by itself
+const MOST = 6; // outputs that a kiosk tells
 const ROUND = 90; // s of one turn of the camera of a kiosk that is left alone
 
 export class Showcase {
@@ -50,7 +53,7 @@ export class Showcase {
     this.turns = el("output", { class: "quiet" });
     this.place = el("div", { class: "place" });
     const { title, name, state, verdict } = this.scene;
-    const said = this.drive.movable ? this.turns : el("p", { class: "bad" }, verdict.text);
+    const said = this.drive.movable ? [this.turns, this.kiosk && this.#outputs()] : el("p", { class: "bad" }, verdict.text);
     document.body.classList.add("showcase");
     document.body.classList.toggle("kiosk", this.kiosk);
     document.body.prepend(
@@ -62,6 +65,17 @@ export class Showcase {
         el("div", { class: "buttons", role: "group", "aria-label": "the train" }, this.playing, look, this.apart),
       ),
     );
+  }
+
+  /** What a kiosk tells as the train turns: the date, where there is one, and outputs, those with dials first. */
+  #outputs() {
+    const { scene, index, app } = this;
+    if (scene.epoch && !this.drive.run) this.epoch = new Epoch(scene.epoch);
+    this.date = this.epoch && el("output", { class: "date" });
+    const asked = scene.asks ? scene.pointers.map((_, at) => at) : [];
+    const order = asked.sort((one, other) => (scene.pointers[one].dial === null) - (scene.pointers[other].dial === null));
+    this.read = order.slice(0, MOST).map((at) => ({ hand: new Reading(scene, app.machines[index], at), value: el("dd") }));
+    return [this.date, el("dl", { class: "read" }, this.read.map(({ hand, value }) => el("div", {}, el("dt", {}, hand.pointer.output), value)))];
   }
 
   /** Its picture; called once the words are seen. */
@@ -115,6 +129,8 @@ export class Showcase {
     const { drive, scene } = this;
     const lead = scene.bodies[scene.lead]?.id ?? "the input";
     this.turns.textContent = drive.run ? `${drive.time.toFixed(2)} s` : `${decimal(drive.at, 2)} turns of ${lead}`;
+    if (this.epoch) this.date.textContent = inWords(this.epoch.dateAt(Fraction.of(drive.at)));
+    this.read?.forEach(({ hand, value }) => (value.textContent = told(hand.now)));
     if (this.shown === drive.playing) return;
     this.shown = drive.playing;
     this.#name(this.playing, drive.playing ? "Stop" : "Turn");

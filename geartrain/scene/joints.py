@@ -150,6 +150,11 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
     """The direction of the first pin: of pins in holes midway between axes that their link carries, if it does."""
     if isinstance(declared, PinsInHoles):
+        tree = stage.train.tree
+        same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
+        first = next(each for each in same if each.pin == declared.pin)  # whose pins go through all discs
+        between = across(minus(_point(stage, tree.axis(first.slot)), middle), axis)
+        towards = unit_or_z(between) if size(between) > _NONE else towards
         for place in stage.layout.axes.values():
             aside = across(minus(place.point, middle), axis)
             if place.carrier == declared.pin and size(aside) > _NONE:

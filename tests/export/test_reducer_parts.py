@@ -192,6 +192,34 @@ def test_pins_of_a_carrier_stand_midway_between_its_cranks() -> None:
     assert pins == pytest.approx([60, 180, 300], abs=1e-6)
 
 
+def test_two_discs_stand_opposite_each_other_and_share_pins_and_load() -> None:
+    text = geartrain.shipped()["cycloidal-reducer"].read_text(encoding="utf-8")
+    train = geartrain.load(text.replace("disc:   {wheels", "disc:   {copies: 2, wheels"))
+    assert train.solve().speeds == geartrain.load("cycloidal-reducer").solve().speeds
+    assert not [each for each in train.build_findings if each.is_error]
+    torques = train.torques()
+    for pair in ("lobes~ring", "lobes.2~ring"):
+        assert float(torques.pairs[pair].torques[0]) == pytest.approx(-5.0, rel=1e-9), "half of what leaves"
+    model = SolidModel(train, ManufacturingSizes())
+    named = {each.name: each for each in model.parts}
+    first, second = (named[f"shaft eccentric{end}"] for end in ("", " 2"))
+    assert first.place[:2] == pytest.approx([1.5, 0.0], abs=1e-9)
+    assert second.place[:2] == pytest.approx([-1.5, 0.0], abs=1e-9), "so that they balance"
+    assert abs(first.place[2] - second.place[2]) > 8, "beside each other along the shaft"
+    pins = [each for each in model.parts if each.name.startswith("holes")]
+    assert len(pins) == 6, "one set for both discs"
+    low, high = (end(named[disc].placed.vertices[:, 2]) for disc, end in (("lobes", np.min), ("lobes.2", np.max)))
+    for each in pins:
+        assert each.placed.vertices[:, 2].min() < low + 1e-6
+        assert each.placed.vertices[:, 2].max() > high
+    for disc in ("lobes", "lobes.2"):
+        flat = named[disc]
+        holes = [contour.points.mean(axis=0) for contour in flat.contours if contour.is_circle]
+        found = [flat.turn[:2, :2] @ hole + flat.place[:2] for hole in holes if np.hypot(*hole) > 1]
+        for each in pins:
+            assert min(hypot(*(hole - each.place[:2])) for hole in found) == pytest.approx(1.5, abs=1e-6)
+
+
 # ------------------------------------------------------------------------------------------------------------- a wave
 
 

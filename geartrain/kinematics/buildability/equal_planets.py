@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 _MISS, _LITTLE = 0.1, 0.01  # pitches: more than any play takes up; less than any play
+ON_ECCENTRIC = 0.25
+"""Of the radius of a wheel: how far its axis may stand from that of its carrier for it to run on an eccentric."""
 _CLEAR = 0.2  # modules that neighbours should leave each other
 
 
@@ -150,6 +152,8 @@ class _EqualPlanets:
         """Rule A3."""
         for planet in self.planet.walk():
             for mesh in _once(planet):
+                if self._is_on_eccentric(planet, mesh):
+                    continue  # such discs stand beside each other along the axis
                 gap = self._gap(planet, mesh, self.number)
                 if gap is not None and gap < _CLEAR:
                     yield self._crowded(planet.own(mesh), gap)
@@ -188,6 +192,12 @@ class _EqualPlanets:
             return near / float(module) - tips
         reach = self._reach(planet, planet.own(mesh))
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
+
+    def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
+        """True of a wheel that reaches far round the axis about which its own is carried."""
+        wheel = planet.own(mesh)
+        reach, count = self._reach(planet, wheel), self.train.wheels[wheel][1].count or 0
+        return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
     def _tips(self, planet: Planet, mesh: AssemblyMesh) -> float:
         """Tip diameter (modules) of a planet's wheel."""

@@ -24,8 +24,6 @@ from geartrain.teeth.outlines.wave_tooth import bent_circle
 if TYPE_CHECKING:
     pass
 
-NEAR = 0.25
-"""Of the root radius of a wheel: how far its axis may stand from that of its carrier for it to run on an eccentric."""
 WALL = 1.5  # mm of an eccentric beside its arbor at least, and of a wheel beside a hole
 USUAL_ARBOR = 6.0
 """Diameter of an arbor whose size nobody gives, in an eccentric [mm]."""

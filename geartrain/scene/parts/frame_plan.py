@@ -108,7 +108,11 @@ class FramePlan:
             bad = {way: self._carried_cost(way, carried) for way in ways}
             yield [way for way in ways if bad[way] == min(bad.values())]
         circles: list[PinCircle | FlexibleCup] = [*self.stack.pin_circles.values(), *self.stack.cups]
+        seated: set[str] = set()
         for circle in circles:
+            if circle.link in seated:
+                continue  # its pins go through all discs
+            seated.add(circle.link)
             axis = self.stack.train.tree.axis(circle.link) or ""
             slots = self._slots(circle)
             if circle.link not in by_carrier and axis in self.stack.axes and slots:
@@ -119,7 +123,8 @@ class FramePlan:
                 yield ring_seats(disc, disc.outer, self._gaps)
 
     def _slots(self, circle: PinCircle | FlexibleCup) -> list[StackDisc]:
-        return [disc for disc in self.stack.wheel_discs if disc.link == circle.slot]
+        same = {each.slot for each in self.stack.pin_circles.values() if each.link == circle.link}
+        return [disc for disc in self.stack.wheel_discs if disc.link in same | {circle.slot}]
 
     def _cut(self, height: float) -> int:
         """Wheels across at some height that stand among the axes, where a plate would be."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan2, dist, inf
 from typing import TYPE_CHECKING, Protocol
 
+from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
-from geartrain.scene.parts.eccentrics import NEAR, USUAL_ARBOR, WALL, Eccentric, Wave, eccentric_radius
+from geartrain.scene.parts.eccentrics import USUAL_ARBOR, WALL, Eccentric, Wave, eccentric_radius
 from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.pin_circles import PinCircle
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
@@ -75,14 +77,21 @@ class StackEccentrics:
     stack: UprightTrain
 
     def found(self) -> Iterator[Eccentric]:
-        """All of them."""
+        """All of them; those of one arbor are numbered from the second on."""
+        count: Counter[str] = Counter()
+        for each in self._each():
+            count[each.name] += 1
+            number = count[each.name]
+            yield each if number == 1 else replace(each, name=f"{each.name} {number}")
+
+    def _each(self) -> Iterator[Eccentric]:
         for label, axis in self.stack.layout.axes.items():
             own = self.stack.carrier_axis(axis)
             discs = [disc for disc in self.stack.wheel_discs if disc.axis == label]
             if own is None or len(slabs(discs)) != 1:  # wheels apart are one body by their pipe alone
                 continue
             at = self._place(own)
-            if dist(at, discs[0].at) < NEAR * min(disc.root for disc in discs):
+            if dist(at, discs[0].at) < ON_ECCENTRIC * min(disc.root for disc in discs):
                 if self._lobes(discs):
                     yield self._wave(axis.carrier, own, label, discs)
                 elif cranks := list(self._cranks(axis.carrier, own)):

@@ -29,12 +29,21 @@ def standing_pins(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
         if blank.kind == "ring" and blank.pins is not None and any(disc.name == name for disc in plan.discs):
             yield _of_ring(scene, plan, wheels[name])
     circles, seats = plan.stack.pin_circles, plan.plated_pins
+    done, normal = set[str](), np.array(plan.stack.normal)
     for coupling in scene.couplings:
-        slots = [wheel for wheel in scene.wheels if wheel.body == coupling.slot]
-        if coupling.id in seats and slots:
-            link, circle = scene.bodies[coupling.pin].id, circles[coupling.id]
+        link = scene.bodies[coupling.pin].id
+        if coupling.id not in seats or link in done:
+            continue
+        done.add(link)  # pins of one link go through all discs that it has pins for
+        bodies = {each.slot for each in scene.couplings if each.id in seats and each.pin == coupling.pin}
+        slots = [wheel for wheel in scene.wheels if wheel.body in bodies]
+        if slots:
+            plate = plan.heights.plates[seats[coupling.id]]
+            far = max(slots, key=lambda wheel: abs(float(np.dot(wheel.centre, normal)) - sum(plate) / 2))
             spots = tuple(plan.stack.flat(place) for place in coupling.pins_at)
-            yield StandingPins(f"{coupling.id} pin", link, seats[coupling.id], slots[0].id, spots, circle.pin / 2)
+            yield StandingPins(
+                f"{coupling.id} pin", link, seats[coupling.id], far.id, spots, circles[coupling.id].pin / 2
+            )
 
 
 def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:

@@ -44,7 +44,8 @@ def hole_share(pins: int) -> float:
     >>> round(hole_share(6), 6), round(hole_share(12), 6)
     (0.666667, 0.333333)
     """
-    turn = 2 * pi * np.arange(pins)[:, None] / pins + np.linspace(0, 2 * pi / pins, _PHASES)
+    # from where the first pin has the longest arm
+    turn = pi / 2 + 2 * pi * np.arange(pins)[:, None] / pins + np.linspace(0, 2 * pi / pins, _PHASES)
     arms = np.maximum(np.sin(turn), 0.0)
     return float((arms / (arms**2).sum(axis=0)).max())
 
@@ -55,7 +56,7 @@ def held_pin_stress(force: float, length: float, diameter: float) -> float:
     At its foot the moment F l/2 bends it, 32 M/(pi d^3), and F shears it, F over its section.
 
     >>> round(held_pin_stress(100.0, 4.0, 4.0), 3)
-    34.656
+    34.687
     """
     bent, sheared = 16 * force * length / (pi * diameter**3), 4 * force / (pi * diameter**2)
     return sqrt(bent**2 + 3 * sheared**2)

@@ -151,6 +151,15 @@ def test_what_is_counted_the_other_way_is_engraved_the_other_way(way: str, at: f
     assert atan2(x, y) / (2 * pi) % 1 == pytest.approx(at, abs=0.01)
 
 
+def test_borders_run_the_way_a_dial_is_counted() -> None:
+    spans = [{"name": "", "span": 1}, {"name": "", "span": 3}]
+    found = {}
+    for way in ("clockwise", "counter-clockwise"):
+        parts = engrave(scale_of(Dial(names=spans, counted=way)))
+        found[way] = [atan2(*line[0]) / (2 * pi) % 1 for part in parts if part.kind == "bold" for line in part.lines]
+    assert found == {"clockwise": [0, 1 / 4], "counter-clockwise": [0, 3 / 4]}
+
+
 def test_degrees_and_days_are_engraved_one_by_one() -> None:
     parts = engrave(scale_of(Dial(names="zodiac", around={"names": "egyptian_months"})))
     assert borders(parts, 1.0) == pytest.approx([day / 365 for day in range(365)], abs=1e-9)
@@ -237,3 +246,11 @@ def test_text_below_the_middle_stands_upright() -> None:
     """The bar of a T is above its foot."""
     bar, foot = curved_text("T", 0.1, CurvedLine(1.0, pi, inwards=True))
     assert bar[0][1] == bar[1][1] > foot[0][1]
+
+
+def test_text_below_the_middle_is_not_mirrored() -> None:
+    """The foot of an L goes to the right of its stem."""
+    (stroke,) = curved_text("L", 0.1, CurvedLine(1.0, pi, inwards=True))
+    top, corner, foot = stroke
+    assert foot[0] > corner[0] + 0.03
+    assert top[1] > corner[1] + 0.09

@@ -156,7 +156,7 @@ def _write_table(asked: MotionRun, out: Path, resume: bool, force: bool) -> None
     from geartrain.numerics.files import LongTable, csv_line
 
     try:
-        with LongTable(out, csv_line(asked.columns), resume, force) as table:
+        with LongTable(out, csv_line(asked.position_columns), resume, force) as table:
             if resume and not table.rows:
                 tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
             if table.rows:
@@ -177,7 +177,7 @@ def _rows(asked: MotionRun, first: int, header: bool = True) -> Iterator[list[st
     from geartrain.numerics.files import csv_line
 
     if header:
-        yield [csv_line(asked.columns)]
+        yield [csv_line(asked.position_columns)]
     for passage in asked.motion.passages(asked.turns, asked.samples, first):
         yield _lines(asked, passage)
 

@@ -83,6 +83,42 @@ def test_a_run_in_time_has_a_row_a_sample() -> None:
     assert len(found.to_csv().splitlines()) == 1 + len(found.time)
 
 
+def test_counts_in_doubt_have_a_row_a_count() -> None:
+    from geartrain.uncertainty import infer_counts
+
+    found = infer_counts(geartrain.load("freeth-2008-doubt").declaration)
+    frame = found.to_frame()
+    assert len(frame) == sum(len(each.doubt.counts) for each in found.posteriors.values())
+    for _, rows in frame.groupby("wheel"):
+        assert rows.prior.sum() == pytest.approx(1)
+        assert rows.posterior.sum() == pytest.approx(1)
+    chance = frame.set_index(["wheel", "teeth"]).posterior
+    assert all(chance[wheel, each.likeliest] == chance[wheel].max() for wheel, each in found.posteriors.items())
+
+
+def test_a_run_of_a_motion_has_a_row_an_output() -> None:
+    from geartrain.dynamics import MotionRun
+
+    run = MotionRun(geartrain.load("moon-triangular").motion(outputs=["moon"]), turns=1, samples=2001)
+    assert len(run.to_frame()) == 0, "before it is counted"
+    run.go()
+    (row,) = run.to_records()
+    assert row["exact"] == "254/95"
+    assert row["error p-p (rad)"] == pytest.approx(0.097, abs=5e-4)
+    assert row["slowest"] < 1 < row["fastest"]
+
+
+def test_best_sizes_have_a_row_a_design() -> None:
+    from geartrain.synthesis import ToothSizes, find_tooth_sizes
+
+    start = ToothSizes((48, 96), 1.0, 0.5, (np.pi / 6, np.pi / 6), 0.2)
+    found = find_tooth_sizes(start, free={"radii": (0.95, 1.0)})
+    frame = found.to_frame().set_index("design")
+    assert frame.loss["best"] == found.best.loss <= frame.loss["equal depth"]
+    assert frame.half_angle_1["best"] == pytest.approx(np.pi / 6)
+    assert (frame.loss.drop("best") >= frame.loss["best"]).all()
+
+
 def test_arrays_of_any_number_of_axes() -> None:
     values = np.arange(6.0)
     one = labelled_array(values, link=list("abcdef")).columns

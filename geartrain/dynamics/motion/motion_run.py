@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extreme
 from geartrain.dynamics.motion.superposition import ErrorEstimates, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples
@@ -34,7 +35,7 @@ def _untold(_: int) -> None:
 
 
 @dataclass
-class MotionRun(Pictured):
+class MotionRun(Tabular, Pictured):
     """One run of a motion: positions from 0 to `turns` of the input, and what is asked of them.
 
     Results stand here as far as they were asked for, by `go`, `try_phases`, `estimate` and `analyse`.
@@ -102,6 +103,19 @@ class MotionRun(Pictured):
             raise QuestionError(
                 Problem(f"{self.samples} positions of the input", "from one to the next it turns", "give 2 or more")
             )
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each output that was counted: mean speed over the input's, error [rad], speed over its mean."""
+        return {
+            "output": [each.name for each in self.tallies],
+            "mean speed": [float(each.ratio) for each in self.tallies],
+            "exact": [str(each.ratio) for each in self.tallies],
+            "error p-p (rad)": [each.peak_to_peak for each in self.tallies],
+            "error rms (rad)": [each.rms for each in self.tallies],
+            "slowest": [each.slow for each in self.tallies],
+            "fastest": [each.fast for each in self.tallies],
+        }
 
     def go(self, on_done: OnDone = _untold) -> None:
         """Count every position, and seek the extremes between them.
@@ -172,7 +186,7 @@ class MotionRun(Pictured):
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
-    def columns(self) -> list[str]:
+    def position_columns(self) -> list[str]:
         """Names of the columns of a table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
@@ -188,7 +202,7 @@ class MotionRun(Pictured):
         Returns
         -------
         list of array of float, (n,)
-            As `columns` names them.
+            As `position_columns` names them.
         """
         found = [passage.turns]
         angle = 2 * pi * passage.turns

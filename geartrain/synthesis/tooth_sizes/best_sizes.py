@@ -4,18 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.tabular import Tabular
 from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit, best_within
 from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement, confirm_by_outlines
-from geartrain.synthesis.tooth_sizes.size_design import AIMS, SizeLimit, ToothSizes, equal_depth_radii
+from geartrain.synthesis.tooth_sizes.size_design import (
+    AIMS,
+    SizeLimit,
+    ToothSizes,
+    equal_depth_radii,
+    size_columns,
+)
 from geartrain.synthesis.tooth_sizes.size_search import Range, SizeSearch, checked_ranges
 
 
 @dataclass(frozen=True)
-class BestToothSizes(Pictured, Result):
+class BestToothSizes(Tabular, Pictured, Result):
     """The best sizes of a pair with triangular teeth, and what they are better than.
 
     Attributes
@@ -64,6 +72,14 @@ class BestToothSizes(Pictured, Result):
     evaluations: int
     stops: float | None
     tried: tuple[ToothSizes, ...]
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for the best, those by rule that turn, and those of a front: sizes and figures; angles in rad."""
+        rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
+        rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
+        rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
+        return {"design": [name for name, _ in rows], **size_columns([sizes for _, sizes in rows])}
 
     @property
     def teeth(self) -> tuple[int, int]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, isnan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError, check_choice
 from geartrain.numerics.plain_data import Key, Result
@@ -218,6 +218,16 @@ class ToothSizes(Result):
             return inf
         found = float(getattr(self, aim))
         return inf if isnan(found) else found
+
+
+_FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "play", "window_width", "phases")
+
+
+def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
+    """A row for each design that turns: sizes and figures by name; angles and errors in rad."""
+    names = ("radii", "window", "clearance_factor", *_FIGURES)
+    angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
+    return angles | {name: [getattr(each, name) for each in designs] for name in names}
 
 
 @dataclass(frozen=True)

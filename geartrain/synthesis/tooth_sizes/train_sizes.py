@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
 from typing import Any
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.tabular import Tabular
 from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement
-from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes
+from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes, size_columns
 from geartrain.synthesis.tooth_sizes.size_search import Range
 
 DIGITS = 6
@@ -61,7 +62,7 @@ class PairSizes(Result):
 
 
 @dataclass(frozen=True)
-class BestTrainSizes(Pictured, Result):
+class BestTrainSizes(Tabular, Pictured, Result):
     """The sizes of the triangular teeth with which a train is best, and what they gain.
 
     Attributes
@@ -108,6 +109,18 @@ class BestTrainSizes(Pictured, Result):
     pairs: tuple[PairSizes, ...]
     untouched: Mapping[str, str]
     declaration: Mapping[str, Any]
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """By pair, a row for its sizes as declared (if it turns so), best by itself, and best for the train."""
+        rows = [
+            (pair.name, name, sizes)
+            for pair in self.pairs
+            for name, sizes in (("declared", pair.declared), ("by itself", pair.apart), ("together", pair.together))
+            if sizes is not None
+        ]
+        told = {"pair": [pair for pair, _, _ in rows], "design": [name for _, name, _ in rows]}
+        return {**told, **size_columns([sizes for _, _, sizes in rows])}
 
 
 def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal, NotRequired, TypedDict
+from typing import Any, Literal, NotRequired, TypedDict
 
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.information import relative_entropy
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.tabular import Tabular
 from geartrain.uncertainty.posterior.observations import ObservedOutput
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 
@@ -214,7 +215,7 @@ class KnownOutput(TypedDict):
 
 
 @dataclass(frozen=True, slots=True)
-class ToothCountPosterior(Result):
+class ToothCountPosterior(Tabular, Result):
     """The posterior of all tooth counts in doubt; `found["wheel"]` is that of one wheel.
 
     Attributes
@@ -303,6 +304,20 @@ class ToothCountPosterior(Result):
 
     def __getitem__(self, wheel: str) -> WheelPosterior:
         return self.posteriors[wheel]
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each count of each wheel: its chances before the outputs are looked at and after.
+
+        After is None where nothing fits.
+        """
+        rows = [(wheel, found, at) for wheel, found in self.posteriors.items() for at in range(len(found.doubt.counts))]
+        return {
+            "wheel": [wheel for wheel, _, _ in rows],
+            "teeth": [found.doubt.counts[at] for _, found, at in rows],
+            "prior": [float(found.doubt.priors[at]) for _, found, at in rows],
+            "posterior": [float(found.chances[at]) if found.chances else None for _, found, at in rows],
+        }
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:

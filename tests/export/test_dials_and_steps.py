@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 from shipped import train as load
 
 from geartrain.export import export_files
@@ -105,6 +106,20 @@ def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
                 ]
                 assert rods, f"nothing reaches {list(circle.scales)}"
                 assert all(part.turned is not None and part.turned.diameter < circle.hole for part in rods)
+
+
+@pytest.mark.parametrize("name", ["freeth-2008", "voulgaris-2024-a"])
+def test_the_edge_of_a_dial_passes_the_wheel_of_the_crank(name: str) -> None:
+    """Its feet stand beyond its dials, and the plate went straight to them, through the crown wheel beside the dial."""
+    work = model(name)
+    (plate,) = (each for each in work.parts if each.name.startswith("dial zodiac") and each.kind == "plate")
+    (crown,) = (each for each in work.parts if each.name == "a1")
+    x, y, z = crown.placed.vertices.T
+    low, high = plate.placed.vertices[:, 2].min(), plate.placed.vertices[:, 2].max()
+    assert z.min() < low < high < z.max(), "it reaches through the height of the plate"
+    edge = shapely.MultiPoint(plate.placed.vertices[:, :2]).convex_hull
+    assert edge.area > 1e4
+    assert edge.distance(shapely.box(x.min(), y.min(), x.max(), y.max())) > 0.1
 
 
 def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations, product
-from math import cos, dist, pi, sin
+from math import cos, dist, inf, pi, sin
 
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
@@ -17,6 +17,7 @@ _GAP = 0.5  # mm between a foot and what turns
 _FEET, _MOST, _WAYS = 3, 4, 48
 _AWAY = (0.92, 0.8, 0.65, 0.5, 0.35)  # of the radius of the dial: where a foot is tried, the outermost first
 _EDGE = 1.0  # mm of dial round the end of a foot
+_STEPS = 32  # from the middle of a dial to a foot, at which the straight edge between them is looked at
 
 
 def dial_feet(
@@ -33,7 +34,10 @@ def dial_feet(
     free = [spot for at, radius in circles for spot in _tried(at, radius) if clear_of(spot, turning) > RADIUS + _GAP]
     spots = _apart(free)
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
-        spots = pillar_places([at for at, _ in circles], turning, RADIUS)
+        across = [circle for wheel in plan.stack.across if wheel.is_between(*faces) for circle in wheel.circles]
+        spots = pillar_places(
+            [at for at, _ in circles], turning, RADIUS, lambda spot: _reaches(spot, circles, across) > 0
+        )
     ends = (plate, faces) if above else (faces, plate)
     return [_foot(plan, f"{name} foot {number}", spot, ends) for number, spot in enumerate(spots, 1)]
 
@@ -45,6 +49,17 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
     for wheel in plan.stack.across:
         if wheel.is_between(low, high):
             yield from wheel.circles
+
+
+def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
+    """How far from some circles (mm) a plate is that goes straight from its dials to the end of a foot."""
+    least = inf
+    for (x, y), radius in dials:
+        for step in range(_STEPS + 1):
+            t = step / _STEPS
+            at = x + t * (spot[0] - x), y + t * (spot[1] - y)
+            least = min(least, clear_of(at, others) - (radius + t * (RADIUS + _EDGE - radius)))
+    return least
 
 
 def _tried(at: Point, radius: float) -> Iterator[Point]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import combinations
 from math import cos, pi, sin
 from typing import TYPE_CHECKING
@@ -22,16 +22,24 @@ _FEWEST, _MOST = 3, 5
 _SPREAD = 4.0  # radii between the middles of neighbours, at least
 
 
-def pillar_places(axes: Sequence[Point], circles: Sequence[tuple[Point, float]], radius: float) -> list[Point]:
+def pillar_places(
+    axes: Sequence[Point],
+    circles: Sequence[tuple[Point, float]],
+    radius: float,
+    suits: Callable[[Point], bool] = lambda _: True,
+) -> list[Point]:
     """Four places, three or more if four do not do, whose polygon holds all axes and has the least outline (mm).
 
-    In each direction from the middle of the axes the nearest place that is free from there on outwards is taken.
+    In each direction from the middle of the axes the nearest place that is free from there on outwards is taken, if it
+    `suits`; where too few do, any.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     blocked = [(np.array(at), reach + radius + _GAP) for at, reach in circles]
     blocked += [(each, radius + _HOLE) for each in points]
     tried = np.array([_free(middle, 2 * pi * (k + 0.5) / _WAYS, blocked) for k in range(_WAYS)])
+    suiting = [suits((float(x), float(y))) for x, y in tried]
+    tried = tried[suiting] if sum(suiting) >= _FEWEST else tried
     for count in (4, _FEWEST, _MOST):
         if (found := _around(tried, points, count, _SPREAD * radius)) is not None:
             return [(float(x), float(y)) for x, y in found]

@@ -58,7 +58,10 @@ def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> Non
     wait(shown, "!String(geartrain.turns).startsWith('0')")
     shown.page.get_by_role("button", name="pause", exact=True).click()
     held = turns(shown)
-    wait(shown, "/turns; sun .*°, cell .*moon/.test(document.querySelector('[role=status]').textContent)")
+    wait(
+        shown,
+        "/turns; sun .*°, [A-Z][a-z]+, degree [0-9]+.*moon/.test(document.querySelector('[role=status]').textContent)",
+    )
     assert turns(shown) == held > 0
 
 

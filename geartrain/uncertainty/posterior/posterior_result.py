@@ -263,24 +263,9 @@ class ToothCountPosterior(Tabular, Result):
     """
 
     KEYS = (
-        Key("train", "name"),
-        "method",
-        "soft",
-        "combinations",
-        "looked",
-        "evidence",
-        "turning",
-        "fits",
-        "ranked",
-        "seed",
-        "ended",
-        "assumed",
-        "remarks",
-        Key("witnesses", "known"),
-        Key("wheels", "posteriors"),
-        Key("correlations", "correlated"),
-        "shares",
-        "best",
+        *(Key("train", "name"), "method", "soft", "combinations", "looked", "evidence", "turning", "fits", "ranked"),
+        *("seed", "ended", "assumed", "remarks", Key("witnesses", "known"), Key("wheels", "posteriors")),
+        *(Key("correlations", "correlated"), "shares", "best"),
     )
 
     name: str

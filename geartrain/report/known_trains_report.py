@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from geartrain.report.document import Section, Table, figure
-from geartrain.report.reconstruction_facts import many, share_text
+from geartrain.report.reconstruction_facts import many, ranks_text, share_text, teeth_text
 from geartrain.synthesis.reconstruction.known_rank import AdmittingQuestion, KnownRank, TrainPlace
 from geartrain.synthesis.reconstruction.telling_facts import GREATEST, LEAST, TellingFact, TellingFacts
 
@@ -78,8 +78,7 @@ def _said(fact: TellingFact) -> str:
 
 
 def _row(one: KnownRank) -> tuple[str, ...]:
-    wheels = ", ".join(f"{name} {teeth}" for name, teeth in one.wheels.items())
-    begins = one.train, f"{len(one.wheels)}: {wheels}" if one.wheels else "0", str(one.arbors)
+    begins = one.train, f"{len(one.wheels)}: {teeth_text(one.wheels)}" if one.wheels else "0", str(one.arbors)
     if one.broken:
         return (*begins, "none", "none", "", "")
     if one.place is None:
@@ -95,8 +94,7 @@ def _row(one: KnownRank) -> tuple[str, ...]:
 
 
 def _ranks(ranks: tuple[int, int], trains: int) -> str:
-    first, last = ranks
-    return f"{first if first == last else f'{first}-{last}'} of {trains}"
+    return f"{ranks_text(ranks)} of {trains}"
 
 
 def _times(place: TrainPlace) -> str:
@@ -116,8 +114,7 @@ def _granted(one: KnownRank) -> Iterator[str]:
 
 
 def _cost(changes: str, admitted: AdmittingQuestion) -> str:
-    wheels = ", ".join(f"{name} {teeth}" for name, teeth in admitted.wheels.items())
-    own = many(len(admitted.wheels), "wheel") + (f" ({wheels})" if wheels else "")
+    own = many(len(admitted.wheels), "wheel") + (f" ({teeth_text(admitted.wheels)})" if admitted.wheels else "")
     begins = f"Granted {changes}, it adds {own}"
     if admitted.refused is not None:
         return f"{begins}. Not asked: {admitted.refused}."

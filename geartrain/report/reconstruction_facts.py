@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from geartrain.report.document import Section, Table, cut, figure
 from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
@@ -47,6 +47,17 @@ def share_text(share: float) -> str:
 def many(count: int, noun: str) -> str:
     """`1 train`, `2 trains`."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def teeth_text(wheels: Mapping[str, int]) -> str:
+    """Wheels with their counts: `m1 96, n1 53`."""
+    return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
+
+
+def ranks_text(ranks: tuple[int, int]) -> str:
+    """`3`, or `1-4` of trains that weigh the same."""
+    first, last = ranks
+    return str(first) if first == last else f"{first}-{last}"
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:

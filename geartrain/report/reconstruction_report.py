@@ -15,8 +15,10 @@ from geartrain.report.reconstruction_facts import (
     many,
     missing_sections,
     next_section,
+    ranks_text,
     share_text,
     shared_sections,
+    teeth_text,
 )
 from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
 from geartrain.synthesis.reconstruction.base_link import BaseLink
@@ -239,8 +241,8 @@ def _best(found: ReconstructionReport, turning: int) -> Section:
     for one in found.best:
         shown = _rank(one)
         rank = SceneText(shown, one.rank) if one.rank <= turning else shown
-        added = _teeth(one.wheels) or "none"
-        rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), _teeth(one.doubtful)))
+        added = teeth_text(one.wheels) or "none"
+        rows.append((rank, share_text(one.weight), added, ", ".join(one.meshes), teeth_text(one.doubtful)))
     more = [f"{len(rows)} of {found.total}."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("In brackets the ranks that trains of one weight share.")
@@ -250,25 +252,22 @@ def _best(found: ReconstructionReport, turning: int) -> Section:
 
 def _drawn(found: ReconstructionReport) -> Section:
     rows = [
-        (str(one.rank), _rank_range(one), _teeth(one.wheels) or "none", ", ".join(one.meshes), _teeth(one.doubtful))
+        (
+            str(one.rank),
+            ranks_text(one.ranks),
+            teeth_text(one.wheels) or "none",
+            ", ".join(one.meshes),
+            teeth_text(one.doubtful),
+        )
         for one in found.drawn
     ]
     header = ("draw", "ranks", "added wheels", "meshes", "counts in doubt")
     return Section("Drawn", ["Each with the chance of its weight among all."], [filled_table(header, rows, 4)])
 
 
-def _rank_range(one: RankedTrain) -> str:
-    first, last = one.ranks
-    return str(first) if first == last else f"{first}-{last}"
-
-
 def _rank(one: RankedTrain) -> str:
     """The rank, with those of all that weigh the same."""
-    return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({_rank_range(one)})"
-
-
-def _teeth(wheels: dict[str, int]) -> str:
-    return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
+    return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
 
 
 def _speed(dial: SearchedDial) -> str:

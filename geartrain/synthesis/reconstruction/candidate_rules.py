@@ -13,10 +13,10 @@ from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_lik
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Arbor,
-    PlacedWheel,
     ReconstructionProblem,
     SearchedDial,
 )
+from geartrain.synthesis.reconstruction.ring_meshes import may_mesh
 
 Rule = Literal[
     "dial", "speed", "place", "wheel", "arbor", "count", "driven", "idler", "end", "ring", "teeth", "arbors", "beside",
@@ -219,7 +219,7 @@ def _of_meshes(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
         what = f"wheels of {said} mesh, which are on one axis"
         yield BrokenRule("coaxial", tuple(pair), what, f"without the fact that {said} are coaxial")
     for _, wheel, child in meshes:
-        if child.driven is not None and not _turns_inside(wheel, child.driven, problem.rings):
+        if child.driven is not None and not may_mesh(wheel, child.driven, problem.rings):
             what = f"{wheel.name or wheel.teeth} does not turn in {child.driven.name or child.driven.teeth}"
             yield BrokenRule("ring", (), what, None)
     if problem.geometry.reach is not None and not candidate_likelihood(candidate, problem.geometry):
@@ -229,8 +229,3 @@ def _of_meshes(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
 
 def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
     return frozenset((one, other))
-
-
-def _turns_inside(one: PlacedWheel, other: PlacedWheel, rings: frozenset[str]) -> bool:
-    inside, around = sorted((one, other), key=lambda wheel: wheel.name in rings)
-    return around.name not in rings or (inside.name not in rings and inside.teeth < around.teeth)

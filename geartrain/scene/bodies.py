@@ -91,8 +91,8 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
         drawn = "drawn as their first pairs have them" if of_first else "drawn as a likeness"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
-    for name, (_, flexible) in stage.train.declaration.wheels.items():
-        if flexible.flexible:
+    for name, (_, own) in stage.train.declaration.wheels.items():
+        if own.flexible:
             why = "a wave bends it into its ring on all sides of its lobes, and a picture moves it round whole"
             fix = "take speeds and torques from the train, and its bent form from docs/reducers.md"
             yield Problem(f"'{name}' is flexible, and drawn round", why, fix)

@@ -16,7 +16,7 @@ from geartrain.scene.stroke_letters import CurvedLine, Stroke, curved_text, text
 
 _CHORDS = 90  # of a turn
 _MARKS = 400  # divisions of a turn that are still drawn singly
-_SHORT, _LONG, _NAMES = 0.032, 0.05, 0.15  # borders of cells, at numerals, of names
+_SHORT, _LONG = 0.032, 0.05  # borders of cells; of those at numerals
 _TALL, _LEAST = 0.068, 0.03  # of letters
 _BAND = 0.1  # from a rim to the middle of what is written along it
 _FULL = 0.86  # of its part that a name may fill

@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from scipy.spatial import ConvexHull
 
 from geartrain.drawing.backend import Axes, Path, PolyCollection, Rectangle
-from geartrain.drawing.labels import Callout
+from geartrain.drawing.callouts import Callout
 from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels
 from geartrain.drawing.style import BLACK, FILL, FINE, GREY, ORANGE, RED, SHADE
 from geartrain.scene import SceneWheel
@@ -58,8 +58,8 @@ def oblique_callouts(standing: ProjectedScene, place: Place, wheels: Sequence[Sc
         hidden = np.any([path.contains_points(trials) for path in nearer], axis=0) if nearer else np.zeros(len(trials))
         seen = trials if hidden.all() else trials[hidden == 0]
         best = seen[int(np.argmax(np.round(np.abs(seen[:, 0] - middle), 6)))]
-        words = f"{wheel.id} {wheel.teeth}"
-        found.append(Callout(f"name {wheel.id}", words, (round(float(best[0]), 6), round(float(best[1]), 6))))
+        words = [(f"name {wheel.id}", f"{wheel.id} {wheel.teeth}")]
+        found.append(Callout(words, (round(float(best[0]), 6), round(float(best[1]), 6))))
     return found
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.drawing.labels import Box, Callout, LabelSpace, text_box
+from geartrain.drawing.callouts import Callout
+from geartrain.drawing.labels import Box, LabelSpace, text_box
 from geartrain.drawing.projection import ProjectedScene, arms_of
 from geartrain.drawing.style import FINE
 from geartrain.scene import SceneWheel
@@ -30,7 +31,7 @@ _HUB = 0.12  # inches that a hub keeps free
 def place_names(
     standing: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
 ) -> tuple[list[tuple[SceneWheel, Box]], list[Callout]]:
-    """Names that stand on their wheels, and those that a line must lead from.
+    """Names that stand on their wheels, and those that a line must lead from: one to all of an axis, from inside out.
 
     wheels   that face the reader, the nearest first
     at       inches of what is seen; `scale`, inches of a millimetre
@@ -49,11 +50,16 @@ def place_names(
         else:
             written.append((wheels[order], box))
     middle = float(centres[:, 0].mean()) if len(centres) else 0.0
-    callouts = []
+    axes: dict[tuple[float, ...], list[int]] = {}
     for order in rest:
-        wheel = wheels[order]
-        anchor = _anchor(wheel, centres[order], scale, (centres[:order], reach[:order]), middle)
-        callouts.append(Callout(f"name {wheel.id}", f"{wheel.id} {wheel.teeth}", anchor))
+        axes.setdefault(tuple(np.round(centres[order], 4).tolist()), []).append(order)
+    callouts = []
+    for order, *others in axes.values():
+        above = centres[:order], reach[:order]
+        spot = tuple(np.round(centres[order], 6).tolist())
+        anchor = spot if others else _anchor(wheels[order], centres[order], scale, above, middle)
+        listed = sorted((wheels[each] for each in (order, *others)), key=lambda each: (each.radius, each.id))
+        callouts.append(Callout([(f"name {each.id}", f"{each.id} {each.teeth}") for each in listed], anchor))
     return written, callouts
 
 

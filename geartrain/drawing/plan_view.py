@@ -13,7 +13,8 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Patch, Path, PathPatch, Polygon
-from geartrain.drawing.labels import Box, Callout, CalloutMargin, find_margin
+from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
+from geartrain.drawing.labels import Box
 from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side, oblique_callouts
 from geartrain.drawing.plan_labels import place_names
 from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels, project_scene
@@ -80,7 +81,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     _scale_bar(axes, plan.scale)
     _remark(page, scene, width)
     _write_above(axes, shifted, said)
-    handles = list(_legend(scene))
+    handles = list(_legend(scene, margin.has_lists))
     figure.legend(
         handles=handles,
         loc="lower right",
@@ -330,7 +331,7 @@ def _scale_bar(axes: Axes, scale: float) -> None:
     write(axes, 0.2 + length * scale / 2, y + 0.12, f"{length:g} mm", fontsize=FINE)
 
 
-def _legend(scene: Scene) -> Iterator[Line2D | Patch]:
+def _legend(scene: Scene, lists: bool) -> Iterator[Line2D | Patch]:
     yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
     if any(body.role == "carrier" for body in scene.bodies):
         yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")
@@ -338,3 +339,5 @@ def _legend(scene: Scene) -> Iterator[Line2D | Patch]:
         yield Line2D([], [], color=PURPLE, linewidth=5.5, label="slots and pins")
     if any(pair.broken for pair in scene.pairs):
         yield Patch(facecolor="white", edgecolor=RED, label="loop that does not close")
+    if lists:
+        yield Line2D([], [], color=GREY, linewidth=0.6, label="wheels of one axis, from inside out")

@@ -30,6 +30,7 @@ _TYPED: Mapping[str, Any] = {
     "seconds": float,
     "fps": int,
     "turntable": float,
+    "cutaway": bool,
 }  # else text
 
 
@@ -42,7 +43,7 @@ def with_shot(run: Callable[..., None]) -> Callable[..., None]:
             default=None,
             annotation=Annotated[
                 _TYPED.get(each.name, str) | None,
-                typer.Option(f"--{each.name}", help=each.metadata["help"]),
+                typer.Option(_flag(each.name), help=each.metadata["help"]),
             ],
         )
         for each in fields(Shot)
@@ -59,6 +60,10 @@ def with_shot(run: Callable[..., None]) -> Callable[..., None]:
     command.__annotations__ = {each.name: each.annotation for each in parameters}
     command.__doc__, command.__module__ = run.__doc__, run.__module__
     return command
+
+
+def _flag(name: str) -> str:
+    return f"--{name}/--no-{name}" if _TYPED.get(name) is bool else f"--{name}"
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,8 @@ def _prepare(sheet: Page, shot: Shot) -> None:
     if not sheet.evaluate("(colour) => CSS.supports('color', colour)", shot.background):
         why, fix = "CSS knows no such colour", "give one such as white, #f4f1ea or rgb(20 20 20)"
         raise QuestionError(Problem(f"'{shot.background}' is no background", why, fix))
-    wanted = {"look": shot.look, "background": shot.background, "apart": shot.apart, "turntable": bool(shot.turntable)}
+    wanted = {name: getattr(shot, name) for name in ("look", "background", "apart", "cutaway")}
+    wanted["turntable"] = bool(shot.turntable)
     sheet.evaluate("(wanted) => geartrain.film.set(wanted)", wanted)
 
 

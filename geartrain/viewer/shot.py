@@ -47,6 +47,8 @@ class Shot:
         Pictures a second.
     turntable : float
         Turns of the camera about the train, while the film lasts.
+    cutaway : bool, optional
+        Whether a quarter is cut out of rings, drums and plates; default where rings stand before each other.
     teeth : bool
         False draws plain discs.
 
@@ -74,6 +76,10 @@ class Shot:
     )
     fps: int = field(default=25, metadata={"help": "Pictures a second of a film."})
     turntable: float = field(default=0.0, metadata={"help": "Turns of the camera about the train in a film."})
+    cutaway: bool | None = field(
+        default=None,
+        metadata={"help": "Rings, drums and plates of a picture or film cut open; default where rings hide stages."},
+    )
     teeth: bool = True
 
     def __post_init__(self) -> None:

@@ -6,7 +6,7 @@ export { SERIES as NEEDLES } from "./series.js";
 export const BROKEN = "#c2281d";
 export const CHOSEN = "#1f6feb";
 export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
-export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };
+export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d", section: "#c96f5a" };
 export const STATUS = { surviving: "#4f8a6d", reconstructed: "#c9973f", hypothetical: "#8f7fb8", "": "#9aa3ad" };
 
 const mix = (one, other, share) =>

@@ -3,7 +3,9 @@
 // Each corner knows its body and its slot; where the body stands and what the slot looks like are read from two small
 // textures, so that a train, however many parts it has, is drawn in one call.
 
-import { DataTexture, DoubleSide, FloatType, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
+import { Color, DataTexture, DoubleSide, FloatType, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
+
+import { PARTS } from "./colours.js";
 
 export const WIDTH = 256; // texels of the poses' texture, four a body
 
@@ -23,17 +25,30 @@ in float lift;
 out vec3 facing, brushed, seen;
 out vec4 paint;
 out float gloss, deep;
+#ifdef CUT
+uniform vec3 edge, right, up;
+out vec3 quarter;
+flat out vec2 reader;
+#endif
 vec4 pose(int at) { return texelFetch(poses, ivec2(at % ${WIDTH}, at / ${WIDTH}), 0); }
 void main() {
   int slot = 2 * int(place.y + 0.5);
   ivec2 at = ivec2(slot % 256, slot / 256);
   paint = texelFetch(palette, at, 0);
   if (paint.a < 0.004 || (paint.a < 0.99) != ghosts) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
-  gloss = texelFetch(palette, at + ivec2(1, 0), 0).r;
+  vec2 kind = texelFetch(palette, at + ivec2(1, 0), 0).rg;
+  gloss = kind.r;
   int body = 4 * int(place.x + 0.5);
   mat4 model = mat4(pose(body), pose(body + 1), pose(body + 2), pose(body + 3));
   mat4 stands = viewMatrix * model;
-  vec4 eye = stands * vec4(position + axis * (share * lift), 1.0);
+  vec4 place_now = vec4(position + axis * (share * lift), 1.0);
+  vec4 eye = stands * place_now;
+#ifdef CUT
+  vec3 off = (model * place_now).xyz - edge;
+  quarter = vec3(dot(off, right), dot(off, up), kind.g);
+  vec3 from = -(transpose(mat3(viewMatrix)) * viewMatrix[3].xyz) - edge;
+  reader = vec2(dot(from, right), dot(from, up));
+#endif
   seen = eye.xyz;
   facing = mat3(stands) * normal;
   brushed = mat3(stands) * grain;
@@ -47,6 +62,17 @@ uniform float size;
 in vec3 facing, brushed, seen;
 in vec4 paint;
 in float gloss, deep;
+#ifdef CUT
+in vec3 quarter;
+flat in vec2 reader;
+uniform vec3 section;
+// whether the way from the reader to a point leads through the quarter
+bool through(vec2 a, vec2 b) {
+  vec2 at = a / (a - b); // where it goes in or out, as a part of the way
+  vec2 low = mix(vec2(0.0), at, lessThanEqual(a, vec2(0.0))), high = mix(vec2(1.0), at, lessThanEqual(b, vec2(0.0)));
+  return all(greaterThan(max(a, b), vec2(0.0))) && max(low.x, low.y) < min(high.x, high.y);
+}
+#endif
 out vec4 colour;
 const vec3 KEY = vec3(-0.45, 0.68, 0.58), FILL = vec3(0.75, 0.1, 0.65);
 // squares in a row are cheaper than powers, and a picture has a million points
@@ -70,6 +96,12 @@ float room(vec3 r) {
 void main() {
   vec3 v = normalize(-seen);
   vec3 n = normalize(facing);
+#ifdef CUT
+  // one who looks into a body sees its inside where it is cut: as much of the picture as the face of the cut has
+  bool inside = quarter.z > 0.5 && paint.a > 0.99 && dot(n, v) < -0.1 && through(reader, quarter.xy);
+  if (quarter.z > 0.5 && quarter.x > 0.0 && quarter.y > 0.0) discard;
+  if (inside) { colour = vec4(sqrt(section * clamp(1.0 + 0.62 * deep / size, 0.62, 1.1)), paint.a); return; }
+#endif
   if (dot(n, v) < 0.0) n = -n;
   vec3 own = paint.rgb * paint.rgb;
   float lit = 0.30 + 0.16 * n.y + 0.62 * max(dot(n, KEY), 0.0) + 0.22 * max(dot(n, FILL), 0.0);
@@ -87,8 +119,8 @@ void main() {
   colour = vec4(sqrt(light), paint.a);
 }`;
 
-/** What draws all that is seen, and what is half seen over it: `poses` of `count` bodies, and where their layers lie. */
-export function metals(count, main, middle, size) {
+/** What draws all that is seen, and what is half seen over it: `poses` of `count` bodies, and where their layers lie; `quarter`, what can be cut out. */
+export function metals(count, main, middle, size, quarter) {
   const rows = Math.max(1, Math.ceil((4 * count) / WIDTH));
   const poses = new DataTexture(new Float32Array(4 * WIDTH * rows), WIDTH, rows, RGBAFormat, FloatType);
   poses.minFilter = poses.magFilter = NearestFilter;
@@ -99,10 +131,20 @@ export function metals(count, main, middle, size) {
     middle: { value: middle },
     share: { value: 0 },
     size: { value: size },
+    ...(quarter && { edge: { value: quarter.at }, right: { value: quarter.right }, up: { value: quarter.up }, section: { value: new Color(PARTS.section) } }),
   };
   return [false, true].map((ghosts) => {
     const uniforms = { ...shared, ghosts: { value: ghosts } };
-    const about = { glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, side: DoubleSide };
+    const about = { defines: {}, glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, side: DoubleSide };
     return new RawShaderMaterial({ ...about, uniforms, transparent: ghosts, depthWrite: !ghosts });
   });
+}
+
+/** From now on cut open, or whole. */
+export function cutOpen(materials, opened) {
+  for (const material of materials) {
+    if (opened === "CUT" in material.defines) continue;
+    material.defines = opened ? { CUT: "" } : {};
+    material.needsUpdate = true;
+  }
 }

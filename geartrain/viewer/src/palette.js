@@ -9,9 +9,9 @@ export class Palette {
     this.looks = [];
   }
 
-  /** A slot for something new. colour as text; gloss from 0, matt, to 1, polished */
-  slot(colour, gloss) {
-    this.looks.push({ colour: new Color(colour), gloss, opacity: 1, shown: true });
+  /** A slot for something new. colour as text; gloss from 0, matt, to 1, polished; opened, where a train is cut open */
+  slot(colour, gloss, opened = false) {
+    this.looks.push({ colour: new Color(colour), gloss, opened, opacity: 1, shown: true });
     this.dispose();
     return this.looks.length - 1;
   }
@@ -27,7 +27,7 @@ export class Palette {
     return slots.some((slot) => this.looks[slot].shown && this.looks[slot].opacity < 1);
   }
 
-  /** Two texels a slot: colour and opacity (0 where it is hidden), then gloss. */
+  /** Two texels a slot: colour and opacity (0 where it is hidden), then gloss and whether it is cut open. */
   refresh() {
     const height = Math.max(1, Math.ceil((2 * this.looks.length) / WIDTH));
     if (!this.texture) {
@@ -35,10 +35,10 @@ export class Palette {
       this.texture.minFilter = this.texture.magFilter = NearestFilter;
     } else if (!this.stale) return this.texture;
     const { data } = this.texture.image;
-    this.looks.forEach(({ colour, gloss, opacity, shown }, slot) => {
+    this.looks.forEach(({ colour, gloss, opened, opacity, shown }, slot) => {
       // roots of linear light, which keep the dark colours apart in eight bits
       const [r, g, b] = [colour.r, colour.g, colour.b].map((part) => 255 * Math.sqrt(part));
-      data.set([r, g, b, shown ? 255 * opacity : 0, 255 * gloss], 8 * slot);
+      data.set([r, g, b, shown ? 255 * opacity : 0, 255 * gloss, 255 * opened], 8 * slot);
     });
     this.texture.needsUpdate = true;
     this.stale = false;

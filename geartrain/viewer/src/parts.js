@@ -3,6 +3,7 @@
 import { ShapeUtils, Vector2 } from "three";
 
 import { PARTS } from "./colours.js";
+import { isOpened } from "./cutaway.js";
 import { Shape, swept } from "./shape.js";
 import { along, frameAt, isParallel, offAxis, vector } from "./space.js";
 
@@ -22,7 +23,7 @@ export function builtParts(scene, main) {
     const shape = flat ? flatShape(part) : turnedShape(part.bands);
     // what stands along the way layers move is stretched when they do
     const at = upright && !flat ? null : vector(place);
-    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, middle: kind === "frame" ? between : null };
+    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, middle: kind === "frame" ? between : null, opened: isOpened(scene, part) };
   });
 }
 

@@ -14,11 +14,12 @@ export class Film {
     stage.resize();
   }
 
-  /** look, background and apart as the page has them; with `turntable` the camera stands far enough off for a turn. */
-  set({ look, background, apart, turntable }) {
+  /** look, background, apart and cutaway as the page has them, null as it is; with `turntable` the camera stands far enough off for a turn. */
+  set({ look, background, apart, cutaway, turntable }) {
     const { stage } = this;
     stage.theme({ background: plain(background) });
     stage.explode(apart);
+    if (typeof cutaway === "boolean") stage.cutOpen(cutaway);
     stage.look(look);
     this.home = here(stage);
     if (turntable) this.home = allRound(stage, this.home);

@@ -41,13 +41,14 @@ export function blankOf(wheel, apex) {
 /** The tooth between its profile and `base` (over the pitch radius), on a blank. */
 export function toothShape(points, base, at, fine = FINE) {
   const ring = base > Math.max(...points.map(([radius]) => radius));
-  const edge = simplify(points, fine, ring ? -1 : 1);
-  const shape = flanks(new Shape(), edge, at);
+  const side = ring ? -1 : 1; // a ring's outline has its metal on the other side
+  const edge = simplify(points, fine, side);
+  const shape = flanks(new Shape(), edge, at, side);
   for (const end of [0, 1]) {
     for (let n = 1; n < edge.length; n += 1) {
       const [[r0, t0], [r1, t1]] = [edge[n - 1], edge[n]];
       const corners = [at(base, t0, end), at(base, t1, end), at(r1, t1, end), at(r0, t0, end)];
-      shape.face(corners, facing(corners), [t0, t1, t1, t0].map((t) => [-Math.sin(t), Math.cos(t), 0]));
+      shape.face(corners, facing(corners, end ? -side : side), [t0, t1, t1, t0].map((t) => [-Math.sin(t), Math.cos(t), 0]));
     }
   }
   return shape;
@@ -57,11 +58,11 @@ export function toothShape(points, base, at, fine = FINE) {
 export const pinShape = (points, at) => flanks(new Shape(), simplify([...points, points[0]]), at);
 
 /** What lies between the two faces; edges slighter than a third of a right angle are rounded. */
-function flanks(shape, edge, at) {
+function flanks(shape, edge, at, side = 1) {
   const sides = edge.slice(1).map(([r1, t1], n) => {
     const [r0, t0] = edge[n];
     const corners = [at(r0, t0, 0), at(r1, t1, 0), at(r1, t1, 1), at(r0, t0, 1)];
-    return { corners, normal: facing(corners) };
+    return { corners, normal: facing(corners, side) };
   });
   const joined = (a, b) => (b && dot(a, b) > 0.87 ? unit([0, 1, 2].map((k) => a[k] + b[k])) : a);
   sides.forEach(({ corners, normal }, n) => {
@@ -80,10 +81,10 @@ const unit = (a) => {
   return a.map((value) => value / size);
 };
 
-/** The way four corners face. */
-function facing([a, b, c, d]) {
+/** The way four corners face, or against it. */
+function facing([a, b, c, d], way = 1) {
   const [p, q] = [[0, 1, 2].map((k) => c[k] - a[k]), [0, 1, 2].map((k) => d[k] - b[k])];
-  return unit([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]);
+  return unit([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]].map((part) => way * part));
 }
 
 /**

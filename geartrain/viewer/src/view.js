@@ -11,6 +11,7 @@ import { World } from "./world.js";
 
 const FIELD = 26; // degrees
 const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: [0.36, 0.3, 0.88] };
+const INTO = [0.62, 0.46, 0.64]; // slantwise into a train that is cut open
 const MARGIN = 1.05;
 
 export class Stage {
@@ -25,6 +26,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
     this.renderer.debug.checkShaderErrors = false; // asking would wait for the GPU
     this.world = new World(machine);
+    this.world.cutOpen(options.cutaway ?? Boolean(this.world.quarter?.hides));
     this.toothed = options.teeth !== false;
     this.setting = new Scene();
     this.setting.matrixAutoUpdate = false;
@@ -90,6 +92,17 @@ export class Stage {
     this.change(() => this.world.looks.showTeeth(shown && Boolean(this.world.cut)));
   }
 
+  /** Whether there are rings to cut open. */
+  get canOpen() {
+    return Boolean(this.world.quarter);
+  }
+
+  /** With a quarter of rings, drums and plates cut out, or whole; what is looked at slantwise is then looked into. */
+  cutOpen(opened) {
+    this.change(() => this.world.cutOpen(opened));
+    if (this.from === "free") this.look("free");
+  }
+
   /** From now on with teeth, if they are wanted: the most of the work, left until the rest is seen. */
   cut() {
     if (this.disposed) return;
@@ -109,7 +122,7 @@ export class Stage {
   /** Another machine of the same train, in the same picture. */
   rebuild(machine) {
     if (this.disposed) return;
-    const { share } = this.world.poses;
+    const { opened, poses: { share } } = this.world;
     const { chosen, selected } = this.world.looks;
     this.setting.remove(this.world.root);
     this.world.dispose();
@@ -117,6 +130,7 @@ export class Stage {
     this.world = new World(machine);
     this.setting.add(this.world.root);
     this.world.explode(share);
+    this.world.cutOpen(opened);
     this.showTeeth(this.toothed);
     Object.assign(this.world.looks, { chosen, selected });
     this.turned = true;
@@ -125,7 +139,7 @@ export class Stage {
 
   /** The camera to the front, the back, a side, or slantwise; the whole train in the picture. */
   look(from) {
-    const [x, y, z] = LOOKS[from] ?? LOOKS.free;
+    const [x, y, z] = LOOKS[from] && from !== "free" ? LOOKS[from] : this.world.opened ? INTO : LOOKS.free;
     const front = this.machine.scene.front || 1;
     this.from = from;
     this.fit(vector([x * front, y, z * front]).normalize());

@@ -20,7 +20,7 @@ export class WheelPart {
     Object.assign(this, { scene, index, wheel, size, palette });
     this.at = vector(wheel.centre);
     this.matrix = frameAt(wheel.centre, wheel.direction, wheel.reference, wheel.turn);
-    [this.own, this.toothed, this.smooth] = [0, 1, 2].map(() => palette.slot("#ffffff", GLOSS));
+    [this.own, this.toothed, this.smooth] = [0, 1, 2].map(() => palette.slot("#ffffff", GLOSS, wheel.kind === "ring"));
     this.profile = scene.profiles[wheel.profile];
     this.apex = apexSide(scene, index);
     this.surface = blankOf(alongThread(scene, index), this.apex);

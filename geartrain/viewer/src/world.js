@@ -3,12 +3,13 @@
 import { barBetween, hubs, spans, supports } from "./arbors.js";
 import { Casting } from "./casting.js";
 import { PARTS } from "./colours.js";
+import { holds, quarterOf } from "./cutaway.js";
 import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
 import { dialParts, pointerParts } from "./faces.js";
 import { Ground } from "./ground.js";
 import { couplingParts, crankOf } from "./joints.js";
 import { Looks } from "./looks.js";
-import { metals } from "./metal.js";
+import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
 import { builtParts, cornersOf, rodsOf } from "./parts.js";
 import { Poses } from "./poses.js";
@@ -28,7 +29,8 @@ export class World {
     this.root = this.poses.root;
     this.nodes = this.poses.nodes;
     this.palette = new Palette();
-    this.materials = metals(this.nodes.length, this.main, this.ball.center, this.size);
+    this.quarter = quarterOf(this.scene, this.size);
+    this.materials = metals(this.nodes.length, this.main, this.ball.center, this.size, this.quarter);
     this.uniforms = this.materials[0].uniforms;
     this.castings = [new Casting(), new Casting(), new Casting()]; // teeth come later, when the rest is seen; covers
     this.parts = [];
@@ -105,8 +107,8 @@ export class World {
     return crank;
   }
 
-  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, middle }) {
-    const slot = this.palette.slot(colour, gloss);
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, middle, opened }) {
+    const slot = this.palette.slot(colour, gloss, opened);
     this.castings[cover ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
     this.parts.push({ slot, body, at, dial, plate, cover, middle });
   }
@@ -129,6 +131,12 @@ export class World {
     this.poses.turn(value.image.data);
     value.needsUpdate = true;
     this.sparks?.set(this.machine.time());
+  }
+
+  /** With a quarter of rings, drums and plates cut out, or whole. */
+  cutOpen(opened) {
+    this.opened = opened && Boolean(this.quarter);
+    cutOpen(this.materials, this.opened);
   }
 
   /** Layers apart: 0 as they stand, 1 fully. */
@@ -163,10 +171,11 @@ export class World {
     const seenBy = (body) => (rays[body] ??= ray.clone().applyMatrix4(this.nodes[body].matrixWorld.clone().invert()));
     const shift = (lift) => this.main.clone().multiplyScalar(this.poses.share * lift);
     const glass = new Set(this.looks.glass?.map((part) => part.slot)); // one taps through it
+    const gone = (slot, distance) => this.opened && this.palette.looks[slot].opened && holds(this.quarter, ray.at(distance, vector([0, 0, 0])));
     let [nearest, slot] = [Infinity, null];
     for (const casting of this.castings) {
       for (const [distance, part] of casting.met(seenBy, shift)) {
-        if (distance < nearest && this.palette.looks[part.slot].shown && !glass.has(part.slot)) [nearest, slot] = [distance, part.slot];
+        if (distance < nearest && this.palette.looks[part.slot].shown && !glass.has(part.slot) && !gone(part.slot, distance)) [nearest, slot] = [distance, part.slot];
       }
     }
     const wheel = this.wheels.findIndex((part) => part.slots.includes(slot));

@@ -32,6 +32,11 @@ export class Tools {
       type: "checkbox",
       onchange: () => this.#each((stage) => stage.showTeeth(this.teeth.checked)),
     });
+    this.open = el("input", {
+      type: "checkbox",
+      onchange: () => this.#cut((this.wanted = this.open.checked)),
+    });
+    this.opening = field("Cut open", this.open, { class: "field tick" });
     this.teeth.checked = options?.teeth !== false;
     const tools = el(
       "div",
@@ -41,6 +46,7 @@ export class Tools {
       field("Apart", this.apart),
       field("Hide front", this.front, { class: "field tick" }),
       field("Teeth", this.teeth, { class: "field tick" }),
+      this.opening,
       el("button", { type: "button", class: "save", onclick: () => savePicture(this.sides) }, "Save picture"),
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), tools);
@@ -53,11 +59,15 @@ export class Tools {
   /** The sides now shown; the picture is brought to what the controls say. */
   use(sides) {
     this.sides = sides;
+    const stages = sides.flatMap(({ stage }) => stage ?? []);
+    this.opening.hidden = !stages.some((stage) => stage.canOpen);
+    this.open.checked = this.wanted ?? stages.some((stage) => stage.world?.opened);
     this.#each((stage) => {
       stage.onOrbit = () => this.#press(null);
       stage.hideFront(this.front.checked);
       stage.showTeeth(this.teeth.checked);
     });
+    if (this.wanted !== undefined) this.#cut(this.wanted);
     this.#explode();
     this.look(this.looking);
     this.paint(this.mode);
@@ -81,6 +91,10 @@ export class Tools {
     for (const side of this.sides) {
       if (side.stage) act(side.stage);
     }
+  }
+
+  #cut(opened) {
+    this.#each((stage) => stage.cutOpen?.(opened));
   }
 
   #explode() {

@@ -1,0 +1,70 @@
+"""A train cut open: where rings hide stages a quarter of them is not drawn, and all else stays as it is."""
+
+from __future__ import annotations
+
+import io
+from base64 import b64decode
+
+import numpy as np
+import pytest
+from PIL import Image
+from viewing import SIMPLE, Opening, wait
+
+TWO_RINGS = "wolfrom-175"
+PICTURE = """() => {
+  const [stage] = geartrain.stages;
+  stage.render();
+  return stage.canvas.toDataURL('image/png');
+}"""
+# the wheel that is met first along the axis of most rings, at a radius and an angle from the right, both as given
+MET = """([radius, degrees]) => {
+  const [stage] = geartrain.stages, [scene] = geartrain.scenes, {world, camera} = stage;
+  const Vector = camera.position.constructor, angle = degrees * Math.PI / 180;
+  const towards = new Vector(0, 0, scene.front);
+  const [x, y] = [scene.front * radius * Math.cos(angle), radius * Math.sin(angle)];
+  const origin = new Vector(x, y, 0).addScaledVector(towards, 1e3);
+  const met = world.pick(Object.assign(stage.hands.ray.ray.clone(), {origin, direction: towards.clone().negate()}));
+  return met === null ? null : scene.wheels[met].id;
+}"""
+
+
+def picture(data: str) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(b64decode(data.partition(",")[2]))).convert("RGB"), dtype=int)
+
+
+@pytest.mark.parametrize(("name", "opened"), [(TWO_RINGS, True), (SIMPLE, False)])
+def test_rings_before_each_other_are_cut_open_and_a_lone_one_is_whole(show: Opening, name: str, opened: bool) -> None:
+    shown = show(name)
+    assert shown.page.get_by_label("Cut open").is_checked() is opened
+    assert shown.run("geartrain.stages[0].world.opened") is opened
+
+
+def test_a_train_without_rings_cannot_be_cut_open(show: Opening) -> None:
+    assert not show("worm").page.get_by_label("Cut open").is_visible()
+
+
+def test_what_is_cut_out_lies_in_the_quarter_and_one_taps_through_it(show: Opening) -> None:
+    shown = show(TWO_RINGS)
+    shown.page.get_by_label("Teeth").check()
+    wait(shown, "geartrain.stages[0].world.cut")
+    shown.page.get_by_role("button", name="Front", exact=True).click()
+    ring = shown.run("geartrain.scenes[0].wheels.find(({kind}) => kind === 'ring')")
+    beyond = (ring["radius"] + ring["root"]) / 2 + 0.3 * ring["module"]
+    met = [shown.run(MET, [beyond, degrees]) for degrees in (45, 135, 225, 315)]
+    assert met[0] is None
+    assert None not in met[1:]
+    cut = picture(shown.run(PICTURE))
+    shown.page.get_by_label("Cut open").uncheck()
+    assert shown.run(MET, [beyond, 45]) is not None
+    whole = picture(shown.run(PICTURE))
+    changed = np.abs(cut - whole).sum(axis=2) > 90
+    axis = shown.run(
+        "(([{camera, world}]) => world.quarter.at.clone().project(camera).toArray().slice(0, 2))(geartrain.stages)"
+    )
+    high, wide = changed.shape
+    column, row = (1 + axis[0]) / 2 * wide, (1 - axis[1]) / 2 * high
+    margin = 0.04 * high  # planes along the line of sight are seen from a point
+    rows, columns = np.nonzero(changed)
+    assert 0.02 < changed.mean() < 0.25
+    assert columns.min() > column - margin
+    assert rows.max() < row + margin

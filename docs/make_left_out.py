@@ -58,14 +58,20 @@ combined with all of the other.
 - The rank is that by weight, with the factors that evidence has by default. Explanations with equally many added
 wheels and arbors weigh the same, so that a rank mostly is a range. Classes do not tell apart what drives what.
 
-## What is asked of the rest
+## What else is asked
 
-A question may take too long. Then two smaller ones are asked, of one and of two arbors alike.
+A question may have too many explanations to count in a minute. So smaller ones are asked too, of one and of two arbors
+alike.
 
-- *Is the train found?* The meshes of all wheels that survive are told (`--seen`), and no more arbors may be added than
-are lost. What is found so explains the question without this too, so the train is among its explanations. It is less
-of a trial, for the search has less to choose from, and is always that by lists of paths: it shows that the lost wheels
-are found, not that the meshes are.
+- *Is the train found?* Where all explanations are listed, it is one of them (`listed`). Else the search is followed to
+it: the lists of paths are made with those ways alone that the train takes, and paths are chosen and put together to
+trees by the search itself. Whatever it rules out on the way, for all the reasons that it has, it would rule out here
+too. What the train does not need is not looked for, and counts are held against what is wanted, not counted
+(`followed`). Nothing but the evidence is told, and where whole trees are searched, this still is by lists of paths.
+
+- *How does it rank where meshes are told?* The meshes of all wheels that survive are told (`--seen`), and no more
+arbors may be added than are lost. So only what is lost is looked for, as where a mechanism lacks some of its arbors and
+the rest stands.
 
 - *Does anything weigh more?* An explanation that weighs more has fewer wheels than were lost, or as many and fewer
 added arbors. All with fewer wheels are asked for; and all with as many wheels on fewer arbors, unless the pointers that
@@ -77,12 +83,14 @@ take all explanations that weigh the same.
 
 FOUND = """
 There are {possible} such questions in {parts} parts of {trains} trains. {whole} were asked to the end. The train itself
-was found in {found} of these{lost}; {many} have too many explanations to list. Of the others it was found in {seen}
-where the meshes of what survives were told. So it was found in {every} questions, and missed in {missed}; {open} are
-open, for what was asked of them did not end in the time that it had, or is still to be asked (`--more`).
+was found in {found} of these{lost}; {many} have too many explanations to list. Followed along its own paths, the search
+comes to the train in {reached}. So it was found in {every} questions, and missed in {missed}; {open} are open.
 
-Its first rank is known in {ranked}. In {first} nothing weighs more than the train, and in {alone} it is known to be the
-only one of the greatest weight. {more} have explanations with fewer wheels than were lost.
+Where nothing but the surviving wheels and the pointers is told, its first rank is known in {ranked} questions. In
+{first} nothing weighs more than the train, and in {alone} it is known to be the only one of the greatest weight. {more}
+have explanations with fewer wheels than were lost. Where the meshes of what survives are told too, its rank is known in
+{told}: in {best} nothing weighs more, and in {only} it is the only one of the greatest weight. What is open did not end
+in the time that it had, or is still to be asked (`--more`).
 
 Of the questions that were not asked to the end {slow} are of parts in which paths are listed one by one, and {fast} of
 parts whose whole trees are searched, which is faster: it takes up to six dials of exact speeds and neither idlers nor
@@ -101,7 +109,7 @@ def page(records: LeftOutRecords) -> list[str]:
     """The page, part by part."""
     ranks = [row.rank for row in records.whole if row.rank is not None]
     lost = "; not: " + ", ".join(f"{row.train} without {' and '.join(row.lost)}" for row in records.lost)
-    seen = sum(row.rank is None and bool(row.seen) for row in records.rows)
+    told = [row.told for row in records.rows if row.told is not None]
     many = sum(row.is_whole and not row.listed and row.rank is None for row in records.rows)
     slower = {(tree.train, tree.part) for tree in records.trees if tree.slower}
     rest = [(row.train, row.part) in slower for row in records.rows if not row.is_whole]
@@ -114,12 +122,15 @@ def page(records: LeftOutRecords) -> list[str]:
         "whole": len(records.whole),
         "found": len(ranks),
         "many": many,
-        "seen": seen,
-        "open": len(records.rows) - len(ranks) - seen - many - len(records.lost),
-        "every": len(ranks) + seen,
+        "reached": sum(bool(row.reached) for row in records.rows),
+        "open": records.possible - sum(row.is_found for row in records.rows) - len(records.lost),
+        "every": sum(row.is_found for row in records.rows),
         "missed": len(records.lost),
         "ranked": sum(row.first is not None for row in records.rows),
         "first": sum(row.first == 1 for row in records.rows),
+        "told": len(told),
+        "best": sum(rank[0] == 1 for rank in told),
+        "only": sum(rank[1] == 1 for rank in told),
         "alone": sum(rank[1] == 1 for rank in ranks),
         "more": sum(row.least is not None and row.least < row.added for row in records.rows),
     }

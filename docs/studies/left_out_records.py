@@ -73,9 +73,10 @@ class LeftOutRecord:
     seconds      for all with up to `added` wheels; None where that was not finished
     note         why not
     part         of the train, as of a tree
-    seen         of a question that was not finished: whether the train was found where the meshes of what survives were
-                 seen; None where that was not finished or not asked
-    better       of such a question: how many explanations weigh more; None where that is not known
+    reached      whether the search comes to the train, followed along its own paths; None where that was not asked
+    told         first and last rank of the train where the meshes of what survives are told; None where that was not
+                 finished or not asked
+    better       of a question that was not finished: how many explanations weigh more; None where that is not known
     """
 
     train: str
@@ -88,13 +89,14 @@ class LeftOutRecord:
     seconds: float | None
     note: str = ""
     part: str = ""
-    seen: bool | None = None
+    reached: bool | None = None
+    told: Sequence[int] | None = None
     better: int | None = None
 
     @property
     def is_found(self) -> bool:
         """Whether the train is known to be among the explanations."""
-        return self.rank is not None or bool(self.seen)
+        return self.rank is not None or bool(self.reached)
 
     @property
     def first(self) -> int | None:
@@ -136,7 +138,7 @@ class LeftOutRecords(StudyRecords):
     @property
     def lost(self) -> list[LeftOutRecord]:
         """Answers that lack the train itself: there must be none."""
-        return [row for row in self.rows if (row.is_whole and row.listed and row.rank is None) or row.seen is False]
+        return [row for row in self.rows if (row.is_whole and row.listed and row.rank is None) or row.reached is False]
 
     def tables(self) -> list[str]:
         """A summary, how much of each train is asked, every question, and the trains that are not asked."""
@@ -179,11 +181,11 @@ def _found(row: LeftOutRecord) -> str:
 
 
 def _was_found(row: LeftOutRecord) -> str:
+    if row.is_whole and row.listed and row.rank is None:
+        return "no"
     if row.is_found:
-        return "yes" if row.rank is not None else "with meshes seen"
-    if row.is_whole:
-        return "no" if row.listed else "too many"
-    return "open" if row.seen is None else "no"
+        return "listed" if row.rank is not None else "followed"
+    return "open" if row.reached is None else "no"
 
 
 def _own(row: LeftOutRecord) -> str:
@@ -198,6 +200,9 @@ _COLUMNS: dict[str, Callable[[LeftOutRecord], str]] = {
     "train found": _was_found,
     "first rank": lambda row: number_text(row.first, ",") if row.first else "open",
     "last rank": lambda row: number_text(row.rank[1], ",") if row.rank else "open",
+    "with meshes told": lambda row: (
+        " to ".join(f"{rank:,}" for rank in dict.fromkeys(row.told)) if row.told else "open"
+    ),
     "time": lambda row: row.note or seconds_text(row.seconds),
 }
 _SUMMARY: dict[str, Callable[[_TreeRows], str]] = {
@@ -211,6 +216,8 @@ _SUMMARY: dict[str, Callable[[_TreeRows], str]] = {
     "train found": lambda one: str(sum(row.is_found for row in one.rows)),
     "first rank known": lambda one: str(sum(row.first is not None for row in one.rows)),
     "it is 1": lambda one: str(sum(row.first == 1 for row in one.rows)),
+    "known with meshes told": lambda one: str(sum(row.told is not None for row in one.rows)),
+    "it is 1 there": lambda one: str(sum(row.told is not None and row.told[0] == 1 for row in one.rows)),
     "alone of its weight, first": lambda one: str(sum(row.rank is not None and row.rank[1] == 1 for row in one.whole)),
     "greatest last rank": lambda one: f"{max((row.rank[1] for row in one.whole if row.rank), default=0):,}",
 }

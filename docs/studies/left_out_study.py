@@ -1,16 +1,16 @@
 """Every shipped train without each arbor, and without each two: what explains the rest, and the train's rank in it.
 
 A question is asked in a process of its own that has so much time and memory; finished ones are kept in a journal, so
-that a run that is stopped is taken up where it was. Two arbors are asked to the end where each alone was. Of all that
-was not finished two questions are asked that are smaller: is the train found where meshes were seen, and does anything
-weigh more?
+that a run that is stopped is taken up where it was. Two arbors are asked to the end where each alone was. Of each
+question it is also asked whether the search comes to the train, and how the train ranks where meshes were seen; and of
+those that were not finished, whether anything weighs more.
 """
 
 from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from fractions import Fraction
 from functools import partial
@@ -23,7 +23,15 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.synthesis.reconstruction.candidate_prior import prior
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.lost_arbors import is_all_listed, lost_evidence, lost_wheels, rank_of
+from geartrain.synthesis.reconstruction.followed_train import is_reached
+from geartrain.synthesis.reconstruction.known_rank import find_place
+from geartrain.synthesis.reconstruction.lost_arbors import (
+    is_all_listed,
+    lost_arbors,
+    lost_evidence,
+    lost_wheels,
+    rank_of,
+)
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.synthesis.reconstruction.sameness import mechanism
@@ -37,11 +45,13 @@ from studies.measurement import gathered
 LIMIT = 60.0
 """Processor seconds for a question."""
 SHORT = 5.0
-"""Processor seconds for each of the two questions that are asked of what was not finished."""
+"""Processor seconds for the rank where meshes are told, and for what weighs more."""
 LISTED = 20_000
 """Explanations among which a train is looked for."""
 TITLE = "Trains found again"
 QUICK = ("vitruvius-hodometer", "watch-going-train", "isfahan-astrolabe-1221", "four-gear-loop")
+_LESS = ("reached", "told", "better")
+"""What is asked beside a question itself; the last only where that was not finished."""
 _SAME = "the same parts"
 _MEMORY = 4.0  # GB for a question
 Part = tuple[str, str]
@@ -92,7 +102,9 @@ def more_left_out(
     # the sooner the fewer wheels are lost, and where lists are short: those of exact dials
     quick = {part: "tolerances" not in _slower(tree) for part, tree in trees.items()}
     waiting.sort(key=lambda each: (not quick[each[0]], lost_wheels(trees[each[0]], each[1]), len(each[1])))
-    for step in (_add_new, _add_known, partial(_add_less, "seen"), partial(_add_less, "better")):
+    steps: list[Callable[[Rows, SpurTree, Question, float, float], None]]
+    steps = [_add_new, _add_known, *(partial(_add_less, what) for what in _LESS)]
+    for step in steps:
         for part, lost in waiting:
             if monotonic() > end:
                 break
@@ -124,7 +136,7 @@ def _add_known(known: Rows, tree: SpurTree, key: Question, limit: float, short: 
 def _add_less(what: str, known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
     """Ask less of what was not finished."""
     row = known.get(key)
-    if row is not None and not row.is_whole and getattr(row, what) is None:
+    if row is not None and getattr(row, what) is None and not (what == "better" and row.is_whole):
         known[key] = LeftOutRecord(**asdict(row) | _less(what, tree, row, short))
 
 
@@ -174,8 +186,9 @@ def ask(task: Sequence[Any]) -> dict[str, Any]:
     name, part, lost, limit, short = task
     tree = next(tree for tree in find_spur_trees(read_declaration(name)) if tree.name == part)
     row = _asked_to_the_end(tree, (name, part, tuple(lost)), limit)
-    for what in ("seen", "better") if row["seconds"] is None else ():
-        row |= _less(what, tree, LeftOutRecord(**row), short)
+    for what in _LESS:
+        if what != "better" or row["seconds"] is None:
+            row |= _less(what, tree, LeftOutRecord(**row), short)
     return row
 
 
@@ -210,27 +223,39 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
         }
 
 
-# of what is not finished
+# what else is asked
 
 
 def _less(what: str, tree: SpurTree, row: LeftOutRecord, short: float) -> dict[str, Any]:
-    """Whether a train is found where meshes are seen; or how many weigh more, as far as that comes in time."""
+    """One more thing that is asked of a question, as far as that comes in time."""
     lost = tuple(row.lost)
-    if what == "seen":
-        seen, _ = gathered(lambda: iter([_is_found_with_meshes(tree, lost)]), short, _MEMORY)
-        told: dict[str, Any] = {"seen": seen[0] if seen else None}
-    else:
+    told: dict[str, Any]
+    if what == "better":
         steps, _ = gathered(partial(_better, tree, lost, row), short, _MEMORY)
         mechanisms = max([list(row.mechanisms), *(step for step, _ in steps)], key=len)
         classes = [*row.classes, *[None] * (len(mechanisms) - len(row.classes))]
         told = {"better": steps[-1][1] if steps else None, "mechanisms": mechanisms, "classes": classes}
+    else:
+        found, _ = gathered(lambda: iter([_asked_at_once(what, tree, lost)]), short, _MEMORY)
+        told = {what: found[0] if found else None}
     print(f"{row.train} {row.part} without {', '.join(lost)}: {told}", file=sys.stderr, flush=True)
     return told
 
 
-def _is_found_with_meshes(tree: SpurTree, lost: tuple[str, ...]) -> bool:
+def _asked_at_once(what: str, tree: SpurTree, lost: tuple[str, ...]) -> Any:
+    return _is_reached(tree, lost) if what == "reached" else _rank_with_meshes(tree, lost)
+
+
+def _is_reached(tree: SpurTree, lost: tuple[str, ...]) -> bool:
+    return is_reached(tree.arbor(lost_arbors(tree, lost)), evidence_question(lost_evidence(tree, lost)).problem)
+
+
+def _rank_with_meshes(tree: SpurTree, lost: tuple[str, ...]) -> tuple[int, int]:
+    """First and last rank of the train where the meshes of what survives are told."""
     problem = evidence_question(lost_evidence(tree, lost, seen=True)).problem
-    return rank_of(tree.arbor(lost), find_reconstructions(problem, listed=LISTED)) is not None
+    place = find_place(tree.arbor(lost_arbors(tree, lost)), problem, find_reconstructions(problem, listed=0))
+    assert place is not None  # it is reached
+    return place.ranks
 
 
 def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterator[tuple[list[int], int | None]]:

@@ -111,11 +111,14 @@ def test_of_what_is_not_finished_less_is_asked() -> None:
     assert {tuple(row.lost) for row in found.rows} == {*full}
     for row in found.rows:
         whole = full[tuple(row.lost)]
-        assert row.seen
+        assert row.reached
+        assert whole.reached
         assert whole.rank is not None
+        assert row.told is not None
+        assert row.told[0] <= whole.rank[0]  # meshes that are told can but leave out others
         assert row.first == whole.rank[0]
         assert list(row.mechanisms) == list(whole.mechanisms[:-1])
-    assert "it was found in 6 where the meshes" in " ".join("\n".join(page(found)).split())
+    assert "the search comes to the train in 6" in " ".join("\n".join(page(found)).split())
 
 
 def test_explanations_with_as_many_wheels_on_fewer_arbors_weigh_more() -> None:
@@ -152,11 +155,12 @@ def test_a_pointer_of_each_speed_needs_an_arbor() -> None:
 
 def test_a_kept_run_is_added_to() -> None:
     kept = left_out(["watch-going-train"], limit=0.0)
-    rows = [replace(row, seen=None) for row in kept.rows if len(row.lost) == 1]
+    rows = [replace(row, reached=None, told=None) for row in kept.rows if len(row.lost) == 1]
     less = replace(kept, rows=rows)
     more = more_left_out(less, ["watch-going-train"], 60, 60, 5)
     own = [row for row in more.rows if row.train == "watch-going-train"]
-    assert [row.seen for row in own] == [True] * 6
+    assert [row.reached for row in own] == [True] * 6
+    assert all(row.told for row in own)
     assert not any(row.is_whole for row in own)  # pairs are asked to the end only where each alone was
     assert more_left_out(less, ["watch-going-train"], 60, 60, 0).rows == rows
 
@@ -199,24 +203,27 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
     rows = [
         LeftOutRecord("clock", ["a"], 2, [0, 3, 4], [0, 2, 2], [4, 7], True, 0.25, "", "from y"),
         LeftOutRecord("clock", ["b"], 1, [0, 5], [0, 5], None, True, 1.5, "", "from y"),
-        LeftOutRecord("clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s", "from y", True, 0),
+        LeftOutRecord(
+            "clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s", "from y", True, [1, 3], 0
+        ),
         LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB", "from y"),
     ]
     tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96], ["idlers"])
     cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
     worm = NotAskedRecord("worm", "it has worm wheels")
     text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))
-    assert "| clock, from y | 3 | 8 | 1 | paths: idlers | 6 | 2 | 2 | 2 | 1 | 0 | 7 |" in text
-    assert "| a | 3 with 1 | 4 with 2 | 2 | yes | 4 | 7 | 250 ms |" in text
-    assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | 1.5 s |" in text
-    assert "| c | none with 1 | ? with 3 | - | with meshes seen | 1 | open | not within 60 s |" in text
-    assert "| a, b | - | ? with 3 | - | open | open | open | more than 4 GB |" in text
+    assert "| clock, from y | 3 | 8 | 1 | paths: idlers | 6 | 2 | 2 | 2 | 1 | 1 | 1 | 0 | 7 |" in text
+    assert "| a | 3 with 1 | 4 with 2 | 2 | listed | 4 | 7 | open | 250 ms |" in text
+    assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | open | 1.5 s |" in text
+    assert "| c | none with 1 | ? with 3 | - | followed | 1 | open | 1 to 3 | not within 60 s |" in text
+    assert "| a, b | - | ? with 3 | - | open | open | open | open | more than 4 GB |" in text
     assert "From x on; pointers: hour; 8 to 96 teeth. Not asked yet: 2." in text
     assert "| worm | it has worm wheels |" in text
     assert "| clock | 4 | 3 | crank: it has worm wheels |" in text
     said = " ".join(text.split())
     assert "There are 6 such questions in 1 parts of 1 trains. 2 were asked to the end." in said
     assert "found in 1 of these; not: clock without b; 0 have too many" in said
-    assert "found in 1 where the meshes of what survives were told." in said
-    assert "missed in 1; 1 are open" in said
+    assert "the search comes to the train in 1." in said
+    assert "found in 2 questions, and missed in 1; 3 are open" in said
+    assert "its rank is known in 1: in 1 nothing weighs more, and in 0 it is the only one" in said
     assert "1 have explanations with fewer wheels than were lost" in said

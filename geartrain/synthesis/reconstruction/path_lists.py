@@ -7,7 +7,7 @@ every dial still has one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
@@ -22,10 +22,17 @@ from geartrain.synthesis.reconstruction.asked_question import too_wide
 from geartrain.synthesis.reconstruction.path_growth import PathGrowth
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
 from geartrain.synthesis.reconstruction.quotient_ranges import Bounds, QuotientRanges
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
+from geartrain.synthesis.reconstruction.reconstruction_problem import (
+    NEW,
+    PlacedWheel,
+    ReconstructionProblem,
+    SearchedDial,
+)
 from geartrain.synthesis.reconstruction.seen_meshes import SeenMeshes
 
 Rows = NDArray[np.int64]
+WayThrough = tuple[PlacedWheel | None, PlacedWheel | None]
+"""The wheel by which a path comes into a surviving arbor and the one by which it goes on, as of `ArborPass`."""
 _MOST_PATHS = 1_000_000_000
 """Paths that are looked at on the way to those that are possible: minutes."""
 _PIECE = 1 << 21
@@ -48,6 +55,8 @@ class AddedArbors:
 class PathList:
     """Paths to a dial, one a row.
 
+    along   by surviving arbor the only way through it that is listed, and no other arbors; None for all paths
+
     codes                by row and arbor, the input first: which of `passes` is taken, from 1 on; 0 where none is
     arbors               by row: bit i - 1 for each surviving arbor i on the path
     idle                 by row: the same for those where surviving wheels are passed by that must mesh
@@ -58,8 +67,15 @@ class PathList:
     powers               by row and large prime, the columns of `primes`: its power in that quotient
     """
 
-    def __init__(self, dial: SearchedDial, problem: ReconstructionProblem, keys: QuotientKeys) -> None:
+    def __init__(
+        self,
+        dial: SearchedDial,
+        problem: ReconstructionProblem,
+        keys: QuotientKeys,
+        along: Mapping[str, WayThrough] | None = None,
+    ) -> None:
         self.dial, self.problem, self.keys = dial, problem, keys
+        self._along = along
         self.ranges = QuotientRanges(problem.additions.least, problem.additions.greatest)
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
@@ -144,7 +160,7 @@ class PathList:
     def _with_arbor(self, growth: PathGrowth, at: int) -> PathGrowth:
         parts = []
         for code, each in enumerate((None, *self.passes[at])):
-            if each is None and not at:
+            if (each is None and not at) or not self._is_listed(at, each):
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
@@ -154,6 +170,13 @@ class PathList:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
             raise QuestionError(too_wide(self.problem, what))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
+
+    def _is_listed(self, at: int, each: ArborPass | None) -> bool:
+        """Whether a way through an arbor, or none, is one of those that are listed."""
+        if self._along is None:
+            return True
+        arbor = (self.problem.input, *self.problem.arbors)[at]
+        return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
 
     def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:
         """By how much a pass changes the key, and the powers of large primes, of what is left to be added."""

@@ -7,7 +7,7 @@ from dataclasses import astuple, dataclass, field
 
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, figure, filled_table
+from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, filled_table
 from geartrain.report.family_tree_report import family_section
 from geartrain.report.known_trains_report import known_sections
 from geartrain.report.reconstruction_facts import (
@@ -23,7 +23,7 @@ from geartrain.report.reconstruction_facts import (
 from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
 from geartrain.synthesis.reconstruction.base_link import BaseLink
 from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
-from geartrain.synthesis.reconstruction.candidate_rules import counts_text
+from geartrain.synthesis.reconstruction.candidate_rules import counts_text, speed_text
 from geartrain.synthesis.reconstruction.expected_cost import ExpectedCost
 from geartrain.synthesis.reconstruction.joined_arbors import Joined
 from geartrain.synthesis.reconstruction.known_rank import KnownRank
@@ -215,7 +215,7 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
     ]
     couplings = [f"{' and '.join(links)} turn as one: a pin in a slot joins them." for links in found.joined.values()]
     yield Section("Surviving arbors", [_begins(found), *couplings], [Table(("arbor", "wheels"), rows)])
-    pointers = [(dial.name, _speed(dial), _place(dial)) for dial in problem.dials]
+    pointers = [(dial.name, speed_text(dial), _place(dial)) for dial in problem.dials]
     base = found.base
     speed = f"speed seen from {base.name}" if base is not None and base.is_carrier else "speed"
     yield Section("Pointers", (), [Table(("pointer", speed, "on arbor"), pointers)])
@@ -268,13 +268,6 @@ def _drawn(found: ReconstructionReport) -> Section:
 def _rank(one: RankedTrain) -> str:
     """The rank, with those of all that weigh the same."""
     return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
-
-
-def _speed(dial: SearchedDial) -> str:
-    sense = "" if dial.signed else " in either sense"
-    if dial.is_exact:
-        return f"{fraction_text(dial.least)}{sense}"
-    return f"{figure(dial.least)} to {figure(dial.greatest)}{sense}"
 
 
 def _place(dial: SearchedDial) -> str:

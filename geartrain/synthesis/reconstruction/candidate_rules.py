@@ -124,9 +124,9 @@ def _without(dial: str) -> str:
 
 def speed_text(dial: SearchedDial) -> str:
     """The speed that a dial must have, in words."""
-    if dial.is_exact:
-        return fraction_text(dial.least) + ("" if dial.signed else " in either sense")
-    return f"from {float(dial.least):.7g} to {float(dial.greatest):.7g}"
+    bounds = dict.fromkeys((dial.least, dial.greatest))
+    text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
+    return text + ("" if dial.signed else " in either sense")
 
 
 def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterator[tuple[Arbor, Fraction]]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
+from math import inf, sqrt
 
 from geartrain.kinematics.judged_outputs import SpeedValue
 from geartrain.kinematics.relative_speeds import relative_speed
@@ -30,6 +31,7 @@ _NESTED = 0.74  # radius over that of the dial around it
 _OUT, _BALL = 0.5, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own radius
 _LOWEST, _STEP = 0.02, 0.018  # over the radius of its dial: how high hands stand where no pipe bears them
 _PARTS = 4000  # of a radius, in which an engraving is told
+_LEAST = 0.3  # of the train's width, that a dial on a narrow side takes for the width of this side
 _GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
 
 
@@ -52,7 +54,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
-            radius=0.4 * width,
+            radius=0.4 * min(width, _side(stage, normal)),
             scale=scale,
             look=dial.look,
             note=dial.note or "",
@@ -130,6 +132,24 @@ def _width(stage: SceneContext) -> float:
     high = max(place.centre[at] + place.radius for place in places for at in (0, 1))
     # not 0, for dials are parts of it
     return max(high - low, 1e-6)
+
+
+def _side(stage: SceneContext, normal: Vector) -> float:
+    """How wide the side on which a dial stands is, mm; without bound for those that look to the reader or away."""
+    if abs(dot(normal, stage.near)) > 0.5:
+        return inf
+    ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
+    return max(min((_reach(stage, way) for way in ways), default=inf), _LEAST * _width(stage))
+
+
+def _reach(stage: SceneContext, way: Vector) -> float:
+    """How far all wheels reach along a direction, mm."""
+    ends = []
+    for wheel in stage.layout.wheels.values():
+        along = abs(dot(stage.layout.axes[wheel.axis].direction, way))
+        half = wheel.radius * sqrt(max(0.0, 1 - along * along)) + wheel.thickness / 2 * along
+        ends += [dot(wheel.centre, way) - half, dot(wheel.centre, way) + half]
+    return max(ends) - min(ends) if ends else inf
 
 
 def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:

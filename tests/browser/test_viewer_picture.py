@@ -67,7 +67,7 @@ def test_the_whole_train_and_its_crank_fill_the_picture(show: Opening, names: tu
             assert max(across, upwards) > 0.5, (names[scene], look)
 
 
-@pytest.mark.parametrize("name", [ANTIKYTHERA, "bevel-differential"])
+@pytest.mark.parametrize("name", [ANTIKYTHERA, "bevel-differential", "worm"])
 def test_taken_apart_nothing_leaves_the_picture(show: Opening, name: str) -> None:
     shown = show(name)
     apart = shown.page.get_by_label("Apart")

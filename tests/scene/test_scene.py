@@ -252,6 +252,16 @@ def test_dials_look_to_their_reader_and_stand_clear_of_the_wheels(positive: str)
     assert (c.shown, scene.bodies[c.base].id) == ("-4/3", "a")
 
 
+def test_a_dial_on_a_narrow_side_is_small() -> None:
+    """The draconic dial looks along the crank's axis, at a side a fifth as deep as it is high."""
+    scene = shipped.scene("voulgaris-2022")
+    dial = next(dial for dial in scene.dials if abs(dial.normal[0]) > 0.9)
+    deep = [side * wheel.thickness / 2 + wheel.centre[2] for wheel in scene.wheels for side in (-1, 1)]
+    high = [side * wheel.radius + wheel.centre[1] for wheel in scene.wheels for side in (-1, 1)]
+    assert max(deep) - min(deep) < 0.2 * (max(high) - min(high))
+    assert 0.05 < dial.radius / (max(high) - min(high)) < 0.15
+
+
 def test_dials_of_one_face_do_not_cover_each_other() -> None:
     scene = shipped.scene("freeth-2021")
     for at, one in enumerate(scene.dials):

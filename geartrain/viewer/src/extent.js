@@ -2,33 +2,45 @@
 
 import { Box3, Sphere, Vector3 } from "three";
 
-import { across, along, onAxis, vector } from "./space.js";
+import { across, along, isParallel, onAxis, vector } from "./space.js";
 import { ringRim } from "./wheels.js";
 
 const ROUND = 16; // points of a circle
+const LEAST_DEEP = 0.6; // of a train taken apart, over its width
+const MOST_DEEP = 1.3;
+const LAYER = 0.14; // what each layer asks for
+const PARTED = [0.8, 12]; // how far layers may go, over their distance
 
-/** The circles that hold all wheels, wherever they are carried, and all dials: {at, direction, radius}. */
-export function circlesOf(scene) {
-  const dials = scene.dials.map(({ centre, normal, radius }) => ({ at: vector(centre), direction: normal, radius: 1.08 * radius }));
-  return [...scene.wheels.flatMap((wheel) => bothFaces(rimOf(wheel), wheel).map((face) => carriedRound(scene, wheel, face))).flat(), ...dials];
+const STILL = () => new Vector3();
+
+/**
+ * The circles that hold all wheels, wherever they are carried, and all dials: {at, direction, radius, body}.
+ *
+ * shiftOf   by what a body is moved as a whole, in its zero pose
+ */
+export function circlesOf(scene, shiftOf = STILL) {
+  const dials = scene.dials.map(({ body, centre, normal, radius }) => ({ at: vector(centre).add(shiftOf(body)), direction: normal, radius: 1.08 * radius, body }));
+  const wheels = scene.wheels.flatMap((wheel) => bothFaces(rimOf(wheel), wheel, shiftOf(wheel.body)).flatMap((face) => carriedRound(scene, wheel, face, shiftOf)));
+  return [...wheels, ...dials];
 }
 
 const rimOf = (wheel) => (wheel.kind === "ring" ? ringRim(wheel) : Math.max(wheel.tip, wheel.radius));
 
-function bothFaces(radius, { centre, direction, thickness, cone }) {
+function bothFaces(radius, { body, centre, direction, thickness, cone }, shift) {
   const off = cone ? 1.1 * thickness : 0.6 * thickness;
-  return [off, -off].map((height) => ({ at: vector(centre).addScaledVector(vector(direction), height), direction, radius }));
+  return [off, -off].map((height) => ({ at: vector(centre).add(shift).addScaledVector(vector(direction), height), direction, radius, body }));
 }
 
 /** The circles that hold a circle of a wheel, wherever the wheel's axis is carried to. */
-function carriedRound(scene, wheel, circle) {
-  const bearer = scene.bodies[scene.bodies[wheel.body].parent ?? 0];
+function carriedRound(scene, wheel, circle, shiftOf) {
+  const bears = scene.bodies[wheel.body].parent ?? 0;
+  const bearer = { ...scene.bodies[bears], point: vector(scene.bodies[bears].point).add(shiftOf(bears)) };
   if (bearer.parent === null) return [circle];
   const middle = onAxis(bearer, along(bearer, circle.at));
   const tilt = vector(circle.direction).dot(vector(bearer.direction));
   const [flat, upright] = [Math.abs(tilt) * circle.radius, Math.sqrt(Math.max(0, 1 - tilt * tilt)) * circle.radius];
   const radius = middle.distanceTo(circle.at) + flat;
-  return [upright, -upright].map((height) => ({ at: middle.clone().addScaledVector(vector(bearer.direction), height), direction: bearer.direction, radius }));
+  return [upright, -upright].map((height) => ({ at: middle.clone().addScaledVector(vector(bearer.direction), height), direction: bearer.direction, radius, body: wheel.body }));
 }
 
 /** Points round a circle. */
@@ -48,14 +60,38 @@ export function ballOf(scene, circles, corners = []) {
   return box.getBoundingSphere(new Sphere());
 }
 
-/** The direction of most wheels, on the side of z. */
+/** Points that a picture of the whole must hold, taken apart as it is. */
+export function outlineOf(scene, poses) {
+  const lifted = (point, body) => (poses.skewed[body] ? point : poses.apart(point, poses.height(point)));
+  return circlesOf(scene, (body) => poses.shift(body)).flatMap((circle) => pointsOf(circle).map((point) => lifted(point, circle.body)));
+}
+
+/**
+ * How far layers go from the middle when all is apart, over their distance from it: so far that each is seen by itself.
+ *
+ * points   that hold the train; those of its axes, where it has no wheels
+ */
+export function partingOf(scene, points, main) {
+  if (!points.length) return PARTED[0];
+  const { radius } = new Box3().setFromPoints(points).getBoundingSphere(new Sphere());
+  const heights = points.map((point) => point.dot(main));
+  const deep = Math.max(...heights) - Math.min(...heights) || 1e-9;
+  const wide = Math.sqrt(Math.max(4 * radius * radius - deep * deep, deep * deep));
+  const levels = scene.wheels.filter(({ direction }) => isParallel(direction, main.toArray())).map(({ centre, thickness }) => [vector(centre).dot(main), thickness]);
+  levels.sort(([one], [other]) => one - other);
+  const layers = levels.filter(([level, thickness], n) => n === 0 || level - levels[n - 1][0] > 0.5 * thickness).length;
+  const wanted = Math.max(LEAST_DEEP, Math.min(MOST_DEEP, LAYER * (layers + 2))) * wide;
+  return Math.max(PARTED[0], Math.min(PARTED[1], wanted / deep - 1));
+}
+
+/** The direction about which most turns, each wheel by its size, on the side of z. */
 export function mainDirection(scene) {
-  const counts = new Map();
-  for (const { direction } of scene.wheels) {
+  const sizes = new Map();
+  for (const { direction, radius } of scene.wheels) {
     const key = direction.map((value) => Math.abs(value).toFixed(4)).join(" ");
-    counts.set(key, { direction, count: (counts.get(key)?.count ?? 0) + 1 });
+    sizes.set(key, { direction, size: (sizes.get(key)?.size ?? 0) + radius });
   }
-  const most = [...counts.values()].sort((one, other) => other.count - one.count)[0];
+  const most = [...sizes.values()].sort((one, other) => other.size - one.size)[0];
   const main = most ? vector(most.direction) : new Vector3(0, 0, 1);
   return main.dot(new Vector3(0, 0, 1)) < 0 ? main.negate() : main;
 }

@@ -1,7 +1,7 @@
 // A train as a plan of lines that turns, where the browser has no WebGL. It does what a `Stage` does, in SVG: pitch
 // circles with a spoke each, dials with their hands, seen from a side without perspective.
 
-import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
+import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
 import { Fraction } from "./fraction.js";
 import { Looks } from "./looks.js";
 import { Poses } from "./poses.js";
@@ -36,8 +36,9 @@ export class Plan {
     const { scene } = machine;
     Object.assign(this, { machine, scene });
     this.main = mainDirection(scene);
-    this.circles = circlesOf(scene);
-    this.poses = new Poses(machine, this.main, ballOf(scene, this.circles).center);
+    const circles = circlesOf(scene);
+    const parting = partingOf(scene, circles.flatMap(pointsOf), this.main);
+    this.poses = new Poses(machine, this.main, ballOf(scene, circles).center, parting);
     const along = scene.wheels.filter(({ direction }) => isParallel(direction, this.main.toArray()));
     this.flat = along.length > MOSTLY * scene.wheels.length;
     this.canvas ??= svg("svg", { class: "plan" });
@@ -86,7 +87,7 @@ export class Plan {
   }
 
   fit() {
-    const seen = this.circles.flatMap(pointsOf).map((point) => this.seen(this.poses.apart(point, this.poses.height(point))));
+    const seen = outlineOf(this.scene, this.poses).map((point) => this.seen(point));
     const range = (at) => [Math.min(...seen.map((point) => point[at])), Math.max(...seen.map((point) => point[at]))];
     const [[left, right], [top, bottom]] = [range(0), range(1)];
     this.width = Math.max(right - left, bottom - top, 1e-6);

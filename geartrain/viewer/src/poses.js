@@ -6,7 +6,7 @@ import { Group, Vector3 } from "three";
 import { isParallel, vector } from "./space.js";
 import { Reading } from "./ui/reading.js";
 
-const APART = 3; // how far layers move when taken apart, over their distance
+const ASIDE = 0.7; // how far bodies on other axes go from the middle, over their distance from it
 
 /** Balls turn as bodies of scenes do, `as` which, but each about an axis through its own middle. */
 const balls = ({ bodies, dials, pointers }) =>
@@ -20,9 +20,9 @@ const slides = ({ bodies, dials, pointers }) =>
   pointers.flatMap(({ body, dial }, slide) => (dial !== null && dials[dial].scale.turns > 1 ? [{ ...bodies[body], as: body, slide }] : []));
 
 export class Poses {
-  /** main   the direction along which layers move; `middle`, what stays */
-  constructor(machine, main, middle) {
-    Object.assign(this, { machine, main, middle, share: 0 });
+  /** main   the direction along which layers move; `middle`, what stays; `parting`, how far they go over their distance */
+  constructor(machine, main, middle, parting) {
+    Object.assign(this, { machine, main, middle, parting, share: 0 });
     this.bodies = [...machine.scene.bodies, ...balls(machine.scene), ...slides(machine.scene)];
     this.readings = this.bodies.map(({ slide }) => (slide === undefined ? null : new Reading(machine.scene, machine, slide)));
     this.root = new Group();
@@ -58,9 +58,28 @@ export class Poses {
   explode(share) {
     this.share = share;
     this.bodies.forEach(({ parent }, index) => {
-      const own = this.skewed[index] && !this.skewed[parent] ? this.height(this.anchor(index)) : 0;
-      this.shifts[index].copy(this.main).multiplyScalar(share * own);
+      this.shifts[index].set(0, 0, 0);
+      if (!this.skewed[index] || this.skewed[parent]) return;
+      const dial = this.faced(index);
+      const anchor = dial ? vector(dial.centre) : this.anchor(index);
+      const off = anchor.clone().sub(this.middle);
+      const aside = dial ? 0 : ASIDE; // a hand stays over its dial
+      this.shifts[index].addScaledVector(off, share * aside).addScaledVector(this.main, share * (this.height(anchor) - aside * off.dot(this.main)));
     });
+  }
+
+  /** The dial over which a body has its hand, if this is lifted by itself. */
+  faced(index) {
+    const { pointers, dials } = this.machine.scene;
+    const read = pointers.find(({ body, dial }) => body === index && dial !== null);
+    return read && !this.skewed[dials[read.dial].body] ? dials[read.dial] : null;
+  }
+
+  /** By what a body that moves as a whole is moved, with what bears it. */
+  shift(index) {
+    const { parent } = this.bodies[index];
+    const own = this.shifts[index].clone();
+    return parent === null ? own : own.add(this.shift(parent));
   }
 
   /** How far a slide is from the inner end of its spiral now. */
@@ -89,7 +108,7 @@ export class Poses {
 
   /** How far a point goes when all is fully apart. */
   height(point) {
-    return APART * (point.dot(this.main) - this.middle.dot(this.main));
+    return this.parting * (point.dot(this.main) - this.middle.dot(this.main));
   }
 
   /** The same of a part of a body, within its body's frame; a bar, whose `at` is null, is stretched. */

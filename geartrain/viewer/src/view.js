@@ -13,6 +13,7 @@ const FIELD = 26; // degrees
 const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: [0.36, 0.3, 0.88] };
 const INTO = [0.62, 0.46, 0.64]; // slantwise into a train that is cut open
 const MARGIN = 1.05;
+const ASIDE = 0.55; // cosine of the way from which layers are seen when taken apart
 
 export class Stage {
   /** Throws where there is no WebGL. options: {background, teeth} */
@@ -66,11 +67,15 @@ export class Stage {
     this.change(() => this.world.looks.select(wheel));
   }
 
-  /** Layers apart; the camera goes back as far as the whole grows, and looks on where it looked. */
+  /** Layers apart; the camera goes back as far as the whole grows, and looks on where it looked; left free, from aside. */
   explode(share) {
     const before = this.framed();
     this.change(() => this.world.explode(Math.min(1, Math.max(0, share))));
     if (!this.width) return;
+    if (this.from === "free") {
+      this.look("free");
+      return;
+    }
     const after = this.framed(before.towards);
     const { position } = this.camera;
     const off = position.clone().sub(this.controls.target).multiplyScalar(after.distance / before.distance);
@@ -142,7 +147,18 @@ export class Stage {
     const [x, y, z] = LOOKS[from] && from !== "free" ? LOOKS[from] : this.world.opened ? INTO : LOOKS.free;
     const front = this.machine.scene.front || 1;
     this.from = from;
-    this.fit(vector([x * front, y, z * front]).normalize());
+    const towards = vector([x * front, y, z * front]).normalize();
+    this.fit(from in LOOKS && from !== "free" ? towards : this.aside(towards));
+  }
+
+  /** A way to look, turned from that of the layers as far as these are apart. */
+  aside(towards) {
+    const { main, poses } = this.world;
+    const straight = towards.dot(main);
+    const least = Math.min(Math.abs(straight), ASIDE);
+    const along = Math.sign(straight) * (Math.abs(straight) + poses.share * (least - Math.abs(straight)));
+    const across = towards.clone().addScaledVector(main, -straight).normalize();
+    return across.multiplyScalar(Math.sqrt(1 - along * along)).addScaledVector(main, along);
   }
 
   /** The camera to a side, as near as the whole allows. */

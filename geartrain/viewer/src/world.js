@@ -4,7 +4,7 @@ import { barBetween, hubs, spans, supports } from "./arbors.js";
 import { Casting } from "./casting.js";
 import { PARTS } from "./colours.js";
 import { holds, quarterOf } from "./cutaway.js";
-import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
+import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
 import { dialParts, pointerParts } from "./faces.js";
 import { Ground } from "./ground.js";
 import { couplingParts, crankOf } from "./joints.js";
@@ -20,12 +20,13 @@ import { WheelPart } from "./wheels.js";
 export class World {
   constructor(machine) {
     this.scene = machine.scene;
-    this.circles = circlesOf(this.scene);
+    const circles = circlesOf(this.scene);
     this.main = mainDirection(this.scene);
     this.corners = cornersOf(this.scene, this.main);
-    this.ball = ballOf(this.scene, this.circles, this.corners.map(({ point }) => point));
+    const corners = this.corners.map(({ point }) => point);
+    this.ball = ballOf(this.scene, circles, corners);
     this.size = 2 * this.ball.radius;
-    this.poses = new Poses(machine, this.main, this.ball.center);
+    this.poses = new Poses(machine, this.main, this.ball.center, partingOf(this.scene, [...circles.flatMap(pointsOf), ...corners], this.main));
     this.root = this.poses.root;
     this.nodes = this.poses.nodes;
     this.palette = new Palette();
@@ -98,12 +99,15 @@ export class World {
         ? vector(body.direction).dot(this.main) * scene.front
         : off(high) - off(low);
     const side = outward < 0 ? -1 : 1;
-    const end = (side > 0 ? high : low) + side * 0.02 * size;
+    const last = side > 0 ? high : low;
+    const end = last + side * 0.02 * size;
     const foot = own[side > 0 ? 1 : 0];
     const rod = rodsOf(scene, scene.crank).sort((one, other) => side * (other[0] - one[0]))[0];
     const crank = crankOf(scene, scene.crank, end, side, 0.12 * size, size);
-    const bar = barBetween(onAxis(body, foot - side * 0.01 * size), onAxis(body, end), rod ? rod[2] : 0.009 * size);
-    crank.parts.push({ body: scene.crank, colour: PARTS.arbor, ...bar, at: null });
+    crank.at = onAxis(body, last); // taken apart, it goes as far as what it stands on
+    for (const part of crank.parts) part.at = crank.at;
+    const bar = (from, to, at) => ({ body: scene.crank, colour: PARTS.arbor, ...barBetween(onAxis(body, from), onAxis(body, to), rod ? rod[2] : 0.009 * size), at });
+    crank.parts.push(bar(foot - side * 0.01 * size, last, null), bar(last - side * 0.005 * size, end, crank.at));
     return crank;
   }
 
@@ -150,13 +154,13 @@ export class World {
   /** Points that a picture of the whole must hold, taken apart as it is. */
   outline() {
     const { crank, poses } = this;
-    const swing = crank ? [{ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }] : [];
+    const swing = crank ? pointsOf({ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }) : [];
     const moved = (point, body, at) => {
       const lift = poses.lift(body, at);
       return poses.apart(point, typeof lift === "number" ? lift : lift(point)).add(poses.shifts[body]);
     };
     const held = this.corners.map(({ point, body, at }) => moved(point, body, at));
-    return [...[...this.circles, ...swing].flatMap(pointsOf).map((point) => poses.apart(point, poses.height(point))), ...held];
+    return [...outlineOf(this.scene, poses), ...swing.map((point) => moved(point, crank.body, crank.at)), ...held];
   }
 
   /** Where a point of the crank (its foot or its knob) is now. */

@@ -54,7 +54,7 @@ class Card {
         {},
         el("strong", {}, name),
         scale && el("span", { class: "quiet" }, ` ${scale}`),
-        dial?.note && el("span", { class: "quiet" }, ` ${dial.note}`),
+        dial?.note && el("span", { class: "quiet said" }, dial.note),
         el("ul", { class: "hands" }, rows),
       ),
     );

@@ -106,7 +106,7 @@ export class Outputs {
       pointer.shown === null ? el("span", { class: "quiet" }, "not determined") : copyable(pointer.shown, this.say);
     return both
       ? [el("td", { class: "number" }, speed, el("div", { class: "quiet" }, shown(pointer.decimal))), angle]
-      : [el("td", { class: "number" }, speed), el("td", { class: "number" }, shown(pointer.decimal)), angle];
+      : [el("td", { class: "number" }, speed), el("td", { class: "number decimal" }, shown(pointer.decimal)), angle];
   }
 
   #difference(found, one) {

@@ -84,14 +84,15 @@ export function partingOf(scene, points, main) {
   return Math.max(PARTED[0], Math.min(PARTED[1], wanted / deep - 1));
 }
 
-/** The direction about which most turns, each wheel by its size, on the side of z. */
+/** The direction across the plates of the frame; where there are none, that about which most turns, each wheel by its size; on the side of z. */
 export function mainDirection(scene) {
+  const plate = scene.parts.find(({ kind }) => kind === "frame");
   const sizes = new Map();
   for (const { direction, radius } of scene.wheels) {
     const key = direction.map((value) => Math.abs(value).toFixed(4)).join(" ");
     sizes.set(key, { direction, size: (sizes.get(key)?.size ?? 0) + radius });
   }
   const most = [...sizes.values()].sort((one, other) => other.size - one.size)[0];
-  const main = most ? vector(most.direction) : new Vector3(0, 0, 1);
+  const main = vector(plate?.direction ?? most?.direction ?? [0, 0, 1]);
   return main.dot(new Vector3(0, 0, 1)) < 0 ? main.negate() : main;
 }

@@ -7,6 +7,7 @@ import { vector } from "./space.js";
 
 const GHOST = 0.14; // opacity of what is not highlighted
 const GLASS = 0.07; // of a plate before the wheels
+const HIDDEN = 0.25; // of the wheels, behind a plate that then is of glass
 const GLOSS = 0.75;
 
 export class Looks {
@@ -59,12 +60,19 @@ export class Looks {
     for (const part of this.parts) this.palette.paint(part.slot, { opacity: kept(part) ? (this.isGlass(part) ? GLASS : 1) : GHOST });
   }
 
-  /** towards   from the middle to the camera: covers on that side are of glass */
+  /** towards   from the middle to the camera: covers on that side are of glass, and plates of the frame behind which wheels stand */
   glaze(towards, middle) {
-    const glass = this.parts.filter(({ cover, at, middle: own }) => cover && towards.dot(cover) * at.clone().sub(own ?? middle).dot(cover) > 0);
+    const before = ({ cover, at, frame }) => (frame ? this.hides(at, cover, towards) : towards.dot(cover) * at.clone().sub(middle).dot(cover) > 0);
+    const glass = this.parts.filter((part) => part.cover && before(part));
     if (this.glass?.length === glass.length && glass.every((part, n) => part === this.glass[n])) return;
     this.glass = glass;
     this.recolour();
+  }
+
+  hides(at, cover, towards) {
+    const { wheels } = this.scene;
+    const behind = wheels.filter(({ centre }) => towards.dot(cover) * vector(centre).sub(at).dot(cover) < 0);
+    return behind.length > HIDDEN * wheels.length;
   }
 
   isGlass(part) {

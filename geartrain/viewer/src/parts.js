@@ -11,10 +11,8 @@ const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, 
 const FLAT_GLOSS = 0.5;
 const COVERS = ["frame", "carrier", "dial"];
 
-/** All of them: {body, colour, gloss, shape, matrix, at, kind, cover}; `cover`, the way across of what stands before wheels or behind them, else null; `middle`, of both plates. */
+/** All of them: {body, colour, gloss, shape, matrix, at, kind, cover}; `cover`, the way across of what stands before wheels or behind them, else null. */
 export function builtParts(scene, main) {
-  const plates = scene.parts.filter(({ kind }) => kind === "frame").map(({ place }) => vector(place));
-  const between = plates.reduce((sum, place) => sum.addScaledVector(place, 1 / plates.length), vector([0, 0, 0]));
   return scene.parts.map((part) => {
     const { body, kind, place, direction, across } = part;
     const flat = part.outlines.length > 0;
@@ -23,7 +21,7 @@ export function builtParts(scene, main) {
     const shape = flat ? flatShape(part) : turnedShape(part.bands);
     // what stands along the way layers move is stretched when they do
     const at = upright && !flat ? null : vector(place);
-    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, middle: kind === "frame" ? between : null, opened: isOpened(scene, part) };
+    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, frame: kind === "frame", opened: isOpened(scene, part) };
   });
 }
 

@@ -68,9 +68,11 @@ export class Poses {
     });
   }
 
-  /** The dial over which a body has its hand, if this is lifted by itself. */
+  /** The dial over which a body has its hand, or of which it is the ball, if this is lifted by itself. */
   faced(index) {
     const { pointers, dials } = this.machine.scene;
+    const { ball } = this.bodies[index];
+    if (ball !== undefined) return dials[ball];
     const read = pointers.find(({ body, dial }) => body === index && dial !== null);
     return read && !this.skewed[dials[read.dial].body] ? dials[read.dial] : null;
   }

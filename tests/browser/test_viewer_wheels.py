@@ -56,6 +56,13 @@ def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show: 
         assert {colour for each, colour in painted if each == status} == {told[words]}
 
 
+def test_tools_stand_in_one_row_on_a_laptop(show: Opening) -> None:
+    shown = show(SIMPLE, viewport={"width": 1280, "height": 800})
+    tools = [each.bounding_box() for each in shown.page.locator(".tools > *:visible").all()]
+    assert len(tools) > 6
+    assert max(box["y"] for box in tools if box) - min(box["y"] for box in tools if box) < 20
+
+
 def test_losses_are_told_where_they_are_known(show: Opening) -> None:
     shown = show("norton-compound")
     shown.page.get_by_label("Colours").select_option("loss")

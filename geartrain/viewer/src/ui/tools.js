@@ -47,7 +47,7 @@ export class Tools {
       field("Hide front", this.front, { class: "field tick" }),
       field("Teeth", this.teeth, { class: "field tick" }),
       this.opening,
-      el("button", { type: "button", class: "save", onclick: () => savePicture(this.sides) }, "Save picture"),
+      el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), tools);
     const small = matchMedia(SMALL);

@@ -121,21 +121,24 @@ class AddedCounts:
         """The group to be settled next, bounds of its quotient, and whether one dial alone asks for it."""
         if not groups:
             return None
-        best: tuple[int, Quotients, bool] | None = None
+        alone: dict[int, Quotients] = {}
         tried: list[tuple[int, int, int, int]] = []
         for dial, bounds in wanted:
             own = [at for at, group in enumerate(groups) if dial in group[0]]
             if len(own) == 1:
-                exact = bounds[0] == bounds[1]
-                private = groups[own[0]][0] == (dial,)
-                if exact:
-                    return own[0], bounds, private
-                if private and best is None:
-                    best = own[0], bounds, private
+                at = own[0]
+                if bounds[0] == bounds[1]:
+                    return at, bounds, groups[at][0] == (dial,)
+                least, greatest = alone.get(at, bounds)
+                alone[at] = max(least, bounds[0]), min(greatest, bounds[1])
             else:
                 tried += [(len(own), groups[at][1] + groups[at][2], -len(groups[at][0]), at) for at in own]
-        if best is not None:
-            return best
+        private = next((at for at in alone if len(groups[at][0]) == 1), None)
+        if private is not None:
+            return private, alone[private], True
+        if alone:  # all that a group may have is what every dial allows that it alone still turns
+            at = min(alone, key=lambda each: (groups[each][1] + groups[each][2], each))
+            return at, alone[at], False
         # so that soon a dial has one group left; it may be that none is left that asks
         at = min(tried)[-1] if tried else 0
         return at, (Fraction(0), _BOUNDLESS), False

@@ -14,6 +14,8 @@ from xml.sax.saxutils import escape
 import grimp
 import networkx as nx
 
+from geartrain.scene.palette import THEMES
+
 DOCS = Path(__file__).resolve().parent
 PACKAGE = DOCS.parent / "geartrain"
 WIDTH, HEIGHT, COLUMN, ROW = 218, 54, 246, 84
@@ -21,11 +23,10 @@ COLUMNS = {"uncertainty": 1.3, "synthesis": 1.0, "spherical": 0.0, "scene": 2.0,
 """Where a room stands that is alone in its row, or beside others not as the contract lists them; else in the middle."""
 MIDDLE = 1.5
 LETTERS = 36  # of a line in a box, which has two
-BOX = (
-    '<rect x="{x:.0f}" y="{y:.0f}" width="{w}" height="{h}" rx="6" fill="#fff8ee" stroke="#6b4a2b" stroke-width="1.3"/>'
-)
+LIGHT = THEMES["light"]
+BOX = '<rect x="{x:.0f}" y="{y:.0f}" width="{w}" height="{h}" rx="6" fill="{fill}" stroke="{edge}" stroke-width="1.3"/>'
 TEXT = '<text x="{x:.0f}" y="{y:.0f}" text-anchor="middle" {style}>{text}</text>'
-LINE = '<path d="{d}" fill="none" stroke="#8a6d4f" stroke-width="1.4" marker-end="url(#end)"/>'
+LINE = '<path d="{d}" fill="none" stroke="{quiet}" stroke-width="1.4" marker-end="url(#end)"/>'
 
 
 def layers() -> list[list[str]]:
@@ -93,12 +94,12 @@ def elements() -> Iterator[str]:
         'font-family="sans-serif" role="img" aria-label="The rooms of geartrain and what they import">'
     )
     yield '<defs><marker id="end" markerWidth="9" markerHeight="9" refX="6" refY="4" orient="auto">'
-    yield '<path d="M0,0 L8,4 L0,8 Z" fill="#8a6d4f"/></marker></defs>'
+    yield f'<path d="M0,0 L8,4 L0,8 Z" fill="{LIGHT.quiet}"/></marker></defs>'
     yield f'<rect width="{width}" height="{height}" fill="white"/>'
     for one, other in sorted(arrows(rooms).edges):
-        yield LINE.format(d=line(where[one], where[other]))
+        yield LINE.format(d=line(where[one], where[other]), quiet=LIGHT.quiet)
     for room, (x, y) in where.items():
-        yield BOX.format(x=x - WIDTH / 2, y=y - HEIGHT / 2, w=WIDTH, h=HEIGHT)
+        yield BOX.format(x=x - WIDTH / 2, y=y - HEIGHT / 2, w=WIDTH, h=HEIGHT, fill=LIGHT.fill, edge=LIGHT.ink)
         said = wrap(purpose(room), LETTERS)
         top = y - (4 if len(said) > 1 else -2)
         yield TEXT.format(x=x, y=top - 6, style='font-size="14" font-weight="bold"', text=room)

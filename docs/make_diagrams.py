@@ -46,7 +46,7 @@ def still(page: Page, kind: str) -> str:
 
 def _style() -> str:
     """How what is drawn looks, in few letters."""
-    text = (diagrams.SOURCES / "picture.css").read_text(encoding="utf-8")
+    text = "".join((diagrams.SOURCES / name).read_text(encoding="utf-8") for name in ("light.css", "picture.css"))
     return re.sub(r"\s*([{};:,])\s*", r"\1", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)).strip()
 
 

@@ -6,10 +6,10 @@ from functools import partial
 from math import log
 
 from studies.dynamics_study import RESTITUTIONS, DynamicsRecords, PairRecord, TrainRecord, dynamics
-from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
+from studies.page import HUES, QUIET, from_command_line, lowered, paragraphs, picture, read, span, write_page
 
-# colours that the colour-blind tell apart, and a marker for each
-WAYS = {"rigid steps": ("#0072B2", "o"), "teeth that yield": ("#D55E00", "^")}
+# a colour of the palette and a marker for each
+WAYS = {"rigid steps": (HUES[0], "o"), "teeth that yield": (HUES[1], "^")}
 
 
 def main() -> None:
@@ -92,7 +92,7 @@ def draw(records: DynamicsRecords) -> None:
                     points = [(each.seconds, max(abs(getattr(each, what)), 1e-7)) for each in rows]
                     ax.plot(*zip(*points, strict=True), color=colour, marker=marker, lw=1.4, label=method)
                 seconds = of(records, restitution, "events")[0].seconds
-                ax.axvline(seconds, color="0.4", ls="--", lw=1, label="events (the truth)")
+                ax.axvline(seconds, color=QUIET, ls="--", lw=1, label="events (the truth)")
                 ax.set(xscale="log", yscale="log", title=f"{label}, restitution {restitution:g}")
         figure.supxlabel("seconds for two turns")
         figure.supylabel("error")

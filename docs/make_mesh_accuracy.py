@@ -7,18 +7,18 @@ from functools import partial
 from textwrap import fill
 
 from studies.mesh_study import DIRECT, SCANNED, TABULATED, MeshRecord, MeshRecords, meshes
-from studies.page import from_command_line, lowered, picture, read, span, write_page
+from studies.page import HUES, INK, from_command_line, lowered, picture, read, span, write_page
 
 MANY = 1_000_000  # angles over which building is spread
 Rows = dict[tuple[str, str, str], MeshRecord]
 SHOWN = ("48/96", "3/7", "1000/3000", "100000/100000")
-# colours that the colour-blind tell apart, and a marker for each
+# a colour of the palette and a marker for each
 LOOKS = {
-    "sampled and interpolated": ("#D55E00", "s", r"sampled, \d+"),
-    "tabulated, 2 to 256 cells": ("#0072B2", "o", r"tabulated, \d+ cells"),
-    "tabulated, default": ("#56B4E9", "*", "tabulated"),
-    SCANNED: ("#009E73", "D", SCANNED),
-    DIRECT: ("#000000", "X", DIRECT),
+    "sampled and interpolated": (HUES[1], "s", r"sampled, \d+"),
+    "tabulated, 2 to 256 cells": (HUES[0], "o", r"tabulated, \d+ cells"),
+    "tabulated, default": (HUES[6], "*", "tabulated"),
+    SCANNED: (HUES[3], "D", SCANNED),
+    DIRECT: (INK, "X", DIRECT),
 }
 
 

@@ -19,20 +19,20 @@ from studies.motion_records import (
     TrainRecord,
 )
 from studies.motion_study import motion
-from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
+from studies.page import HUES, INK, QUIET, from_command_line, lowered, paragraphs, picture, read, span, write_page
 
 MARCHED = ("marching, 1 a position", "marching, 10 a position")
 LEAST = 1e-14  # degrees: what is less is drawn here
-# colours that the colour-blind tell apart, and a marker for each; a line joins the methods of one name
+# a colour of the palette and a marker for each; a line joins the methods of one name
 LOOKS = {
-    "direct composition": ("#000000", "X", (DIRECT,)),
-    "composition, tabulated laws": ("#56B4E9", "o", TABLES),
-    "superposition, lag counted": ("#0072B2", "^", (LAGGED,)),
-    "superposition": ("#CC79A7", "v", (NOMINAL,)),
-    "sum of ranges (peak-to-peak)": ("#E69F00", "P", (BOUND,)),
-    "independent phases (rms)": ("#8C6D00", "*", (INDEPENDENT,)),
-    "marching, 1 and 10 steps a position": ("#D55E00", "s", MARCHED),
-    "marching, adaptive": ("#009E73", "D", (ADAPTIVE,)),
+    "direct composition": (INK, "X", (DIRECT,)),
+    "composition, tabulated laws": (HUES[6], "o", TABLES),
+    "superposition, lag counted": (HUES[0], "^", (LAGGED,)),
+    "superposition": (HUES[2], "v", (NOMINAL,)),
+    "sum of ranges (peak-to-peak)": (HUES[4], "P", (BOUND,)),
+    "independent phases (rms)": (HUES[5], "*", (INDEPENDENT,)),
+    "marching, 1 and 10 steps a position": (HUES[1], "s", MARCHED),
+    "marching, adaptive": (HUES[3], "D", (ADAPTIVE,)),
 }
 Rows = dict[tuple[str, str], MotionRecord]
 
@@ -205,8 +205,8 @@ def panel(ax: Axes, train: TrainRecord, rows: Rows) -> None:
         seconds = rows[train.family, LAGGED].seconds
         ax.annotate("none", (seconds, LEAST), (10, -1), textcoords="offset points", va="center", fontsize=9)
     most = max(each["peak_to_peak"] for each in train.outputs.values())
-    ax.axhline(most, color="0.55", lw=1, ls="--")
-    ax.text(0.98, most * 1.6, "ripple itself", transform=ax.get_yaxis_transform(), ha="right", color="0.4", fontsize=9)
+    ax.axhline(most, color=QUIET, lw=1, ls="--")
+    ax.text(0.98, most * 1.6, "ripple itself", transform=ax.get_yaxis_transform(), ha="right", color=QUIET, fontsize=9)
     ax.set_title(train.family, fontsize=11)
     ax.set_yticks([10.0**at for at in range(-14, 4, 2)])
 

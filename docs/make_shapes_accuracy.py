@@ -8,19 +8,19 @@ from math import log10
 from textwrap import fill
 
 from matplotlib.axes import Axes
-from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
+from studies.page import HUES, INK, QUIET, from_command_line, lowered, paragraphs, picture, read, span, write_page
 from studies.shape_study import ShapeRecords, WorkRecord, quickest, shapes
 
 PROBLEMS = [f"{kind} {form}" for kind in ("stress", "heat", "friction") for form in ("spur", "bevel")]
-# colours that the colour-blind tell apart, and a marker for each
+# a colour of the palette and a marker for each
 WAYS = {
-    "package": ("#000000", "*"),
-    "collocation": ("#0072B2", "o"),
-    "DOP853": ("#009E73", "s"),
-    "RK45": ("#56B4E9", "v"),
-    "Radau": ("#D55E00", "^"),
-    "BDF": ("#E69F00", "D"),
-    "direct search": ("#CC79A7", "X"),
+    "package": (INK, "*"),
+    "collocation": (HUES[0], "o"),
+    "DOP853": (HUES[3], "s"),
+    "RK45": (HUES[6], "v"),
+    "Radau": (HUES[1], "^"),
+    "BDF": (HUES[4], "D"),
+    "direct search": (HUES[2], "X"),
 }
 TIMED = [way for way in WAYS if way != "direct search"]
 LEAST = 1e-16
@@ -171,7 +171,7 @@ def work(ax: Axes, records: ShapeRecords, problem: str) -> None:
             times, errors = [1e3 * row.seconds for row in rows], [max(row.error, LEAST) for row in rows]
             size = 12 if way == "package" else 5
             ax.plot(times, errors, color=colour, marker=marker, ms=size, lw=1.3, label=way, zorder=3 if size > 5 else 2)
-    ax.axhline(2.2e-16, color="0.55", lw=1, ls="--")
+    ax.axhline(2.2e-16, color=QUIET, lw=1, ls="--")
     ax.set(xscale="log", yscale="log", xlabel="milliseconds", ylabel="relative error of the last contact")
     ax.set_title(problem.replace("heat", "temperature"), fontsize=11)
 

@@ -8,7 +8,19 @@ from functools import partial
 from matplotlib.axes import Axes
 from studies.loop_closures import FRACTIONS as EXACT
 from studies.loop_closures import FROM_AXES, ROUNDED
-from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
+from studies.page import (
+    HUES,
+    INK,
+    PAPER,
+    QUIET,
+    from_command_line,
+    lowered,
+    paragraphs,
+    picture,
+    read,
+    span,
+    write_page,
+)
 from studies.sphere_records import (
     TARGET,
     TOLERANCE,
@@ -20,13 +32,13 @@ from studies.sphere_records import (
 )
 from studies.sphere_study import sphere
 
-# colours that the colour-blind tell apart, and a marker for each
-FAMILIES = {"hull": ("#0072B2", "o"), "zonohedron": ("#009E73", "s"), "trapezohedron": ("#D55E00", "^")}
+# a colour of the palette and a marker for each
+FAMILIES = {"hull": (HUES[0], "o"), "zonohedron": (HUES[3], "s"), "trapezohedron": (HUES[1], "^")}
 PRISM, PLANETS = "6-antiprism", "planetary"
 LOOPS = {
-    (PRISM, FROM_AXES): ("#D55E00", "^", "sphere, angles from the axes"),
-    (PLANETS, "floats"): ("#0072B2", "o", "planetary"),
-    (PRISM, ROUNDED): ("#009E73", "s", "sphere, fractions as floats"),
+    (PRISM, FROM_AXES): (HUES[1], "^", "sphere, angles from the axes"),
+    (PLANETS, "floats"): (HUES[0], "o", "planetary"),
+    (PRISM, ROUNDED): (HUES[3], "s", "sphere, fractions as floats"),
 }
 
 
@@ -259,10 +271,10 @@ def convergence(ax: Axes, records: SphereRecords) -> None:
         left = [residual for _, residual in row.steps]
         ax.plot(range(1, len(left) + 1), left, color=colour, marker=marker, ms=5, lw=1.4, label=row.family)
         ax.plot(*zip(*row.trace, strict=True), color=colour, ls=":", lw=1.8)
-    ax.axhline(TARGET, color="0.55", lw=1, ls="--")
-    ax.text(3e4, TARGET / 2, "timed to here", color="0.4", fontsize=9, ha="right", va="top")
-    ax.text(16, 3e-9, "Newton", color="0.25")
-    ax.text(5000, 3e-9, "fixed point", color="0.25")
+    ax.axhline(TARGET, color=QUIET, lw=1, ls="--")
+    ax.text(3e4, TARGET / 2, "timed to here", color=QUIET, fontsize=9, ha="right", va="top")
+    ax.text(16, 3e-9, "Newton", color=QUIET)
+    ax.text(5000, 3e-9, "fixed point", color=QUIET)
     ax.set(xlabel="Newton steps or sweeps", ylabel="largest residual of an angle, rad")
     ax.set_title("Radii of about 1000 gears", fontsize=11)
     ax.legend(frameon=False, loc="upper right", fontsize=9)
@@ -277,11 +289,11 @@ def radii(ax: Axes, records: SphereRecords) -> None:
         ax.plot(gears, [row.swept for row in rows], color=colour, ls=":", lw=1.8)
         for row in rows:
             done = row.left < TARGET
-            ax.plot(row.gears, row.swept, color=colour, marker=marker, ms=6, mfc=colour if done else "white")
+            ax.plot(row.gears, row.swept, color=colour, marker=marker, ms=6, mfc=colour if done else PAPER)
             if not done:
                 ax.annotate("given up", (row.gears, row.swept), (-8, 4), textcoords="offset points", ha="right")
-    ax.text(250, 2.6e-3, "Newton", color="0.25")
-    ax.text(110, 3.5, "fixed point", color="0.25", ha="right")
+    ax.text(250, 2.6e-3, "Newton", color=QUIET)
+    ax.text(110, 3.5, "fixed point", color=QUIET, ha="right")
     ax.set(xlabel="gears", ylabel="seconds")
     ax.set_title("Time for radii right to 1e-11 rad", fontsize=11)
 
@@ -290,19 +302,19 @@ def wholes(ax: Axes, records: SphereRecords) -> None:
     """Time of whole tasks over the gears, for hulls."""
     rows = of(records.packings, "hull")
     lines = {
-        "from the graph to closed loops": ("#CC79A7", "D", fits_of(records, "phases", 12, "hull"), "whole"),
-        "from the graph to one pitch": ("#E69F00", "s", fits_of(records, "pitch", 50, "hull"), "whole"),
-        "packing alone": ("#000000", "X", rows, "seconds"),
-        "Newton for the radii alone": ("#0072B2", "o", rows, "newton"),
-        "sizes alone": ("#56B4E9", "v", fits_of(records, "pitch", 50, "hull"), "sizing"),
+        "from the graph to closed loops": (HUES[2], "D", fits_of(records, "phases", 12, "hull"), "whole"),
+        "from the graph to one pitch": (HUES[4], "s", fits_of(records, "pitch", 50, "hull"), "whole"),
+        "packing alone": (INK, "X", rows, "seconds"),
+        "Newton for the radii alone": (HUES[0], "o", rows, "newton"),
+        "sizes alone": (HUES[6], "v", fits_of(records, "pitch", 50, "hull"), "sizing"),
     }
     for name, (colour, marker, found, what) in lines.items():
         times = [getattr(row, what) for row in found]
         ax.plot([row.gears for row in found], times, color=colour, marker=marker, ms=6, lw=1.4, label=name)
     low, high = (rows[-3].gears, rows[-1].gears)
     base = lines["sizes alone"][2][-1].sizing / 5
-    ax.plot((low, high), (base * low / high, base), color="0.5", lw=1, ls="--")
-    ax.text(high, base / 1.5, "slope 1", color="0.4", fontsize=9, va="top", ha="right")
+    ax.plot((low, high), (base * low / high, base), color=QUIET, lw=1, ls="--")
+    ax.text(high, base / 1.5, "slope 1", color=QUIET, fontsize=9, va="top", ha="right")
     ax.set(ylim=(1e-4, 1e3), xlabel="gears", ylabel="seconds")
     ax.set_title("Time of the whole, hulls", fontsize=11)
     ax.legend(frameon=False, loc="upper left", fontsize=9)
@@ -316,14 +328,14 @@ def closure(ax: Axes, records: SphereRecords) -> None:
         ax.plot(teeth, errors, color=colour, marker=marker, ms=5, lw=1.4, label=name)
         wrong = [(10.0**row.power, row.error) for row in rows if row.wrong]
         label = "wrong verdicts" if (family, method) == (PLANETS, "floats") else None
-        ax.plot(*zip(*wrong, strict=True), color="black", marker="x", ms=9, lw=0, label=label)
+        ax.plot(*zip(*wrong, strict=True), color=INK, marker="x", ms=9, lw=0, label=label)
         if method == "floats":
             bounds = [row.bound or 0 for row in rows]
             ax.plot(teeth, bounds, color=colour, ls="--", lw=1.2, label="planetary, its own forecast")
-    ax.axhline(TOLERANCE, color="0.55", lw=1, ls="--")
-    ax.text(1e15, TOLERANCE / 1.5, "tolerance", color="0.4", fontsize=9, va="top", ha="right")
-    ax.axhline(0.5, color="0.55", lw=1)
-    ax.text(10, 0.7, "half a pitch: nothing is known", color="0.4", fontsize=9, va="bottom")
+    ax.axhline(TOLERANCE, color=QUIET, lw=1, ls="--")
+    ax.text(1e15, TOLERANCE / 1.5, "tolerance", color=QUIET, fontsize=9, va="top", ha="right")
+    ax.axhline(0.5, color=QUIET, lw=1)
+    ax.text(10, 0.7, "half a pitch: nothing is known", color=QUIET, fontsize=9, va="bottom")
     ax.set(ylim=(3e-15, 1e2), xlabel="teeth, at least", ylabel="greatest error of a residue, pitches")
     ax.set_title("Loop sums in floats; fractions have no error", fontsize=11)
     ax.legend(frameon=False, loc="lower right", fontsize=9)

@@ -7,7 +7,20 @@ from fractions import Fraction
 from functools import partial
 
 from matplotlib.axes import Axes
-from studies.page import from_command_line, lowered, number, paragraphs, picture, read, span, write_page
+from studies.page import (
+    HUES,
+    INK,
+    PAPER,
+    QUIET,
+    from_command_line,
+    lowered,
+    number,
+    paragraphs,
+    picture,
+    read,
+    span,
+    write_page,
+)
 from studies.records import seconds_text
 from studies.tooth_number_records import (
     CHAIN,
@@ -30,18 +43,18 @@ from studies.tooth_number_study import tooth_numbers
 
 PUBLIC = 44.7  # seconds of the public brute-force tool
 HAND = (FACTORED, WALKED, CONVERGENTS)
-# colours that the colour-blind tell apart, and a marker for each
+# a colour of the palette and a marker for each
 WAYS = {
-    FACTORED: ("#56B4E9", "v"),
-    WALKED: ("#009E73", "^"),
-    CONVERGENTS: ("#E69F00", "D"),
-    PAIRS: ("#CC79A7", "s"),
-    PRODUCTS: ("#0072B2", "o"),
-    TRAIN: ("#D55E00", "P"),
-    EVERY: ("#000000", "x"),
+    FACTORED: (HUES[6], "v"),
+    WALKED: (HUES[3], "^"),
+    CONVERGENTS: (HUES[4], "D"),
+    PAIRS: (HUES[2], "s"),
+    PRODUCTS: (HUES[0], "o"),
+    TRAIN: (HUES[1], "P"),
+    EVERY: (INK, "x"),
 }
-SIZES = {2: ("#56B4E9", "v"), 3: ("#009E73", "s"), 4: ("#0072B2", "o"), 5: ("#D55E00", "^")}
-FREE = {26: ("#56B4E9", "v"), 46: ("#009E73", "s"), 86: ("#0072B2", "o")}
+SIZES = {2: (HUES[6], "v"), 3: (HUES[3], "s"), 4: (HUES[0], "o"), 5: (HUES[1], "^")}
+FREE = {26: (HUES[6], "v"), 46: (HUES[3], "s"), 86: (HUES[0], "o")}
 SHOWN = (("tropical month", 2), ("tropical month", 3), ("1009/997", 3))
 WIDE = "12:100"
 
@@ -274,7 +287,7 @@ def errors(ax: Axes, records: TeethRecords, name: str, stages: int) -> None:
                 *zip(*points, strict=True), color=colour, marker=marker, ms=6, lw=1.4, label=method, drawstyle=style
             )
     best = float(last(rows, PRODUCTS).miss or 0)
-    ax.axhline(best, color="0.55", lw=1, ls="--")
+    ax.axhline(best, color=QUIET, lw=1, ls="--")
     ax.set(xscale="log", yscale="log", xlabel="seconds", ylabel="best error, part of the ratio")
     ax.set_title(f"{name}, {stages} stages of {WIDE}", fontsize=11)
 
@@ -286,7 +299,7 @@ def times(ax: Axes, records: TeethRecords) -> None:
         points = [(row.counts, time_of(row)) for row in rows]
         ax.plot(*zip(*points, strict=True), color=colour, marker=marker, ms=6, lw=1.4, label=f"{stages} stages")
         for point in (point for row, point in zip(rows, points, strict=True) if row.share < 1):
-            ax.plot(*point, color=colour, marker=marker, ms=6, mfc="white")
+            ax.plot(*point, color=colour, marker=marker, ms=6, mfc=PAPER)
     ax.set(xscale="log", yscale="log", xlabel="counts of each wheel", ylabel="seconds")
     ax.set_title("The best of all, by sorted products", fontsize=11)
     ax.legend(frameon=False, loc="upper left", fontsize=9)
@@ -325,7 +338,7 @@ def trains(ax: Axes, records: TeethRecords) -> None:
         points = [(row.free, row.seconds) for row in grown(records, CHAIN) if row.counts == size]
         label = f"one output, {size} counts"
         ax.plot(*zip(*points, strict=True), color=colour, marker=marker, ms=6, lw=1.4, label=label)
-    marks = {1: ("#CC79A7", "D"), 2: ("#E69F00", "P")}
+    marks = {1: (HUES[2], "D"), 2: (HUES[4], "P")}
     rows = grown(records, FORK)
     for own, (colour, marker) in marks.items():
         found = [row for row in rows if row.free - row.shared == 4 * own]
@@ -334,7 +347,7 @@ def trains(ax: Axes, records: TeethRecords) -> None:
         ax.plot(*zip(*points, strict=True), color=colour, marker=marker, ms=6, lw=1.4, ls="--", label=label)
         for row in found:
             place = ((row.free, row.seconds or 0), (5, -12))
-            ax.annotate(f"{row.shared} shared", *place, textcoords="offset points", fontsize=8, color="0.35")
+            ax.annotate(f"{row.shared} shared", *place, textcoords="offset points", fontsize=8, color=QUIET)
     ax.set(yscale="log", xlabel="free wheels", ylabel="seconds", ylim=(3e-3, 3e2))
     ax.set_title("All solutions in a train, counted", fontsize=11)
     ax.legend(frameon=False, loc="upper left", fontsize=9)

@@ -7,13 +7,12 @@ from functools import partial
 
 from matplotlib.axes import Axes
 from studies.cut_pair_trials import EVERY, PLACES
-from studies.page import from_command_line, lowered, paragraphs, picture, read, write_page
+from studies.page import HUES, INK, LINE, from_command_line, lowered, paragraphs, picture, read, write_page
 from studies.page import span as span_of
 from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, RateRecord, UncertaintyRecords, at_one
 from studies.uncertainty_study import uncertainty
 
-# colours that the colour-blind tell apart
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+COLOURS = (HUES[0], HUES[1], HUES[3], HUES[2])
 MARKERS = ("o", "s", "^", "D")
 GOALS = {COUNTS: 1e6, PLACES: 1e6, EVERY: 1e5, DISPLACED: 1e5}
 
@@ -171,7 +170,7 @@ def draw(records: UncertaintyRecords) -> None:
         bars(axes[0], records)
         falling(axes[1], records)
         for ax in axes:
-            ax.grid(color="0.88", lw=0.6)
+            ax.grid(color=LINE, lw=0.5, alpha=0.6)
             ax.set_axisbelow(True)
             ax.spines[["top", "right"]].set_visible(False)
 
@@ -182,11 +181,11 @@ def bars(ax: Axes, records: UncertaintyRecords) -> None:
     goals = dict(zip(GOALS, COLOURS, strict=False))
     for at, row in enumerate(rows):
         alone = row.method == SINGLY
-        ax.barh(at, row.rate, color="0.6" if alone else goals[row.family], height=0.7)
+        ax.barh(at, row.rate, color=LINE if alone else goals[row.family], height=0.7)
         text = f"{number(row.rate)}" + ("" if alone else f", {number(row.ratio)} times the loop")
         ax.text(row.rate * 1.15, at, text, va="center", fontsize=9)
         if not alone:
-            ax.plot([GOALS[row.family]] * 2, [at - 0.42, at + 0.42], color="black", lw=1.6)
+            ax.plot([GOALS[row.family]] * 2, [at - 0.42, at + 0.42], color=INK, lw=1.6)
     names = [f"{row.family}: {row.method}\n{row.case}" for row in rows]
     ax.set_yticks(range(len(rows)), names, fontsize=8.5)
     ax.set(

@@ -10,10 +10,14 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any, TypeVar
 
+from geartrain.scene.palette import THEMES
 from studies.records import StudyRecords
 
 DOCS = Path(__file__).resolve().parent.parent
 Records = TypeVar("Records", bound=StudyRecords)
+_LIGHT = THEMES["light"]
+INK, QUIET, LINE, PAPER, HUES = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.series
+"""Colours of pictures: the package's own."""
 
 
 def read(kind: type[Records], *names: str) -> list[Records]:
@@ -87,12 +91,13 @@ def picture(name: str, *panels: int, **options: Any) -> Iterator[tuple[Any, Any]
         "svg.hashsalt": name.split("-")[0],
         "svg.fonttype": "none",
         "font.family": "sans-serif",
+        **dict.fromkeys(("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), INK),
     }
     with plt.rc_context(style):
         figure, axes = plt.subplots(*panels, layout="constrained", **options)
         yield figure, axes
         for ax in axes.flat:
-            ax.grid(color="0.88", lw=0.6)
+            ax.grid(color=LINE, lw=0.5, alpha=0.6)
             ax.spines[["top", "right"]].set_visible(False)
         figure.savefig(DOCS / "images" / f"{name}.svg", metadata={"Date": None})
         plt.close(figure)

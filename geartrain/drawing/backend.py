@@ -112,6 +112,8 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
             text.set_text(shown)
     buffer = BytesIO()
     with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}), themed(figure, theme):
+        if figure.get_layout_engine():
+            figure.draw_without_rendering()  # laid out anew, panels have other ticks, and their words another width
         figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
     data = buffer.getvalue()
     if kind != ".svg":

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, TEXT
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, TEXT, headed
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
     _key(figure, likely)
     if title:
         words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
-        figure.suptitle(words, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
+        headed(figure, words)
     return figure
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D
-from geartrain.drawing.style import BLACK, GREY, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import BLACK, GREY, SMALL, TEXT, WIDTH, headed, plain
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import Dash, series_colour, series_dash
 
@@ -77,7 +77,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     for axes, (label, cost) in zip(panels.flat[3:], _costs(pitch, unit), strict=True):
         _along(axes, label, cost, paths, styles)
     title = f"{_title(pitch)}; curves that leave a panel go on beyond it"
-    figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK)
+    headed(figure, title)
     handles = [
         Line2D([], [], color=color, linestyle=dashes, linewidth=1.8, label=name)
         for name, (color, dashes) in styles.items()

@@ -54,7 +54,7 @@ def jam_map_figure(
     handles = [_line(axes, x, y, shown, *each) for each in zip(LEVELS, _DASHES, strict=True)]
     if limit is not None:
         handles.append(_bound(axes, x, y, limit))
-    figure.legend(handles=handles, loc="outside upper left", ncols=4, fontsize=SMALL, frameon=False, handlelength=4)
+    figure.legend(handles=handles, loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False, handlelength=4)
     axes.set_xlabel(axis_names[0], fontsize=TEXT)
     axes.set_ylabel(axis_names[1], fontsize=TEXT)
     axes.tick_params(labelsize=SMALL)

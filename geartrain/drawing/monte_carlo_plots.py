@@ -11,7 +11,7 @@ import numpy as np
 from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.jam_map import jam_map_figure
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
-from geartrain.drawing.style import GREY, SMALL, TEXT, WIDTH, plain, series_look
+from geartrain.drawing.style import GREY, SMALL, TEXT, WIDTH, headed, plain, series_look
 from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
@@ -69,7 +69,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
         below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
         below.set_yscale("log")
     below.set_xlabel("trials", fontsize=TEXT)
-    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=4, fontsize=SMALL, frameon=False)
+    figure.legend(*above.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False)
     return figure
 
 
@@ -123,6 +123,13 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()
     'probability of a jam'
     """
+    if picture not in PICTURES:
+        raise QuestionError(Problem(f"there is no picture '{picture}'", "", f"use {', '.join(PICTURES)}"))
+    times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
+    return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
+
+
+def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     trials = findings.trials
     if picture == "errors":
         return errors_figure(trials)
@@ -135,9 +142,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
         return indices_figure(findings.indices[0])
     if picture == "pairs":
         return pair_shares_figure(trials, trials.plan.outputs[0])
-    if picture == "map":
-        return clearances_figure(findings.cleared, trials.plan.name)
-    raise QuestionError(Problem(f"there is no picture '{picture}'", "", f"use {', '.join(PICTURES)}"))
+    return clearances_figure(findings.cleared)
 
 
 def _need(what: Sequence[object], why: str, fix: str) -> None:
@@ -150,7 +155,7 @@ def errors_figure(trials: TrialResults) -> Figure:
     found = {each.name: np.degrees(each.kept) for each in trials.pointers}
     jammed = any(len(each.errors) <= 1 for each in trials.pointers)
     note = ", flanks that push alone reckoned where the train jams" if jammed else ""
-    return histogram_figure(found, f"{trials.plan.name} at random positions{note}")
+    return histogram_figure(found, f"at random positions{note}")
 
 
 def course_figure(courses: Sequence[PointerErrorCourse], lead: str) -> Figure:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geartrain.drawing.backend import Figure
-from geartrain.drawing.style import BLUE, GREY, RED, SMALL, TEXT, WIDTH
+from geartrain.drawing.style import BLUE, GREY, RED, SMALL, WIDTH, headed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,7 +71,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
     left = len(found) - len(traces)
     rest = f"{left} outputs that err less are left out: name them with --output" if left else ""
-    figure.suptitle("; ".join(filter(None, (title, rest))), fontsize=TEXT, x=0.01, ha="left", parse_math=False)
+    headed(figure, "; ".join(filter(None, (title, rest))))
     return figure
 
 

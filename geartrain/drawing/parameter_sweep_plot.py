@@ -17,6 +17,7 @@ from geartrain.drawing.style import (
     SMALL,
     TEXT,
     WIDTH,
+    headed,
     plain,
 )
 from geartrain.errors import Problem, QuestionError
@@ -108,7 +109,7 @@ def sweep_figure(
         )
     figure = _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
     if title:
-        figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
+        headed(figure, title)
     return figure
 
 

@@ -156,7 +156,7 @@ def _between(axes: Axes, x: Floats, low: Floats, high: Floats, alpha: float, lab
 def _legend(figure: Figure, axes: Axes) -> None:
     if axes.get_legend() is None:
         handles, labels = axes.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=5, fontsize=SMALL, frameon=False)
+        figure.legend(handles, labels, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
 
 
 def _nothing(why: str) -> QuestionError:

@@ -121,6 +121,12 @@ def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
     return figure, axes
 
 
+def headed(figure: Figure, title: str) -> Figure:
+    """The figure with a title above all its panels."""
+    figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
+    return figure
+
+
 def title_of(name: str, title: str) -> str:
     """What stands above a picture of a train."""
     return f"{name}: {title}" if title else name

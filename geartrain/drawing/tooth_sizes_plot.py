@@ -6,7 +6,7 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WIDTH, plain, short
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WIDTH, headed, plain, short
 
 if TYPE_CHECKING:
     from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
@@ -48,8 +48,14 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
     >>> tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)})).axes[0].get_xlabel()
     'window'
     """
-    if len(found.aims) == 2:
-        return _front_figure(found)
+    z1, z2 = found.teeth
+    best = " and ".join(_LABELS[aim].partition(",")[0].partition(" (")[0] for aim in found.aims)
+    title = f"triangular teeth, {z1} and {z2}, wheel {found.driver} drives: best {best}"
+    return headed(_front_figure(found) if len(found.aims) == 2 else _aim_figure(found), title)
+
+
+def _aim_figure(found: BestToothSizes) -> Figure:
+    """A panel for each free size."""
     names = list(found.free)
     figure = Figure(figsize=(WIDTH, 3.2 * len(names)), layout="constrained")
     for axes, name in zip(figure.subplots(len(names), 1, squeeze=False)[:, 0], names, strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,10 @@ from written_text import read_picture
 from geartrain.drawing import motion_figure
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
 from geartrain.dynamics import MotionRun
+from geartrain.scene.palette import THEMES
 
+CUT = ["montecarlo", "moon-triangular", "--set", "placement=2%"]
+PAIR = ["mesh", "triangular", "--teeth", 60, 30]
 QUICK = [
     ["mesh", "triangular", "--teeth", 60, 30, "--clearance", "1.05", "--vary", "friction=0:0.5:6"],
     ["mesh", "triangular", "--teeth", 60, 30, "--vary", "clearance=1.01:1.2:7", "--vary", "friction=0:0.5:6"],
@@ -28,10 +32,19 @@ QUICK = [
     ["torques", "norton-compound"],
     ["sphere", "cube", "--teeth", "4=12"],
     ["motion", "moon-triangular", "--turns", "0.2", "--samples", 101],
-    *(["montecarlo", "moon-triangular", "--set", "placement=2%", "--trials", 20, "--picture", picture]
-      for picture in ("errors", "convergence", "pairs")),
+    *([*CUT, "--trials", 20, "--picture", picture] for picture in ("errors", "convergence", "pairs")),
+    [*CUT, "--trials", 8, "--output", "moon", "--picture", "course"],
+    [*CUT, "--trials", 8, "--output", "moon", "--sobol", "--picture", "sobol"],
+    [*PAIR, "--best", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"],
+    [*PAIR, "--best", "jam,error", "--free", "window=0.4:0.6"],
+    ["optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window"],
 ]  # fmt: skip
 SLOW = [
+    ["montecarlo", "freeth-2021-teeth", "--set", "placement=2%", "--trials", 6, "--picture", "course",
+     *("--output", "moon", "--output", "saturn", "--output", "mars")],
+    ["montecarlo", "pennestri-2002-teeth", "--set", "placement=2%", "--trials", 8, "--output", "moon", "--sobol",
+     "--picture", "sobol"],
+    ["optimise", "pennestri-2002-teeth", "--output", "moon", "--best", "jam", "--free", "window"],
     ["montecarlo", "moon-triangular", "--set", "placement=2%", "--trials", 20, "--picture", "map"],
     ["budget", "freeth-2021"],
     ["budget", "freeth-2008"],
@@ -40,7 +53,7 @@ SLOW = [
     ["torques", "zf-9hp48", "--state", "1"],
     ["dynamics", "moon-triangular-inertia", "--rate", "1", "--turns", "0.02"],
     ["posterior", "freeth-2008-doubt"],
-]
+]  # fmt: skip
 
 
 def check(arguments: list[object], folder: Path, option: str = "--plot") -> None:
@@ -56,6 +69,26 @@ def check(arguments: list[object], folder: Path, option: str = "--plot") -> None
 @pytest.mark.parametrize("arguments", QUICK, ids=lambda words: " ".join(map(str, words)))
 def test_words_of_a_plot_can_be_read(arguments: list[object], tmp_path: Path) -> None:
     check(arguments, tmp_path)
+
+
+@pytest.mark.parametrize("theme", ["dark", "print"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [*PAIR, "--best", "jam,error", "--free", "window=0.4:0.6"],
+        [*CUT, "--trials", 4, "--output", "moon", "--picture", "course"],
+        [*CUT, "--trials", 4, "--picture", "pairs"],
+    ],
+    ids=("best", "course", "pairs"),
+)
+def test_a_plot_has_the_colours_of_its_theme(arguments: list[object], theme: str, tmp_path: Path) -> None:
+    target = tmp_path / "plot.svg"
+    call(*arguments, "--plot", target, "--theme", theme)
+    colours = set(re.findall("#[0-9a-f]{6}", target.read_text(encoding="utf-8")))
+    light = THEMES["light"]
+    assert not colours & {light.fault, *light.series, *([light.paper, light.ink] if theme == "dark" else [])}
+    if theme == "print":
+        assert all(len({each[1:3], each[3:5], each[5:]}) == 1 for each in colours), colours
 
 
 def test_words_of_wheels_in_contact_can_be_read(tmp_path: Path) -> None:

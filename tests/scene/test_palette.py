@@ -127,6 +127,34 @@ def test_pages_and_the_built_viewer_hold_no_other_colours_of_series() -> None:
             assert re.search(rf"--hand-{at}: ?{colour}[;}}]", built), (name, colour)
 
 
+# metals, enamel and grounds, which stand for themselves: no reader is to tell them apart by their colour
+MADE_OF = re.compile(
+    r"^(?:export const (?:BRASS|PARTS) = .*|\s*--(?:stage|edge|gd-edge|on-accent|wash|bad-wash): .*)$", re.MULTILINE
+)
+GROUNDS = {"#f4f1ea", "#ffffff", "#9aa1ab"}
+
+
+def sources() -> list[Path]:
+    viewer, docs = ROOT / "geartrain" / "viewer" / "src", ROOT / "docs"
+    plots = [
+        *docs.glob("make_*.py"),
+        *docs.glob("studies/*.py"),
+        *(ROOT / "geartrain" / "drawing").rglob("*.py"),
+    ]
+    return [*viewer.rglob("*.js"), *viewer.rglob("*.css"), *plots]
+
+
+def test_no_picture_has_a_colour_of_its_own() -> None:
+    own = {each for theme in THEMES.values() for each in re.findall("#[0-9a-f]{6}", repr(theme))}
+    found = {}
+    for path in sources():
+        text = MADE_OF.sub("", path.read_text(encoding="utf-8"))
+        other = {each.lower() for each in re.findall(r"#[0-9A-Fa-f]{6}\b", text)} - own - GROUNDS
+        if other:
+            found[path.name] = other
+    assert not found
+
+
 def maker() -> ModuleType:
     spec = importlib.util.spec_from_file_location("make_palette", ROOT / "docs" / "make_palette.py")
     assert spec is not None

@@ -1,13 +1,14 @@
 // What things are painted with where nobody says otherwise.
 
-// the hands of one dial in order, as in palette.css
-export { SERIES as NEEDLES } from "./series.js";
+import { FAULT, LINE, QUIET, SERIES } from "./series.js";
 
-export const BROKEN = "#c2281d";
-export const CHOSEN = "#1f6feb";
+// the hands of one dial in order, as in palette.css
+export const NEEDLES = SERIES;
+export const BROKEN = FAULT;
+export const CHOSEN = SERIES[0];
+// metals, and what is made of other things
 export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
-export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d", section: "#c96f5a" };
-export const STATUS = { surviving: "#4f8a6d", reconstructed: "#c9973f", hypothetical: "#8f7fb8", "": "#9aa3ad" };
+export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };
 
 const mix = (one, other, share) =>
   `#${[1, 3, 5].map((at) => {
@@ -15,15 +16,19 @@ const mix = (one, other, share) =>
     return Math.round(a + share * (b - a)).toString(16).padStart(2, "0");
   }).join("")}`;
 
+const GREY = mix(LINE, QUIET, 0.5); // of what nothing is said of
+export const SECTION = mix(FAULT, LINE, 0.35); // of faces where a train is cut open
+export const STATUS = { surviving: SERIES[3], reconstructed: SERIES[1], hypothetical: SERIES[2], "": GREY };
+
 /** Faster is stronger, on a logarithmic scale over six decades; blue for positive turns, orange for negative ones. */
 export function speedColour(speed, fastest) {
-  if (!speed) return "#9aa3ad";
+  if (!speed) return GREY;
   const share = 1 + Math.log10(Math.abs(speed) / fastest) / 6;
-  return mix("#d5d8dc", speed > 0 ? "#1d5fa8" : "#c4570f", Math.min(1, Math.max(0.15, share)));
+  return mix(LINE, SERIES[speed > 0 ? 0 : 1], Math.min(1, Math.max(0.15, share)));
 }
 
 /** From none lost to the most lost. */
-export const lossColour = (loss, most) => (loss === null ? "#9aa3ad" : mix("#dcd8cc", "#a31621", most ? loss / most : 0));
+export const lossColour = (loss, most) => (loss === null ? GREY : mix(LINE, FAULT, most ? loss / most : 0));
 
 /** A colour by wheel in one of the modes. */
 export function colours(scene, mode) {

@@ -5,7 +5,7 @@
 
 import { Color, DataTexture, DoubleSide, FloatType, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
 
-import { PARTS } from "./colours.js";
+import { SECTION } from "./colours.js";
 
 export const WIDTH = 256; // texels of the poses' texture, four a body
 
@@ -131,7 +131,7 @@ export function metals(count, main, middle, size, quarter) {
     middle: { value: middle },
     share: { value: 0 },
     size: { value: size },
-    ...(quarter && { edge: { value: quarter.at }, right: { value: quarter.right }, up: { value: quarter.up }, section: { value: new Color(PARTS.section) } }),
+    ...(quarter && { edge: { value: quarter.at }, right: { value: quarter.right }, up: { value: quarter.up }, section: { value: new Color(SECTION) } }),
   };
   return [false, true].map((ghosts) => {
     const uniforms = { ...shared, ghosts: { value: ghosts } };

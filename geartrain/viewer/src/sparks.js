@@ -1,7 +1,8 @@
 // Where contacts of a simulated run are: a flash where teeth strike, a ring where they are apart. Seen through all else.
 
-import { BufferAttribute, BufferGeometry, GLSL3, Points, RawShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, Color, GLSL3, Points, RawShaderMaterial } from "three";
 
+import { CHOSEN } from "./colours.js";
 import { vector } from "./space.js";
 
 const corner = `
@@ -20,6 +21,7 @@ void main() {
 const point = `
 precision highp float;
 in vec2 seen;
+uniform vec3 apart;
 out vec4 colour;
 void main() {
   float off = 2.0 * length(gl_PointCoord - 0.5);
@@ -31,7 +33,7 @@ void main() {
   float blaze = max(core, halo);
   float whole = max(blaze, ring);
   if (whole < 0.02) discard;
-  colour = vec4(blaze > ring ? blow : vec3(0.1, 0.42, 0.95), whole);
+  colour = vec4(blaze > ring ? blow : apart, whole);
 }`;
 
 export class Sparks {
@@ -46,7 +48,7 @@ export class Sparks {
       glslVersion: GLSL3,
       vertexShader: corner,
       fragmentShader: point,
-      uniforms: { unit: { value: 64 } },
+      uniforms: { unit: { value: 64 }, apart: { value: new Color(CHOSEN).convertLinearToSRGB() } },
       transparent: true,
       depthTest: false,
       depthWrite: false,

@@ -8,6 +8,7 @@
 //   app.setTurns(t)   t a number, or exact text such as '235/19'; sets every machine and stage, then calls
 //                     app.onTurns(t) if it is there, so that scripts and dials stay together
 //   app.turns         what was last given
+import { BROKEN } from "../colours.js";
 import { Fraction } from "../fraction.js";
 import { Crank } from "./crank.js";
 import { Drive } from "./drive.js";
@@ -170,7 +171,7 @@ class Interface {
       .map((side) => ({ side, pointer: side.scene.pointers.find((each) => each.output === output) }))
       .filter(({ pointer }) => pointer);
     const parts = new Map(found.map(({ side, pointer }) => [side, { wheels: pointer.wheels }]));
-    this.#highlight(parts, "way");
+    this.#highlight(parts);
     this.panel.path(output, found);
     this.live.say(`path to ${output}: ${found.map(({ pointer }) => `${pointer.pairs.length} pairs`).join(", ")}`);
   }
@@ -181,30 +182,29 @@ class Interface {
     const named = (list) => list.findIndex(({ id }) => id === name);
     const coupling = side.scene.couplings[named(side.scene.couplings)];
     const bodies = kind === "pin" ? [coupling.pin, coupling.slot] : [named(side.scene.bodies)];
-    this.#highlight(new Map([[side, kind === "pair" ? { pairs: [name] } : { bodies }]]), "way");
+    this.#highlight(new Map([[side, kind === "pair" ? { pairs: [name] } : { bodies }]]));
     this.live.say(`${name} is shown`);
   }
 
   /** Highlights what a brake holds, or what a clutch joins. */
   element(side, { bodies, closed, text }) {
-    this.#highlight(new Map([[side, { bodies }]]), "way");
+    this.#highlight(new Map([[side, { bodies }]]));
     this.live.say(`${text}; it is ${closed ? "closed" : "open"}`);
   }
 
   /** Highlights a loop that holds the train. */
   loop(side, parts) {
-    this.#highlight(new Map([[side, parts]]), "loop");
+    this.#highlight(new Map([[side, parts]]), BROKEN);
     this.live.say(`the loop ${parts.pairs.join(", ")} is shown in red`);
   }
 
   /** parts: side -> what is highlighted there */
-  #highlight(parts, colour) {
-    const value = getComputedStyle(document.documentElement).getPropertyValue(`--${colour}`).trim();
-    for (const each of this.sides) each.stage?.highlight(parts.get(each) ?? null, value);
+  #highlight(parts, colour = getComputedStyle(document.documentElement).getPropertyValue("--way").trim()) {
+    for (const each of this.sides) each.stage?.highlight(parts.get(each) ?? null, colour);
   }
 
   letGo() {
-    this.#highlight(new Map(), "way");
+    this.#highlight(new Map());
     this.select(this.sides[0], null);
     this.panel.letGo();
   }

@@ -11,8 +11,9 @@
   };
   rows.forEach((cells, row) =>
     cells.forEach((text, n) => {
-      const [x, y] = [(wide * (n + 1)) / (cells.length + 0.5), high + line * (row + 1)];
-      picture.append(make("text", { x, y, "text-anchor": "end", class: "gd-text" }, text));
+      // names from the left edge on, numbers to their column's right: what is long has the whole width between
+      const [x, y] = [wide * (0.08 + (0.84 * n) / (cells.length - 1)), high + line * (row + 1)];
+      picture.append(make("text", { x, y, "text-anchor": n ? "end" : "start", class: "gd-text" }, text));
     }),
   );
   const whole = high + line * (rows.length + 0.7);

@@ -57,7 +57,7 @@ def test_what_is_cut_out_lies_in_the_quarter_and_one_taps_through_it(show: Openi
     shown.page.get_by_label("Cut open").uncheck()
     assert shown.run(MET, [beyond, 45]) is not None
     whole = picture(shown.run(PICTURE))
-    changed = np.abs(cut - whole).sum(axis=2) > 90
+    changed = np.abs(cut - whole).sum(axis=2) > 60
     axis = shown.run(
         "(([{camera, world}]) => world.quarter.at.clone().project(camera).toArray().slice(0, 2))(geartrain.stages)"
     )
@@ -65,6 +65,6 @@ def test_what_is_cut_out_lies_in_the_quarter_and_one_taps_through_it(show: Openi
     column, row = (1 + axis[0]) / 2 * wide, (1 - axis[1]) / 2 * high
     margin = 0.04 * high  # planes along the line of sight are seen from a point
     rows, columns = np.nonzero(changed)
+    outside = (columns < column - margin) | (rows > row + margin)
     assert 0.02 < changed.mean() < 0.25
-    assert columns.min() > column - margin
-    assert rows.max() < row + margin
+    assert outside.sum() < 1e-3 * changed.size, "but for single points on edges of teeth"

@@ -33,11 +33,11 @@ Seen in the pictures of its steps: one spur wheel stands between two lanterns of
 right for the one is not for the other. Millwrights gave both stones the same lantern.
 """,
     "freeth-2021": """
-Seen in the pictures of its steps: on the central axis the fixed wheels 49, 51 and 56 of the frame stand between b0, b1
-and b2, so that neither the fixed arbor nor the tube of b goes through as a whole. The published design joins b0 to b1
-by a bar beside the axis, a part that a declaration has no word for. Slots of the followers are bars that turn through
-the room of other wheels, and arbors on b1 go through wheels of others where levels are found for all; what is drawn so
-cannot be put together.
+Seen in the pictures of its steps: the fixed wheels 49, 51 and 56 stand on a fixed pipe round the Moon's arbor, from a
+plate of the frame through the tube of b; before them b goes out to its dial by an arm, which a bar beside the axis
+joins to b1, as the published design joins b0. Slots of the followers are bars that turn through the room of other
+wheels, and arbors on b1 go through wheels of others where levels are found for all; what is drawn so cannot be put
+together.
 """,
 }
 """What a person found in the pictures, by train."""

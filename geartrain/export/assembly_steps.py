@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn
+from geartrain.scene.parts.turned_parts import rod_name
 
 if TYPE_CHECKING:
     from geartrain.scene.parts.frame_plates import FramePlates
@@ -94,7 +95,6 @@ class _Steps:
 
     def _column(self, column: AxisColumn) -> Iterator[AssemblyStep]:
         """Which wheels go on which arbor or pipe, and which pipes over which."""
-        names = {member.link: self._rod(column, member.link) for member in column.members}
         for member in column.members:
             every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
             wheels = [name for name in every if name not in self.plan.cut]
@@ -104,24 +104,20 @@ class _Steps:
                 spacers, collets = self._sleeves(every)
                 order += _with(wheels, spacers, collets)
                 text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
-                yield self._step(text, [names[member.link], *every, *spacers, *collets])
+                yield self._step(text, [rod_name(column, member), *every, *spacers, *collets])
                 yield from self._on_eccentrics(every)
                 yield from self._plated_pins(every)
-        pipes = [member.link for member in column.members if member.inner]
+        pipes = [member for member in column.members if member.inner]
         if pipes and not column.is_stud:
-            text = f"On axis {column.axis} slide on the pipes, innermost first: {', '.join(pipes)}"
-            yield self._step(text, [names[link] for link in pipes])
+            links = ", ".join(member.link for member in pipes)
+            text = f"On axis {column.axis} slide on the pipes, innermost first: {links}"
+            yield self._step(text, [rod_name(column, member) for member in pipes])
 
     def _sleeves(self, names: Sequence[str]) -> tuple[list[str], list[str]]:
         """Spacers between neighbours of some wheels, and their collets."""
         spacers = (f"spacer {low} to {high}" for low, high in pairwise(names))
         collets = (f"collet of {name}" for name in names)
         return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
-
-    def _rod(self, column: AxisColumn, link: str) -> str:
-        """The name of an arbor or a pipe."""
-        tried = (f"{link} pipe", f"{link} pipe on {column.axis}", f"{link} arbor")
-        return next((name for name in tried if name in self.known), "")
 
     def _pins(self) -> Iterator[AssemblyStep]:
         for name, cut in self.work.cut_couplings.items():
@@ -135,7 +131,10 @@ class _Steps:
         for each in self.frame.standing:
             if each.seat in plates:
                 pins = [f"{each.name} {at}" for at in range(1, 1 + len(each.spots))]
-                yield self._step(f"Press the pins of '{each.name.removesuffix(' pin')}' into {each.seat}", pins)
+                text = f"Press the pins of '{each.name.removesuffix(' pin')}' into {each.seat}"
+                if each.joined:
+                    text = f"Press the {each.name} into {each.seat}, and into {each.wheel} when all between them stands"
+                yield self._step(text, pins)
 
     def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
         """What turns on some eccentrics, of which it may need others that stand already."""

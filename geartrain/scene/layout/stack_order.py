@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 
 _PIERCED = 1.0  # cost of an arbor that goes through a wheel
+_HELD = (0.0, 4.0, 2.0)  # of one that reaches into what stands still: in turn, as dear from the start finds less
 _LONG = 0.02  # of a level that an arbor spans
 _LEVEL = 0.005  # of a level used
 _PASSES = 8  # over all stacks
@@ -42,6 +43,7 @@ class StackProblem:
     ends      of arbors that run out of the stack to a dial
     plates    arbor -> the wheel on which its axis is carried round
     pins      wheels with a pin and with its slot; rows of `overlap.pierce` after those of arbors
+    still     the link that stands still: where it has several wheels on an axis, they are as an arbor that does
     """
 
     blocks: Sequence[WheelBlock]
@@ -50,6 +52,7 @@ class StackProblem:
     ends: Mapping[str, DialEnds]
     plates: Mapping[str, str]
     pins: Sequence[tuple[str, str]] = ()
+    still: str = ""
 
     @property
     def count(self) -> int:
@@ -96,6 +99,15 @@ class _OrderSearch:
         pins = [(stack_of[pin], stack_of[slot]) for pin, slot in problem.pins]
         return [*(tuple(stacks) for stacks in carried.values()), *pins]
 
+    @cached_property
+    def _standing(self) -> dict[int, tuple[int, ...]]:
+        """Stacks of wheels that stand still, by axis, where there are several: one piece holds them all."""
+        found: dict[int, dict[int, None]] = {}
+        for block in self.problem.blocks:
+            if block.link and block.link == self.problem.still and not block.across and not block.inner:
+                found.setdefault(block.axis, {})[block.stack] = None
+        return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
+
     def _mates(self, at: int) -> Iterator[int]:
         """Stacks that share an arbor with a stack, as often as they do, itself among them."""
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
@@ -120,26 +132,31 @@ class _OrderSearch:
         """Put in all stacks, then settle each again and move runs of levels until nothing gets better."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
-            self._settle(keys, at)
+            self._settle(keys, at, 0.0)
+        for held in _HELD if self._standing else (0.0,):
+            keys = self._settled(keys, held)
+        return keys
+
+    def _settled(self, keys: Floats, held: float) -> Floats:
         for _ in range(_PASSES):
             before = keys.copy()
             for at in self.order:
-                self._settle(keys, at)
-            keys, better = self._shifted(keys)
+                self._settle(keys, at, held)
+            keys, better = self._shifted(keys, held)
             if not better and np.array_equal(before, keys):
                 break
         return keys
 
-    def _shifted(self, keys: Floats) -> tuple[Floats, bool]:
+    def _shifted(self, keys: Floats, held: float) -> tuple[Floats, bool]:
         """Some levels together moved past others, or turned over, where that costs less; and whether it does."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
-        costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE]) for at in range(0, len(ranks), _AT_ONCE)])
+        costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE], held) for at in range(0, len(ranks), _AT_ONCE)])
         # rounded, so that of equal costs the first wins, whatever the order of summation made of the last digits
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
-    def _settle(self, keys: Floats, at: int) -> None:
+    def _settle(self, keys: Floats, at: int, held: float) -> None:
         """Put one stack where it costs least: in a level (a whole key), or between two (a half)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
@@ -154,10 +171,13 @@ class _OrderSearch:
         every = np.repeat(keys[None, :], len(tries), axis=0)
         every[:, at] = tries
         # rounded as in `_shifted`: of equal costs the first
-        keys[at] = tries[int(np.argmin(np.round(self._costs(every), 9)))]
+        keys[at] = tries[int(np.argmin(np.round(self._costs(every, held), 9)))]
 
-    def _costs(self, every: Floats) -> Floats:
-        """Costs of several orders of the same stacks, a row each; stacks not yet put in are nan."""
+    def _costs(self, every: Floats, held: float) -> Floats:
+        """Costs of several orders of the same stacks, a row each; stacks not yet put in are nan.
+
+        held   cost of an arbor that reaches into what stands still
+        """
         keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
         low, high = keys[self._borne[0]], keys[self._borne[0]]  # two arrays: each is changed in place below
         for stacks in self._borne[1:]:
@@ -167,7 +187,7 @@ class _OrderSearch:
         span = np.nansum(high - low, axis=0)  # that to a dial is as long as it is
         low[out_below] -= np.inf
         high[out_above] += np.inf
-        tangled = self._tangled(keys, low, high)
+        tangled = self._tangled(keys, low, high) + (held * self._unheld(keys) if held else 0.0)
         for core, *pipes in self._coaxial_arbors:  # the arbor inside bears its pipes: it reaches as far as they do
             low[core] = np.fmin(low[core], np.fmin.reduce(low[pipes]))
             high[core] = np.fmax(high[core], np.fmax.reduce(high[pipes]))
@@ -184,6 +204,27 @@ class _OrderSearch:
         inside = (keys[stack] > low[arbor]) & (keys[stack] < high[arbor])
         covers = np.logical_or.reduceat(inside, starts, axis=0)
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
+
+    def _unheld(self, keys: NDArray[np.float32]) -> Floats:
+        """How often arbors reach into what stands still on their axis, so that nothing can hold it in one piece.
+
+        From below, wheels of the one and of the other come by turns: one turn is an arbor beside what stands still; of
+        more, each is half a reach.
+        """
+        found = np.zeros(keys.shape[1])
+        below, above = (frozenset(each.tolist()) for each in self._running_out)
+        for axis, still in self._standing.items():
+            for arbor, turning in self._hubs.get(axis, {}).items():
+                rows = [keys[list(still)], keys[list(turning)]]
+                rows += [
+                    np.full((1, keys.shape[1]), end) for end, out in ((-np.inf, below), (np.inf, above)) if arbor in out
+                ]
+                heights = np.concatenate(rows)
+                order = np.argsort(heights, axis=0)  # nan last
+                stands, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
+                turns = ((stands[1:] != stands[:-1]) & put[1:]).sum(axis=0)
+                found += np.maximum(turns - 1, 0) / 2
+        return found
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 from geartrain.scene.parts.coaxial_order import CoaxialLink, clash, nested
 from geartrain.scene.parts.processes import Process
-from geartrain.scene.parts.stack_discs import Point, StackDisc, by_link
+from geartrain.scene.parts.stack_discs import Point, StackDisc, by_piece
 
 OVER = 0.2  # mm that a pipe is longer than what it carries, at either end
 SHAKE = 0.2  # mm along the axis
@@ -153,22 +153,72 @@ class ColumnProblem:
             return [AxisBearing.THROUGH, AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD]
         return [AxisBearing.THROUGH]
 
-    def _links(self, places: FramePlaces) -> Iterator[CoaxialLink]:
-        for link, discs in by_link(disc for disc in self.discs if disc.hub).items():
-            low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
+    def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
+        """Pieces from the innermost, and two links of which neither can be inside the other, if there are such."""
+        moving, tangled = list(self._moving()), None
+        for still in self._still(places, [height for each in moving for height in each.hubs]):
+            if order := nested([*still, *moving]):
+                return order, None
+            tangled = tangled or clash([*still, *moving])
+        whole = [*self._in_one(places), *moving]
+        return nested(whole) or tuple(whole), tangled
+
+    def _moving(self) -> Iterator[CoaxialLink]:
+        """Pieces of what turns."""
+        pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
+        parted = {link for link, apart in pieces if apart}
+        for (link, apart), discs in pieces.items():
             below, above = self.ends.get(link, (False, False))
+            if link in parted:  # what is apart goes out on its own side, the rest on the other
+                under = min(disc.low for disc in pieces[link, True]) < min(disc.low for disc in pieces[link, False])
+                below, above = below and under == apart, above and under != apart
+            low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
             low, high = (self.span[0] if below else low), (self.span[1] if above else high)
-            if link == self.frame:  # held by the plate that is nearer
-                near = min((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - (low + high) / 2))
-                low, high = min(low, near[0]), max(high, near[1])
-            yield CoaxialLink(link, tuple(disc.middle for disc in discs), low, high, link == self.frame)
+            hubs = tuple(disc.middle for disc in discs)
+            yield CoaxialLink(link, hubs, low, high, discs=tuple(discs), ends=(below, above))
+
+    @property
+    def _standing(self) -> list[StackDisc]:
+        """Wheels that stand still, from below."""
+        return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
+
+    def _in_one(self, places: FramePlaces) -> Iterator[CoaxialLink]:
+        """What stands still as one piece, to the nearer plate, whatever is in its way."""
+        if own := self._standing:
+            middle = (own[0].low + own[-1].high) / 2
+            near = min((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
+            held = self._held(own, near)
+            yield replace(held, hubs=held.hubs[:-1])
+
+    def _still(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
+        """Ways to hold what stands still: in one piece, or what nothing parts from a plate by a piece of its own.
+
+        hubs   heights of all that turns on the axis
+        """
+        own = self._standing
+        if not own:
+            yield []
+            return
+        middle = (own[0].low + own[-1].high) / 2
+        plates = sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
+        yield from ([self._held(own, plate)] for plate in plates)
+        for plate in plates:
+            next_to = [disc for disc in own if not any(_between(height, disc, plate) for height in hubs)]
+            rest = [disc for disc in own if disc not in next_to]
+            if next_to and rest:
+                yield from ([self._held(rest, other), self._held(next_to, plate)] for other in plates[::-1])
+
+    def _held(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
+        """A piece that stands still, from its discs into a plate, which must come to it past all that turns there."""
+        low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
+        hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
+        return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
 
     def _column(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
-        links = list(self._links(places))
-        order, tangled = nested(links) or tuple(links), clash(links)
+        order, tangled = self._ordered(places)
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
         core = self._core(order, stud)
-        members = self._stepped(list(self._members(order, core, stud)))
+        members = _stepped(self._members(order, core, stud), order)
         low = min((each.low for each in members), default=places.back[1])
         high = max((each.high for each in members), default=places.front[0])
         head = self.head
@@ -186,44 +236,45 @@ class ColumnProblem:
         column = AxisColumn(self.axis, self.at, bearing, core, pivot, low, high, members, (), tangled)
         return with_hits(column, self.others)
 
-    def _stepped(self, members: Sequence[ColumnMember]) -> tuple[ColumnMember, ...]:
-        """What goes out to hands goes the further out the further inside it is."""
-        found, steps = [], [0, 0]
-        for each in reversed(members):
-            below, above = self.ends.get(each.link, (False, False))
-            low, high = each.low - HAND * steps[0] * below, each.high + HAND * steps[1] * above
-            found.append(replace(each, low=low, high=high))
-            steps = [steps[0] + below, steps[1] + above]
-        return tuple(reversed(found))
-
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
         """Diameter of the core: as given, or so that every pipe fits into the roots of its smallest wheel."""
         if self.core is not None:
             return self.core
-        roots = [self._root(each.link) for each in order]
+        roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
         found = [_WIDEST, *(USUAL * root for root in roots)]
-        thick = {each.link: each.outer for each in self._members(order, 0.0, stud)}  # what pipes add
-        found += [2 * root - thick[each.link] for each, root in zip(order, roots, strict=True)]
+        thick = [each.outer for each in self._members(order, 0.0, stud)]  # what pipes add
+        found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
         return max(_LEAST, round(min(found), 2))
-
-    def _root(self, link: str) -> float:
-        """The smallest root radius on a link."""
-        return min((disc.root for disc in self.discs if disc.link == link and disc.hub and disc.root), default=9.0)
 
     def _members(self, order: Sequence[CoaxialLink], core: float, stud: bool) -> Iterator[ColumnMember]:
         found: list[ColumnMember] = []
         for at, each in enumerate(order):
-            own = tuple(disc for disc in self.discs if disc.link == each.link and disc.hub)
             low, high = each.low - OVER, each.high + OVER
             if not at and not stud:
-                found.append(ColumnMember(each.link, low, high, 0.0, core, own, each.fixed))
+                found.append(ColumnMember(each.link, low, high, 0.0, core, each.discs, each.fixed))
                 continue
             # the first is the core, and goes through all
             under = [other.outer for k, other in enumerate(found) if (not k and not stud) or _overlap(other, low, high)]
             inner = round(max([core, *under]) + self.process.running, 3)
             outer = round(inner + 2 * self.process.wall, 3)
-            found.append(ColumnMember(each.link, low, high, inner, outer, own, each.fixed))
+            found.append(ColumnMember(each.link, low, high, inner, outer, each.discs, each.fixed))
         yield from found
+
+
+def _stepped(members: Iterable[ColumnMember], order: Sequence[CoaxialLink]) -> tuple[ColumnMember, ...]:
+    """What goes out to hands goes the further out the further inside it is."""
+    found, steps = [], [0, 0]
+    for member, each in reversed(list(zip(members, order, strict=True))):
+        below, above = each.ends
+        low, high = member.low - HAND * steps[0] * below, member.high + HAND * steps[1] * above
+        found.append(replace(member, low=low, high=high))
+        steps = [steps[0] + below, steps[1] + above]
+    return tuple(reversed(found))
+
+
+def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool:
+    """True if a height is between a disc and a plate."""
+    return min(disc.middle, plate[0]) < height < max(disc.middle, plate[1])
 
 
 def _overlap(member: ColumnMember, low: float, high: float) -> bool:

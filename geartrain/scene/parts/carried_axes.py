@@ -27,12 +27,14 @@ class TurningPlate:
     spots   axes that it bears (carrier), or none (disc of a ring)
     ring    the ring wheel that it holds
     round   whether it is as wide all round as what it sweeps
+    flange  whether it is what brakes and clutches take hold of, on a shaft that bears nothing else
     """
 
     disc: StackDisc
     spots: tuple[str, ...] = ()
     ring: str = ""
     round: bool = False
+    flange: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,11 @@ class CarrierSeat:
     link: str
     seat: str
     plates: tuple[TurningPlate, ...]
+
+    @property
+    def is_bearing(self) -> bool:
+        """False for the disc of a ring, for an arm, and for the flange of a shaft that bears nothing."""
+        return not any(plate.ring or plate.disc.apart or plate.flange for plate in self.plates)
 
 
 @dataclass(frozen=True, slots=True)

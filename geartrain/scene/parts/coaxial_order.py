@@ -10,16 +10,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from geartrain.scene.parts.stack_discs import StackDisc
+
 
 @dataclass(frozen=True, slots=True)
 class CoaxialLink:
-    """What one link has on an axis: heights of its hubs from below, and how far it reaches (to a dial, or a plate)."""
+    """What one link has in one piece on an axis, and how far it reaches (to a dial, or a plate).
+
+    hubs    heights at which something holds it or is held by it: of its discs, and of the plate that holds what stands
+    discs   on it; `ends`, whether it goes out below and above the stack
+    """
 
     link: str
     hubs: tuple[float, ...]
     low: float
     high: float
     fixed: bool = False
+    discs: tuple[StackDisc, ...] = ()
+    ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:
         """True if a hub of the other sits where this one would be its pipe."""

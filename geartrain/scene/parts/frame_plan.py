@@ -23,6 +23,7 @@ from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.pin_circles import PinCircle, pin_seats
 from geartrain.scene.parts.plate_places import PlateChoice, best_column, best_places, obstacles, with_discs
 from geartrain.scene.parts.processes import Process
+from geartrain.scene.parts.shaft_seats import arm_seats, flange_seats
 from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
 from geartrain.scene.parts.stack_heights import BEHIND, StackHeights, stack_up
 
@@ -60,9 +61,19 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Places of plates with the fewest obstacles, then the fewest studs."""
-        axes = list(self._axes(self.stack.discs, self._slabs))
-        return best_places(axes, self.stack.discs, list(self._seats()), self._gaps, self._blocked, self._cut)
+        """Places of plates with the fewest obstacles, then the fewest studs.
+
+        Where a link cannot go out to its dial inside or outside of what stands in its way, it does by an arm that a bar
+        joins to it, if that leaves fewer obstacles.
+        """
+        first = self._best([])
+        tangled = [each for each in first.columns if each.tangled]
+        arms = [[arm] for column in tangled for arm in arm_seats(self.stack, column, self.ends, self._gaps)]
+        return min(first, self._best(arms), key=lambda each: each.cost[0]) if arms else first
+
+    def _best(self, arms: list[list[CarrierSeat]]) -> PlateChoice:
+        axes, seats = list(self._axes(self.stack.discs, self._slabs)), [*self._seats(), *arms]
+        return best_places(axes, self.stack.discs, seats, self._gaps, self._blocked, self._cut)
 
     def _axes(self, discs: Sequence[StackDisc], taken: Sequence[tuple[float, float]]) -> Iterator[ColumnProblem]:
         span = taken[0][0] - _DIAL, taken[-1][1] + _DIAL
@@ -121,6 +132,7 @@ class FramePlan:
         for disc in self.stack.discs:
             if not disc.hub and disc.link != self.stack.frame and disc.carrier is None:
                 yield ring_seats(disc, disc.outer, self._gaps)
+        yield from flange_seats(self.stack, self._gaps)
 
     def _slots(self, circle: PinCircle | FlexibleCup) -> list[StackDisc]:
         same = {each.slot for each in self.stack.pin_circles.values() if each.link == circle.link}
@@ -142,7 +154,9 @@ class FramePlan:
         return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
 
     def _borne_by(self, seat: CarrierSeat) -> list[CarriedAxis]:
-        return [] if _holds_ring(seat) else [each for each in self.stack.carried.values() if each.carrier == seat.link]
+        return (
+            [] if not seat.is_bearing else [each for each in self.stack.carried.values() if each.carrier == seat.link]
+        )
 
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
@@ -234,12 +248,12 @@ class FramePlan:
 
     def seat_of(self, carrier: str) -> str:
         """The wheel or the plate on which a carrier bears its axes, or its pins."""
-        return next(seat.seat for seat in self.choice.seats if seat.link == carrier and not _holds_ring(seat))
+        return next(seat.seat for seat in self.choice.seats if seat.link == carrier and seat.is_bearing)
 
     @property
     def plated_pins(self) -> dict[str, str]:
         """The plate of each coupling whose pins stand in one that turns."""
-        bearing = {seat.link for seat in self.choice.seats if not _holds_ring(seat)}
+        bearing = {seat.link for seat in self.choice.seats if seat.is_bearing}
         circles = self.stack.pin_circles.values()
         return {each.name: self.seat_of(each.link) for each in circles if each.link in bearing}
 
@@ -312,7 +326,3 @@ class FramePlan:
                 what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
                 why = f"its roots stand at {root:.3f} mm, the {member.outer:g} mm of '{member.link}' go on beside it"
                 yield Problem(what, why, "give a thinner --bore, or a larger module")
-
-
-def _holds_ring(seat: CarrierSeat) -> bool:
-    return any(plate.ring for plate in seat.plates)

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 _SAME = 1e-6  # mm
 _PARALLEL = 1e-9  # of a cosine
 _STANDARD = 1.25  # modules: depth of teeth that are not cut flat
+_RIM = 2.0  # modules round the teeth of a ring that is not
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,10 +144,13 @@ class FrameStack:
             if place.axis not in self.axes and about is None:
                 continue
             blank, height = self.blanks.get(name), dot(place.centre, self.normal)
-            outer = blank.tip_radius if blank else place.radius + place.module
-            root = blank.root_radius if blank else place.radius - _STANDARD * place.module
-            ring = blank is not None and blank.kind == "ring"
-            inner = blank.tip_radius if blank is not None and ring else 0.0
+            ring = self.train.declaration.wheels[name][1].internal
+            out = -1 if ring else 1
+            tip = blank.tip_radius if blank else place.radius + out * place.module
+            root = blank.root_radius if blank else place.radius - out * _STANDARD * place.module
+            edge = tip if blank is None or blank.kind == "external" else rim(blank)
+            if ring and blank is None:
+                edge = root + _RIM * place.module
             yield StackDisc(
                 name,
                 place.link,
@@ -154,9 +158,9 @@ class FrameStack:
                 self.flat(place.centre),
                 height - place.thickness / 2,
                 height + place.thickness / 2,
-                rim(blank) if blank is not None and blank.kind != "external" else max(outer, root),
-                inner,
-                min(root, outer),
+                max(edge, root),
+                tip if ring else 0.0,
+                min(root, edge),
                 not ring,
                 None if about is None else self.flat(self.layout.axes[about].point),
             )

@@ -50,6 +50,7 @@ class StandingPins:
     seat         the plate that turns in which they stand; nothing where that is the nearer plate of the frame
     wheel        through which they reach, from the plate to its far face
     spots        their middles across the stack; `radius`, their own (mm)
+    joined       whether they are fixed in the wheel too, and do not work in its holes
     """
 
     name: str
@@ -58,12 +59,14 @@ class StandingPins:
     wheel: str
     spots: tuple[Point, ...]
     radius: float
+    joined: bool = False
 
     def parts(self, plate: tuple[float, float], wheel: StackDisc, joint: str) -> Iterator[TurnedPart]:
         """All of them, from the far face of their plate to that of the wheel."""
         band = Band(min(plate[0], wheel.low), max(plate[1], wheel.high), self.radius)
+        through = (self.seat, wheel.name) if self.joined else (self.seat,)
         for number, at in enumerate(self.spots, 1):
-            yield TurnedPart(self.link, f"{self.name} {number}", "pin", at, (band,), joint, (self.seat,))
+            yield TurnedPart(self.link, f"{self.name} {number}", "pin", at, (band,), joint, through)
 
 
 def pin_seats(

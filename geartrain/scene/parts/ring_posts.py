@@ -44,10 +44,9 @@ def _posts(
     plan: FramePlan, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...]
 ) -> Iterator[TurnedPart]:
     """Of one ring; in a plate of the frame where they are in nobody's way."""
-    blank = plan.stack.blanks[ring.name]
-    wide = ring.outer - blank.root_radius
+    wide = ring.outer - ring.root
     radius = min(_RIM_PART * wide, _POST_WIDEST)
-    away = (ring.outer + blank.root_radius) / 2
+    away = (ring.outer + ring.root) / 2
     free = ring.link == plan.stack.frame
     spots = _spots(plan, ring, plate, away, radius) if free else _evenly(ring.at, away, 2 * _POSTS)
     low, high = min(plate[0], ring.low), max(plate[1], ring.high)

@@ -35,6 +35,8 @@ class StackDisc:
         True if it sits on the arbor of its link; a ring does not.
     carrier : tuple of float or None
         The axis about which its own is carried round, if it is.
+    apart : bool
+        True of an arm that a bar beside the axis joins to its link, round what stands between them.
     """
 
     name: str
@@ -48,6 +50,7 @@ class StackDisc:
     root: float = 0.0
     hub: bool = True
     carrier: Point | None = None
+    apart: bool = False
 
     @property
     def middle(self) -> float:
@@ -88,9 +91,9 @@ def swept_circle(disc: StackDisc) -> tuple[Point, float]:
     return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
 
 
-def by_link(discs: Iterable[StackDisc]) -> Mapping[str, list[StackDisc]]:
-    """Discs of each link, in order."""
-    found: dict[str, list[StackDisc]] = {}
+def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[StackDisc]]:
+    """Discs of each link, in order; those apart from the rest of it by themselves."""
+    found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
-        found.setdefault(disc.link, []).append(disc)
+        found.setdefault((disc.link, disc.apart), []).append(disc)
     return found

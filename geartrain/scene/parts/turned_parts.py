@@ -150,8 +150,17 @@ def column_parts(
         members = members[1:]
     for each in members:
         whole = [Band(each.low, each.high, each.outer / 2, each.inner / 2)]
-        name = f"{each.link} pipe" + (f" on {column.axis}" if each.fixed else "")
-        yield TurnedPart(each.link, name, "pipe", column.at, tuple(without(whole, each, cut)), _carries(each))
+        bands, name = tuple(without(whole, each, cut)), rod_name(column, each)
+        yield TurnedPart(each.link, name, "pipe", column.at, bands, _carries(each))
+
+
+def rod_name(column: AxisColumn, member: ColumnMember) -> str:
+    """The name of an arbor or a pipe: of several pipes of one link on an axis with the wheel that tells them apart."""
+    if not member.inner:
+        return f"{member.link} arbor"
+    first = next(each for each in column.members if each.link == member.link and each.inner)
+    name = f"{member.link} pipe" + (f" on {column.axis}" if member.fixed else "")
+    return name + (f" at {member.discs[0].name}" if member is not first or member.discs[0].apart else "")
 
 
 def without(bands: Sequence[Band], member: ColumnMember, cut: frozenset[str]) -> list[Band]:

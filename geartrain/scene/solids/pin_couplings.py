@@ -87,6 +87,11 @@ def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
 
+def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
+    """In a bar of its own: from the slot's axis to the middle of its outer end, and half the bar's width (mm)."""
+    return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
+
+
 def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
     """Along the slot from its axis outwards, across it, and along the axis: columns, in the zero pose."""
     along = np.array(scene.bodies[coupling.slot].direction)

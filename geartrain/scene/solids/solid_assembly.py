@@ -29,6 +29,7 @@ from geartrain.scene.solids.pin_couplings import (
     cut_couplings,
     holes,
 )
+from geartrain.scene.solids.side_bars import side_bars
 from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
 from geartrain.scene.solids.standing_pins import standing_pins
 from geartrain.scene.solids.triangle_solids import wheel_solid
@@ -112,7 +113,8 @@ class SolidModel:
             return None
         tabs = {side: [each.foot for each in self.brackets if each.side == side] for side in ("back", "front")}
         feet = tuple(foot for dial in self.dials for foot in dial.feet)
-        return FramePlates(self.plan, feet, tabs, tuple(standing_pins(self.scene, self.plan)))
+        standing = *standing_pins(self.scene, self.plan), *side_bars(self.scene, self.plan)
+        return FramePlates(self.plan, feet, tabs, standing)
 
     @cached_property
     def brackets(self) -> tuple[Bracket, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from inspect import Parameter, Signature
@@ -105,19 +105,27 @@ class FilmRequest:
         check_browser()
         return found
 
-    def write(self, scene: Scene, to: Sink) -> None:
+    def write(self, scenes: Sequence[Scene], to: Sink) -> None:
         """Draw it, with a progress bar once it takes long, and write it whole or not at all."""
         from geartrain.viewer.film_frames import film
+        from geartrain.viewer.film_parts import film_parts
 
         if self.suffix == ".png":
             width, height = self.shot.size
-            to.write(film(scene, self.suffix, self.shot), f": {width} by {height}")
+            to.write(film(scenes, self.suffix, self.shot), f": {width} by {height}")
             return
-        shot = self.shot.timed(scene)
-        with progress("film", shot.frames, _PATIENCE) as bar:
-            data = film(scene, self.suffix, shot, bar.advance)
-        to.write(data, f": {plural(shot.frames, 'picture')} in {shot.seconds:.3g} s, {len(data) / 1000:,.0f} kB")
-        if not shot.closes(scene) and scene.run is None and (period := period_of(scene)) is not None:
+        pictures = sum(len(part.moments) for part in film_parts(scenes, self.shot))
+        with progress("film", pictures, _PATIENCE) as bar:
+            data = film(scenes, self.suffix, self.shot, bar.advance)
+        seconds = pictures / self.shot.fps
+        to.write(data, f": {plural(pictures, 'picture')} in {seconds:.3g} s, {len(data) / 1000:,.0f} kB")
+        if len(scenes) == 1:
+            self._tell_period(scenes[0])
+
+    def _tell_period(self, scene: Scene) -> None:
+        """Say so where the film does not end as it begins."""
+        period = period_of(scene)
+        if period is not None and scene.run is None and not self.shot.timed(scene).closes(scene):
             tell(f"it ends otherwise than it begins: a whole period is {_said(period)} turns of the lead")
 
 

@@ -58,6 +58,9 @@ Kiosk = Annotated[bool, typer.Option("--kiosk", help="The same for a museum's sc
 Png = Annotated[bool, typer.Option("--png", help="Write a picture, NAME.png, in place of a page.")]
 Gif = Annotated[bool, typer.Option("--gif", help="Write a film, NAME.gif, in place of a page.")]
 Mp4 = Annotated[bool, typer.Option("--mp4", help="Write a film, NAME.mp4, in place of a page.")]
+AllStates = Annotated[
+    bool, typer.Option("--states", help="A film of all states, one after another; --turns and --seconds of each.")
+]
 
 
 @with_shot
@@ -85,11 +88,12 @@ def run(
     png: Png = False,
     gif: Gif = False,
     mp4: Mp4 = False,
+    states: AllStates = False,
     shot: Mapping[str, Any] = MappingProxyType({}),
 ) -> None:
     """A page in which the train turns: one file, no server, no network; two trains stand side by side.
 
-    With --png, --gif or --mp4, or an output file called so, it is a picture or a film of one state.
+    With --png, --gif or --mp4, or an output file called so, it is a picture or a film of one state, or of all.
     """
     from geartrain.scene import build_scene
 
@@ -100,15 +104,17 @@ def run(
     _check_request(request, dynamics, other)
     shown = _shown(embed, kiosk, film, other)
     trains = load_all([file] if other is None else [file, other])
+    if states:
+        _check_states(trains[0], film, state, dynamics)
     path = out or file_name("-".join(train.name for train in trains), film.suffix if film else ".html")
     to = film.sink(path, force) if film else _page_sink(path, force)
-    first = dynamics or other is not None or film is not None
+    first = dynamics or other is not None or (film is not None and not states)
     taken = [(train, each) for train in trains for each in _states(train, state, first)]
     runs = [_played(train, each, request) if dynamics else None for train, each in taken]
     whole = shown == "page" and film is None
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
     if film is not None:
-        film.write(scenes[0], to)
+        film.write(scenes, to)
     else:
         _write_page(scenes, to, shown, other is not None, teeth)
     if open_it and to.path is not None and not webbrowser.open(to.path.resolve().as_uri()):
@@ -139,6 +145,19 @@ def _shown(embed: bool, kiosk: bool, film: FilmRequest | None, other: str | None
         why = f"{ways[0]} has room for one"
         raise QuestionError(Problem("two trains", why, "give one, or write a page of both", other))
     return "embed" if embed else "kiosk" if kiosk else "page"
+
+
+def _check_states(train: GearTrain, film: FilmRequest | None, state: str | None, dynamics: bool) -> None:
+    """Raises `QuestionError` where there is no film of all states to be made."""
+    wrong = {
+        "a page shows all states by itself": film is None,
+        "a picture shows one moment": film is not None and film.suffix == ".png",
+        f"--state {state} names one of them": state is not None,
+        "a motion in time is that of one state": dynamics,
+        f"'{train.name}' has no states": not train.states,
+    }
+    for why in (each for each, holds in wrong.items() if holds):
+        raise QuestionError(Problem("no film of all states", why, "leave --states out, or make a film of a gearbox"))
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:

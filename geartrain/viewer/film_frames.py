@@ -6,14 +6,15 @@ No clock is read: the crank is set to the exact turns of each picture, which is 
 from __future__ import annotations
 
 from base64 import b64decode
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.viewer.browser import open_browser, outside_of_loops
 from geartrain.viewer.film_formats import FORMATS, check_format
+from geartrain.viewer.film_parts import FilmPart, film_parts
 from geartrain.viewer.shot import Shot
 from geartrain.viewer.viewer_page import page
 
@@ -27,13 +28,15 @@ OnFrame = Callable[[], object]
 _PATIENCE = 180_000  # ms: software draws slowly on a busy machine
 
 
-def film(scene: Scene, suffix: str, shot: Shot | None = None, on_frame: OnFrame = lambda: None) -> bytes:
-    """A picture or a film of a scene, as the file that holds it.
+def film(
+    scene: Scene | Sequence[Scene], suffix: str, shot: Shot | None = None, on_frame: OnFrame = lambda: None
+) -> bytes:
+    """A picture or a film of a scene, or a film of several one after another, as the file that holds it.
 
     Parameters
     ----------
-    scene : Scene
-        What turns.
+    scene : Scene or sequence of Scene
+        What turns; several are states of one train, each shown for the shot's turns and seconds with its name.
     suffix : {".png", ".gif", ".webp", ".mp4"}
         A picture, or a film of what form; those of GIF and WebP begin again at the end.
     shot : Shot, optional
@@ -66,21 +69,24 @@ def film(scene: Scene, suffix: str, shot: Shot | None = None, on_frame: OnFrame 
     """
     shot = shot or Shot()
     check_format(suffix, shot)
-    if suffix == ".png":
-        moments = [(shot.at, shot.turntable)]
+    scenes = scene if isinstance(scene, Sequence) else [scene]
+    if suffix != ".png":
+        parts = film_parts(scenes, shot)
+    elif len(scenes) == 1:
+        parts = [FilmPart(scenes[0], [(shot.at, shot.turntable)])]
     else:
-        shot = shot.timed(scene)
-        moments = list(shot.moments())
+        why = "a picture shows one moment"
+        raise QuestionError(Problem(f"a picture of {len(scenes)} states", why, "make a film, or ask for one state"))
 
     def made() -> bytes:
-        return FORMATS[suffix](_told(frames(scene, shot, moments), on_frame), shot)
+        return FORMATS[suffix](_told(frames(parts, shot), on_frame), shot)
 
     return outside_of_loops(made)
 
 
-def frames(scene: Scene, shot: Shot, moments: Iterable[tuple[Any, float]]) -> Iterator[bytes]:
-    """A PNG for each moment: turns of the lead, and turns of the camera."""
-    html = page([scene], teeth=shot.teeth, shown="film")
+def frames(parts: Sequence[FilmPart], shot: Shot) -> Iterator[bytes]:
+    """A PNG for each moment of each part."""
+    html = page([part.scene for part in parts], teeth=shot.teeth, shown="film")
     with TemporaryDirectory() as folder, open_browser() as browser:
         path = Path(folder) / "film.html"
         path.write_text(html, encoding="utf-8")
@@ -88,13 +94,19 @@ def frames(scene: Scene, shot: Shot, moments: Iterable[tuple[Any, float]]) -> It
         sheet = browser.new_page(viewport={"width": width, "height": height}, device_scale_factor=1)
         sheet.set_default_timeout(_PATIENCE)
         sheet.goto(path.as_uri())
-        _prepare(sheet, shot)
-        for turns, orbit in moments:
-            yield _picture(sheet, str(turns), orbit)
+        for at, part in enumerate(parts):
+            if at:
+                sheet.evaluate("(at) => geartrain.film.open(at)", at)
+            _prepare(sheet, shot, part.words)
+            for turns, orbit in part.moments:
+                yield _picture(sheet, str(turns), orbit)
 
 
-def _prepare(sheet: Page, shot: Shot) -> None:
-    """The page, ready and set. Raises `QuestionError` where it shows no picture, or knows no such colour."""
+def _prepare(sheet: Page, shot: Shot, words: tuple[str, str] | None) -> None:
+    """The page, ready and set, with words over its pictures.
+
+    Raises `QuestionError` where it shows no picture, or knows no such colour.
+    """
     if not sheet.evaluate("Boolean(geartrain.film)"):
         why = "it has no WebGL, which draws in three dimensions"
         raise QuestionError(Problem("the browser draws no train", why, "use another one, or update it"))
@@ -102,7 +114,7 @@ def _prepare(sheet: Page, shot: Shot) -> None:
         why, fix = "CSS knows no such colour", "give one such as white, #f4f1ea or rgb(20 20 20)"
         raise QuestionError(Problem(f"'{shot.background}' is no background", why, fix))
     wanted = {name: getattr(shot, name) for name in ("look", "background", "apart", "cutaway")}
-    wanted["turntable"] = bool(shot.turntable)
+    wanted |= {"turntable": bool(shot.turntable), "words": words}
     sheet.evaluate("(wanted) => geartrain.film.set(wanted)", wanted)
 
 

@@ -18,7 +18,9 @@ Look = Literal["free", "front", "back", "side"]
 _PACE = Fraction(1, 4)  # turns a second of what turns fastest: an eye can follow its teeth
 _STEP = Fraction(2, 5)  # teeth that pass from one picture to the next: from a half on they seem to go backwards
 _LEAST, _LONGEST, _USUAL = 2.0, 40.0, 6.0  # s: of a film, of a whole period that is shown, of a part of a longer one
-_MOST_SIDE, _LEAST_SIDE, _MOST_FRAMES = 4096, 16, 5000
+_MOST_SIDE, _LEAST_SIDE = 4096, 16
+MOST_FRAMES = 5000
+"""Pictures of a film."""
 _ORBIT = 12.0  # s of one turn of the camera
 
 
@@ -113,8 +115,8 @@ class Shot:
         """
         turns, seconds = self._span(scene)
         found = replace(self, turns=turns, seconds=seconds)
-        if found.frames > _MOST_FRAMES:
-            why = f"it would have {found.frames} pictures, and {_MOST_FRAMES} are the most"
+        if found.frames > MOST_FRAMES:
+            why = f"it would have {found.frames} pictures, and {MOST_FRAMES} are the most"
             raise QuestionError(Problem("the film is too long", why, "give fewer --seconds, or a lower --fps"))
         return found
 
@@ -122,13 +124,13 @@ class Shot:
         if scene.run is not None:
             whole = Fraction(scene.run.duration / scene.run.period) if self.turns is None else self.turns
             return whole, self.seconds or float(whole) * scene.run.period
-        if scene.lead is None or scene.movement.kind == "still" or self.turns == 0:
+        if not moves(scene) or self.turns == 0:
             if not self.turntable:
                 why = scene.verdict.get("text", "") if self.turns != 0 else "it was asked for no turns"
                 fix = "give --turntable 1, or --png for one picture"
                 raise QuestionError(Problem("nothing moves in this film", str(why), fix))
             return Fraction(0), self.seconds or abs(self.turntable) * _ORBIT
-        pace = _pace(scene, self.fps)
+        pace = pace_of(scene, self.fps)
         period = period_of(scene)
         if self.turns is not None:
             turns = self.turns
@@ -166,7 +168,12 @@ class Shot:
         return whole and float(self.turntable).is_integer()
 
 
-def _pace(scene: Scene, fps: int) -> Fraction:
+def moves(scene: Scene) -> bool:
+    """True where something turns when the lead does."""
+    return scene.lead is not None and scene.movement.kind != "still"
+
+
+def pace_of(scene: Scene, fps: int) -> Fraction:
     """Turns of the lead a second at which an eye can follow what turns, and a film shows which way teeth go."""
     speeds = [abs(Fraction(body.speed or 0)) for body in scene.bodies]
     teeth = max((wheel.teeth * speeds[wheel.body] for wheel in scene.wheels), default=0)

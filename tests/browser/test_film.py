@@ -24,6 +24,7 @@ from geartrain.errors import GearTrainError, QuestionError
 from geartrain.scene import Scene
 from geartrain.viewer import Shot, film, page
 from geartrain.viewer.film_frames import frames
+from geartrain.viewer.film_parts import FilmPart
 
 av = pytest.importorskip("av", reason="PyAV is not installed: no MP4 is packed")
 
@@ -38,7 +39,7 @@ def picture(data: bytes) -> np.ndarray:
 def stills(scene: Scene, shot: Shot, moments: Iterable[tuple[Fraction, float]]) -> list[bytes]:
     """A PNG of each moment; in a thread of its own, for the browser of other tests waits in this one."""
     with ThreadPoolExecutor(1) as pool:
-        return pool.submit(lambda: list(frames(scene, shot, moments))).result()
+        return pool.submit(lambda: list(frames([FilmPart(scene, list(moments))], shot))).result()
 
 
 @cache
@@ -188,6 +189,24 @@ def test_the_command_writes_a_film_and_says_how_long_its_period_is(tmp_path: Pat
     assert "a whole period is 30 turns of the lead" in done.output
     assert isinstance(call("view", "worm", "-o", to).exception, GearTrainError), "it is there"
     assert [path.name for path in tmp_path.iterdir()] == ["worm.gif"]
+
+
+def test_a_film_of_states_shows_each_by_its_name(tmp_path: Path) -> None:
+    to, asked = tmp_path / "states.webp", ("--seconds", "1", "--fps", "2", "--size", "240x160", "--no-teeth")
+    done = call("view", "planetary", "--states", "-o", to, *asked)
+    assert done.exit_code == 0, done.output
+    states = shipped.train("planetary").states
+    assert f"{2 * len(states)} pictures in {len(states)} s" in done.output
+    corners = []
+    with Image.open(to) as shown:
+        assert shown.n_frames == 2 * len(states)
+        for n in range(shown.n_frames):
+            shown.seek(n)
+            corners.append(np.asarray(shown.convert("L"), dtype=int)[4:26, 4:110])
+    assert all((corner < 90).mean() > 0.03 for corner in corners), "words stand there"
+    for one, other in zip(corners[::2], corners[1::2], strict=True):
+        assert np.abs(one - other).mean() < 6, "and are the same within a state"
+    assert all(np.abs(one - other).max() > 100 for one, other in pairwise(corners[::2])), "and others in the next"
 
 
 def test_a_motion_in_time_is_filmed_for_as_long_as_it_lasts(tmp_path: Path) -> None:

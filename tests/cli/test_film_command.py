@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from geartrain import GearTrainError, load
 from geartrain.errors import QuestionError
 from geartrain.scene import make_scene
 from geartrain.viewer import Shot, film
+from geartrain.viewer.film_parts import film_parts
 
 
 @pytest.fixture
@@ -26,6 +28,32 @@ def refusal(*arguments: object) -> str:
     assert isinstance(done.exception, GearTrainError), done.output
     assert all(problem.what and problem.fix for problem in done.exception.problems)
     return str(done.exception)
+
+
+def test_no_film_of_states_where_there_are_none_or_one_is_named(here: Path) -> None:
+    assert "'worm' has no states" in refusal("worm", "--states", "--gif")
+    for asked in ((), ("--png",), ("--gif", "--state", "sun fixed"), ("--gif", "--dynamics")):
+        assert "no film of all states" in refusal("planetary", "--states", *asked)
+    assert list(here.iterdir()) == []
+
+
+def test_states_take_as_long_each_at_one_speed_of_the_lead() -> None:
+    train = load("ravigneaux-set")
+    scenes = [make_scene(train, state) for state in train.states]
+    parts = film_parts(scenes, Shot(seconds=2, fps=10, turntable=1))
+    assert [part.scene.state for part in parts] == list(train.states)
+    assert {len(part.moments) for part in parts} == {20}
+    (step,) = {after - before for part in parts for (before, _), (after, _) in pairwise(part.moments)}
+    passed = (
+        step * wheel.teeth * Fraction(each.bodies[wheel.body].speed or 0) for each in scenes for wheel in each.wheels
+    )
+    assert max(map(abs, passed)) < Fraction(1, 2), "teeth are seen to go the way they go, in every state"
+    orbits = [orbit for part in parts for _, orbit in part.moments]
+    assert orbits == pytest.approx([n / len(orbits) for n in range(len(orbits))]), "the camera goes on"
+    closed = ", ".join(element.id for element in scenes[0].elements if element.closed)
+    assert parts[0].words is not None
+    assert parts[0].words[0] == f"state {train.states[0]}"
+    assert f"closed: {closed};" in parts[0].words[1]
 
 
 @pytest.mark.parametrize(

@@ -79,9 +79,9 @@ const painted = () =>
 
 /** A stage and nothing round it, for films. */
 function beginFilm() {
-  const stage = app.open(0);
-  stage.cut();
-  globalThis.geartrain.film = stage instanceof Stage ? new Film(stage) : null;
+  const film = new Film(app);
+  film.open(0);
+  globalThis.geartrain.film = film.stage instanceof Stage ? film : null;
   globalThis.geartrain.ready = true;
 }
 

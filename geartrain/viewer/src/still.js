@@ -7,16 +7,28 @@ const VIEWS = 24; // of a turning camera, from all of which the whole must be se
 
 /** For films: one stage that fills the window and is drawn only when a picture of it is asked for. */
 export class Film {
-  constructor(stage) {
-    this.stage = stage;
+  constructor(app) {
+    this.app = app;
     document.body.classList.add("film");
-    document.body.prepend(stage.canvas);
-    stage.resize();
   }
 
-  /** look, background, apart and cutaway as the page has them, null as it is; with `turntable` the camera stands far enough off for a turn. */
-  set({ look, background, apart, cutaway, turntable }) {
+  /** Shows another scene of the page. */
+  open(index) {
+    if (this.stage) {
+      this.stage.canvas.remove();
+      this.app.close(this.index);
+    }
+    this.index = index;
+    this.stage = this.app.open(index);
+    this.stage.cut?.();
+    document.body.prepend(this.stage.canvas);
+    this.stage.resize?.();
+  }
+
+  /** look, background, apart and cutaway as the page has them, null as it is; with `turntable` the camera stands far enough off for a turn; words: a large line and a small one, or null. */
+  set({ look, background, apart, cutaway, turntable, words }) {
     const { stage } = this;
+    this.words = words;
     stage.theme({ background: plain(background) });
     stage.explode(apart);
     if (typeof cutaway === "boolean") stage.cutOpen(cutaway);
@@ -33,8 +45,26 @@ export class Film {
     stage.camera.position.copy(home.target).addScaledVector(turned(home.towards, orbit), home.distance);
     stage.controls.update();
     stage.render();
-    return stage.canvas.toDataURL("image/png"); // in the same task: the next one finds the canvas empty
+    const picture = this.words ? worded(stage.canvas, this.words) : stage.canvas;
+    return picture.toDataURL("image/png"); // in the same task: the next one finds the canvas empty
   }
+}
+
+/** A picture with words in its upper left corner, with a halo that keeps them readable on any ground. */
+function worded(picture, [large, small]) {
+  const sheet = Object.assign(document.createElement("canvas"), { width: picture.width, height: picture.height });
+  const pen = sheet.getContext("2d");
+  pen.drawImage(picture, 0, 0);
+  const unit = Math.min(picture.height / 16, picture.width / 20);
+  Object.assign(pen, { textBaseline: "top", lineJoin: "round", strokeStyle: "#fbfaf6", fillStyle: "#211e18", lineWidth: 0.2 * unit });
+  const line = (text, size, weight, top) => {
+    pen.font = `${weight} ${size}px system-ui, sans-serif`;
+    pen.strokeText(text, 0.5 * unit, top, sheet.width - unit);
+    pen.fillText(text, 0.5 * unit, top, sheet.width - unit);
+  };
+  line(large, unit, 600, 0.5 * unit);
+  line(small, 0.62 * unit, 400, 1.7 * unit);
+  return sheet;
 }
 
 /** A colour as three.js reads it, of all that CSS can say. */

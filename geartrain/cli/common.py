@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.errors import GearTrainError, Problem, printable
+from geartrain.numerics.decimal_text import plural as plural
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -219,11 +220,6 @@ def read_share(text: str, option: str) -> Fraction:
     except PydanticCustomError as error:
         raise typer.BadParameter(error.message(), param_hint=option) from None
     return found.base
-
-
-def plural(count: int, noun: str) -> str:
-    """`1 loop`, `2 loops`."""
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def as_json(data: Any) -> str:

@@ -232,7 +232,7 @@ def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
     error = reading.error * scale.way
     if abs(error) > 5e-7:
         text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
-    if shown := scale.told(where + Fraction(error)):
+    if face.name and (shown := scale.told(where + Fraction(error))):  # a plain face has ticks and no cells
         text += f", {shown}"
     way = pointer.text.removesuffix(" as read")
     return f"{pointer.output}: {text}" + (f", {way}" if way == "stands still" else f", going {way}" if way else "")

@@ -22,11 +22,16 @@ _MOST = 6000  # points drawn in a panel: of each stretch the first, its least an
 _OUTPUTS, _STACKED = 12, 4  # outputs drawn, those that err most, and how many of them in one column
 _WIDE = 5.0  # inches of a panel beside others
 _TICKS = 6  # at most, between numbers below a panel
+_SWINGS = 60  # turning points of a curve that can be told apart in a panel; of more the first are drawn
+_EXACT = 1e-12  # rad, below which an error is rounding
 _ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
 
 
 class _Trace(NamedTuple):
-    """One output over the turns of the input: angle (turns), error (rad), speed over the mean (or the input's)."""
+    """One output over the turns of the input: angle (turns), error (rad), speed over the mean (or the input's).
+
+    first   turns, error and speed at every one of the first positions
+    """
 
     name: str
     turns: Floats
@@ -34,6 +39,7 @@ class _Trace(NamedTuple):
     mean: Floats
     error: Floats
     speed: Floats
+    first: tuple[Floats, Floats, Floats]
 
 
 _Drawer = Callable[[Any, _Trace], None]
@@ -66,12 +72,16 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     'turns of crank'
     """
     found = _traces(run, on_done)
-    erring = {trace.name for trace in sorted(found, key=lambda trace: -float(np.ptp(trace.error)))[:_OUTPUTS]}
-    traces = [trace for trace in found if trace.name in erring]
+    erring = [trace for trace in found if np.ptp(trace.error) > _EXACT] or found
+    most = {trace.name for trace in sorted(erring, key=lambda trace: -float(np.ptp(trace.error)))[:_OUTPUTS]}
+    traces = [trace for trace in erring if trace.name in most]
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
-    left = len(found) - len(traces)
-    rest = f"{left} outputs that err less are left out: name them with --output" if left else ""
-    headed(figure, "; ".join(filter(None, (title, rest))))
+    less, exact = len(erring) - len(traces), len(found) - len(erring)
+    rest = [
+        f"{less} outputs that err less are left out: name them with --output" if less else "",
+        f"{exact} without error {'is' if exact == 1 else 'are'} not drawn" if exact else "",
+    ]
+    headed(figure, "; ".join(filter(None, (title, *rest))))
     return figure
 
 
@@ -81,22 +91,21 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
     rows = sum(len(drawers) for _, drawers in parts) if across == 1 else len(parts)
     size = WIDTH if across == 1 else _WIDE * across, max(2, rows) * _ROW / 100 + 0.3
     figure = Figure(figsize=size, dpi=100, layout="constrained")
-    grid = figure.subplots(rows, across, sharex=True, squeeze=False)
+    grid = figure.subplots(rows, across, squeeze=False)
     column = iter(grid[:, 0])
     for row, (trace, drawers) in enumerate(parts):
         for drawer, panel in zip(drawers, column if across == 1 else grid[row], strict=False):
-            _framed(panel, drawer, trace)
+            _framed(panel, drawer, trace, below)
         for panel in grid[row, len(drawers) :] if across > 1 else ():
             panel.set_axis_off()
-    for panel in grid[-1]:
-        panel.set_xlabel(below, fontsize=SMALL, parse_math=False)
-        panel.locator_params(axis="x", nbins=_TICKS)
     return figure
 
 
-def _framed(panel: Any, drawer: _Drawer, trace: _Trace) -> None:
+def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
     """One panel of one output."""
     drawer(panel, trace)
+    panel.set_xlabel(below, fontsize=SMALL, parse_math=False)
+    panel.locator_params(axis="x", nbins=_TICKS)
     panel.grid(color=GREY, alpha=0.25)
     panel.spines[["top", "right"]].set_visible(False)
 
@@ -112,19 +121,26 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
     """Every output, thinned stretch by stretch to what can be seen."""
     motion = run.motion
     parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
+    firsts: list[tuple[Floats, Floats, Floats]] = []
     means = [tally.mean for tally in motion.tallies()]
     for passage in motion.passages(run.turns, run.samples):
         share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
+        if not firsts:
+            columns = zip(passage.error, passage.rate, means, strict=True)
+            firsts = [
+                (passage.turns[:_MOST], error[:_MOST], (mean + rate[:_MOST]) / (mean or 1.0))
+                for error, rate, mean in columns
+            ]
         for at, part in enumerate(parts):
             kept = _kept(passage.error[at], means[at] + passage.rate[at], share)
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
-    for tally, start, part in zip(motion.tallies(), motion.starts, parts, strict=True):
+    for tally, start, part, first in zip(motion.tallies(), motion.starts, parts, firsts, strict=True):
         turns, error, rate = (np.concatenate(column) for column in zip(*part, strict=True))
         mean = start / (2 * np.pi) + tally.mean * turns
         angle = mean + error / (2 * np.pi)
-        found.append(_Trace(tally.name, turns, angle, mean, error, (tally.mean + rate) / (tally.mean or 1.0)))
+        found.append(_Trace(tally.name, turns, angle, mean, error, (tally.mean + rate) / (tally.mean or 1.0), first))
     return found
 
 
@@ -169,12 +185,31 @@ def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
 
 
 def _error(panel: Any, trace: _Trace) -> None:
-    panel.plot(trace.turns, np.degrees(trace.error - trace.error.mean()), color=BLUE, linewidth=0.8)
+    middle = trace.error.mean()
+    _curve(panel, trace, np.degrees(trace.error - middle), np.degrees(trace.first[1] - middle))
     panel.set_ylabel(f"{trace.name}\nerror less its mean (deg)")
 
 
 def _speed(panel: Any, trace: _Trace) -> None:
-    panel.plot(trace.turns, trace.speed, color=BLUE, linewidth=0.8)
-    if (trace.speed < 0).any():
-        panel.fill_between(trace.turns, trace.speed, 0, where=trace.speed < 0, color=RED, alpha=0.6, linewidth=0)
+    turns, speed = _curve(panel, trace, trace.speed, trace.first[2])
+    if (speed < 0).any():
+        panel.fill_between(turns, speed, 0, where=speed < 0, color=RED, alpha=0.6, linewidth=0)
     panel.set_ylabel(f"{trace.name}\nspeed over mean")
+
+
+def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
+    """The whole course; of one that swings so often that it would be a block, its beginning between its bounds."""
+    turns, values = trace.turns, whole
+    if len(_turning(whole)) > 6 * _SWINGS:
+        turning = _turning(first)
+        end = turning[_SWINGS] if len(turning) > _SWINGS else len(first)
+        turns, values = trace.first[0][:end], first[:end]
+        for bound in (whole.min(), whole.max()):
+            panel.axhline(bound, color=GREY, linewidth=0.8, linestyle=":")
+    panel.plot(turns, values, color=BLUE, linewidth=0.8)
+    return turns, values
+
+
+def _turning(values: Floats) -> NDArray[np.intp]:
+    """Where a curve turns from rising to falling or back."""
+    return np.flatnonzero(np.diff(np.sign(np.diff(values))) != 0)

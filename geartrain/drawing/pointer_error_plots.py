@@ -124,7 +124,7 @@ def _percentiles(axes: Axes, values: Floats) -> None:
         words = f"{share} %: {ends[0]:.3g} to {ends[1]:.3g}"
         for at, end in enumerate(ends):
             axes.axvline(end, color=RED, linewidth=1.5, linestyle=style, label=None if at else words, gid=f"{share} %")
-    axes.legend(loc="upper right", frameon=False, fontsize=SMALL)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize=SMALL, ncols=3)
 
 
 def _edges(values: Floats) -> Floats:

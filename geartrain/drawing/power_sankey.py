@@ -248,6 +248,6 @@ def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:
     yield Patch(facecolor="white", edgecolor=BLACK, label="pair")
     yield Patch(facecolor=SKY, alpha=0.6, label="power")
     if placed.turns:
-        yield Patch(facecolor=PURPLE, alpha=0.6, label="power that circles")
+        yield Patch(facecolor=PURPLE, alpha=0.6, label="recirculating power")
     if placed.sheds:
         yield Patch(facecolor=RED, alpha=0.6, label="lost")

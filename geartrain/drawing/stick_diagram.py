@@ -30,6 +30,7 @@ from geartrain.drawing.style import (
 _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _NAME = 8.5  # points
+_LONE = 0.55  # inches of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
 
 
@@ -173,8 +174,8 @@ class _Drawing:
         """A wheel that meshes with nothing."""
         link = self.train.declaration.wheels[wheel][0]
         y = self.skeleton.shafts[link].y
-        self._upright(x, y, y + 0.4, wheel, link)
-        self._tick(x, y + 0.4, "spur")
+        self._upright(x, y, y + _LONE, wheel, link)
+        self._tick(x, y + _LONE, "spur")
 
     def draw_crank(self, crank: StickCrank) -> None:
         """A carrier's arm, ending in a bearing about the axis it bears."""
@@ -190,7 +191,8 @@ class _Drawing:
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"
-        self._line([x - reach, x + reach], [y - lean, y + lean], BLUE, 2.0, zorder=4, linestyle=style)
+        self.words.keep_off((x - reach, x + reach), (y - lean, y + lean))
+        self._line([x - reach, x + reach], [y - lean, y + lean], BLUE, 2.0, zorder=4, linestyle=style, gid="teeth")
 
     def _ground(self, x: float, y: float) -> None:
         self.words.keep_off((x - 0.09, x + 0.09), (y - 0.045, y + 0.045))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import arrange
+from geartrain.drawing.labels import text_width
 from geartrain.drawing.stick_grid import (
     StickCrank,
     StickShaft,
@@ -18,8 +19,10 @@ from geartrain.drawing.stick_grid import (
 )
 from geartrain.kinematics.circuits import Circuit
 
-LANE, GAP = 0.17, 1.4  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
+LANE, GAP = 0.17, 1.7  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
 _TRIES = 6  # arrangements of columns and levels
+_SHORTEST = 0.32  # of the height between two axes, the smaller of two wheels
+_ROOM = 0.24  # inches between the ends of words along a wheel, its shaft and its mate
 REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
 
 
@@ -186,7 +189,14 @@ def _mesh(
     kinds = {train.declaration.wheels[wheel][1].kind for wheel in wheels}
     kind = next((kind for kind in ("worm", "contrate", "bevel") if kind in kinds), "spur")
     first, second = (train.declaration.wheels[wheel][1].count or 1 for wheel in wheels)
-    share = min(max(first / (first + second), 0.32), 0.68)
     if top - bottom > GAP * 1.01:  # other axes lie between: the wheels touch beside the smaller one's
         bottom, top = (bottom, bottom + GAP) if first < second else (top - GAP, top)
-    return StickMesh(circuit.id, kind, (low, high), wheels, "", x, bottom, top, bottom + share * (top - bottom))
+    meet = bottom + _share(wheels, (first, second), top - bottom) * (top - bottom)
+    return StickMesh(circuit.id, kind, (low, high), wheels, "", x, bottom, top, meet)
+
+
+def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
+    """What the lower wheel takes of the height: by its teeth, as long as the words beside both find room."""
+    rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
+    least, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
+    return min(max(counts[0] / sum(counts), least), most) if least < most else (least + most) / 2

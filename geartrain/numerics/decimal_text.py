@@ -123,6 +123,11 @@ def percent_of_text(part: Fraction, whole: str) -> str:
     return f"{percent_text(part)} of {whole}" if abs(part) < 10 else f"{percent_text(part)} {whole}"
 
 
+def plural(count: int, noun: str) -> str:
+    """`1 loop`, `2 loops`."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def is_short(value: Fraction | int, most: int) -> bool:
     """True if all digits of a number take at most so many characters."""
     bits = value.numerator.bit_length() + value.denominator.bit_length()

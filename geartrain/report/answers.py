@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 from itertools import islice
 
 from geartrain.analysis.gear_train import GearTrain
@@ -12,6 +13,9 @@ from geartrain.kinematics.tooth_sensitivity import Sensitivity
 from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.train import Train
 from geartrain.train.dials import looks_away
+
+_YEAR = 300  # days, less than any year
+_SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440)), ("s", Fraction(1, 86400)))  # in days
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
@@ -173,14 +177,24 @@ def _as_read(declared: Train, result: OutputResult) -> str:
     flipped = looks_away(dial.face, declared.view.from_)
     clockwise = ((declared.view.positive == "clockwise") == (result.speed > 0)) != flipped
     turn = 1 / magnitude(result.speed)
-    words = ["clockwise" if clockwise else "counter-clockwise", f"a turn in {figure(turn, 7)}"]
+    words = ["clockwise" if clockwise else "counter-clockwise", f"a turn in {_span(declared, turn)}"]
     if dial.turns > 1:
-        words.append(f"{dial.turns} turns in {figure(turn * dial.turns, 7)}")
+        words.append(f"{dial.turns} turns in {_span(declared, turn * dial.turns)}")
     if dial.divisions > 1:
-        words.append(
-            f"{f'one {dial.cell}' if dial.cell else 'a division'} in {figure(turn * dial.turns / dial.divisions, 7)}"
-        )
+        cell = f"one {dial.cell}" if dial.cell else "a division"
+        words.append(f"{cell} in {_span(declared, turn * dial.turns / dial.divisions)}")
     return ", ".join(words)
+
+
+def _span(declared: Train, units: Fraction | float) -> str:
+    """How long a number of units is: in years where the unit is one, or in what a clock tells; else the number."""
+    if declared.unit_days is None:
+        return figure(units, 7)
+    if declared.unit_days > _YEAR and units >= 1:
+        return f"{figure(units, 7)} year{'' if units == 1 else 's'}"
+    days = units * declared.unit_days
+    name, length = next(((name, each) for name, each in _SPANS if days >= each), _SPANS[-1])
+    return f"{figure(days / length, 6)} {name}"
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:

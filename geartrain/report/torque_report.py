@@ -86,9 +86,9 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     amounts = _Amounts(figures)
     efficiency, circulating = found.efficiency, found.circulating
     if efficiency is not None and circulating is not None:
-        kept = f"efficiency {figure(efficiency, 10)}{uncounted_words(found)}" if efficiency else "nothing is taken out"
+        kept = f"efficiency {figure(efficiency, 6)}{uncounted_words(found)}" if efficiency else "nothing is taken out"
         lines.append(
-            f"Power in {amounts.text(found.power_in, 9)}, lost {amounts.text(found.loss, 9)}, {kept}; "
+            f"Power in {amounts.text(found.power_in, 6)}, lost {amounts.text(found.loss, 6)}, {kept}; "
             f"the greatest power through a pair is {figure(circulating, 5)} of it."
         )
     if found.bearing_loss:
@@ -108,11 +108,11 @@ class _Amounts:
         self.watts = found.watts_per_unit
         self.unit = " N m" if found.in_newton_metres else ""
 
-    def text(self, power: Fraction, digits: int = 7) -> str:
+    def text(self, power: Fraction, digits: int = 6) -> str:
         return figure(power, digits) if self.watts is None else watts_text(float(power) * self.watts)
 
     def torque(self, torque: Fraction) -> str:
-        return f"{figure(torque, 9)}{self.unit}"
+        return f"{figure(torque, 6)}{self.unit}"
 
 
 def _units(found: Sequence[TorqueFigures]) -> str:
@@ -124,9 +124,9 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
             link + (" (asked)" if link in found.asked else ""),
-            figure(torque, 9),
-            figure(found.speeds[link], 9) if link in found.speeds else "free",
-            amounts.text(found.powers[link], 9) if link in found.speeds else "open",
+            figure(torque, 6),
+            figure(found.speeds[link], 6) if link in found.speeds else "free",
+            amounts.text(found.powers[link], 6) if link in found.speeds else "open",
         )
         for link, torque in found.external.items()
     ]
@@ -137,7 +137,7 @@ def _held(found: Torques) -> Iterator[Table]:
     """Brakes and locks, with what they exert on the links they hold."""
     rows = []
     for held in found.held:
-        torques = ["open"] * len(held.links) if held.torques is None else [figure(each, 9) for each in held.torques]
+        torques = ["open"] * len(held.links) if held.torques is None else [figure(each, 6) for each in held.torques]
         kind = "brake" if len(held.links) == 1 else "lock"
         name = f"{kind} {held.clutch}" if held.clutch else kind
         name += f" (for {' and '.join(held.cause)})" if held.cause else ""
@@ -157,7 +157,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
         (
             pair.id + (" (shared)" if pair.loose else ""),
             pair.driver or ("open" if pair.power is None else "idle"),
-            *(figure(torque, 7) for torque in pair.torques),
+            *(figure(torque, 6) for torque in pair.torques),
             "open" if pair.power is None else amounts.text(pair.power),
             "open" if pair.power is None else amounts.text(pair.loss),
         )
@@ -235,4 +235,4 @@ def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
             yield f"'{last}' cannot be driven from '{first}': the train locks."
         elif efficiency is not None:
             word = " (ambiguous)" if torques.verdict.kind == "ambiguous" else ""
-            yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 10)}{word}{uncounted_words(torques)}."
+            yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 6)}{word}{uncounted_words(torques)}."

@@ -13,7 +13,7 @@ from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE
 from geartrain.kinematics.verdict import Loop
-from geartrain.numerics.decimal_text import abridged_text
+from geartrain.numerics.decimal_text import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
 from geartrain.report.formula_report import formula_section
@@ -163,11 +163,11 @@ def source_line(key: str, source: Source) -> str:
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
     wheels = sum(len(link.wheels) for link in declared.links.values())
-    couplings = f"{len(declared.couplings)} coupling{'' if len(declared.couplings) == 1 else 's'}"
     counts = (
-        f"{len(declared.links)} links (the frame is '{declared.frame}'), {len(declared.revolutes)} turning pairs, "
-        f"{len(declared.gears)} gear pairs, {couplings}, "
-        f"{wheels} wheels."
+        f"{len(declared.links)} links (the frame is '{declared.frame}'), "
+        f"{plural(len(declared.revolutes), 'turning pair')}, "
+        f"{plural(len(declared.gears), 'gear pair')}, {plural(len(declared.couplings), 'coupling')}, "
+        f"{plural(wheels, 'wheel')}."
     )
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)

@@ -71,6 +71,24 @@ def test_words_can_be_read_in_all_shipped_trains(name: str, kind: str) -> None:
         check(name, kind, Fraction(355, 113))
 
 
+def test_words_keep_off_the_marks_of_teeth() -> None:
+    (axes,) = picture(load("longcase-clock"), "stick", None, Fraction(0)).axes
+    marks = [line.get_window_extent() for line in axes.lines if line.get_gid() == "teeth"]
+    assert len(marks) == 2 * 5 + 1  # the escape wheel meets no other
+    for words in axes.texts:
+        box = words.get_window_extent()
+        hidden = [
+            mark for mark in marks if box.x0 < mark.x1 and mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1
+        ]
+        assert not hidden, words.get_text()
+
+
+def test_plain_faces_tell_no_cells() -> None:
+    (axes,) = picture(load("planetary-24-18-60"), "dials", None, Fraction(1, 3)).axes
+    assert any("turn, going" in words.get_text() for words in axes.texts)
+    assert not any("cell" in words.get_text() for words in axes.texts)
+
+
 # ---------------------------------------------------------------------------------------------- the measure can fail
 
 

@@ -133,6 +133,9 @@ class SceneWheel:
         Part of the power put in that is lost at its meshes, where loads and friction are declared.
     helix : float
         Angle of its teeth from the axis [rad], of a right hand above 0.
+    holes : sequence of sequence of float
+        As it is built, outlines of what is cut out of it for pins that move in it, or for an eccentric in which it
+        turns, as x and y in turn from its middle, x through its first tooth [mm].
 
     See Also
     --------
@@ -163,6 +166,7 @@ class SceneWheel:
     circuits: Sequence[str]
     loss: float | None = None
     helix: float = 0.0
+    holes: Sequence[Sequence[float]] = ()
 
 
 @dataclass(frozen=True, slots=True)

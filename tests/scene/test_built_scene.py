@@ -120,3 +120,42 @@ def test_the_ball_of_the_moon_stands_in_the_middle_of_the_moon_s_hand() -> None:
 def test_a_train_that_declares_no_axis_on_its_frame_has_no_parts() -> None:
     text = "name: t\nframe: f\nlinks: {f: {}, a: {}}\nrevolutes: [{pair: [f, a], axis: A}]\ninputs: {a: 1}\n"
     assert build_scene(geartrain.load(text)).parts == ()
+
+
+def area(outline: Sequence[float]) -> float:
+    """By Gauss's formula."""
+    x, y = np.array(outline[::2]), np.array(outline[1::2])
+    return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+
+
+def test_a_disc_on_an_eccentric_has_a_hole_for_it_and_one_for_each_pin() -> None:
+    scene = build_scene(shipped.train("cycloidal-reducer"))
+    holes = {wheel.id: wheel.holes for wheel in scene.wheels}
+    assert holes["ring"] == (), "what its pins fill is not opened"
+    (coupling,) = scene.couplings
+    eccentric = next(part for part in scene.parts if "eccentric" in part.name and part.outlines)
+    bore, *others = sorted(holes["lobes"], key=lambda each: float(np.hypot(*np.reshape(each, (-1, 2)).mean(0))))
+    wide = 2 * np.sqrt(area(eccentric.outlines[0]) / np.pi)
+    assert 2 * np.sqrt(area(bore) / np.pi) == pytest.approx(wide, abs=0.3), "it runs on the eccentric"
+    assert len(others) == len(coupling.holes_at)
+    for hole in others:
+        assert 2 * np.sqrt(area(hole) / np.pi) == pytest.approx(coupling.hole, abs=0.2)
+
+
+def test_a_slot_is_cut_where_its_pin_wanders() -> None:
+    scene = build_scene(shipped.train("freeth-2008"))
+    (coupling,) = scene.couplings
+    wheel = next(each for each in scene.wheels if each.id == "k2")
+    x = np.cos(wheel.turn) * np.array(wheel.reference)
+    x = x + np.sin(wheel.turn) * np.cross(wheel.direction, wheel.reference)
+    y = np.cross(wheel.direction, x)
+    out = np.subtract(coupling.pin_at, coupling.slot_at)
+    out = out - (out @ np.array(wheel.direction)) * np.array(wheel.direction)
+    way = np.array([out @ x, out @ y]) / np.linalg.norm(out)
+    r, e = coupling.pin_radius, coupling.offset
+    slot = max(wheel.holes, key=lambda each: float(np.hypot(*np.reshape(each, (-1, 2)).mean(0))))
+    points = np.reshape(slot, (-1, 2))
+    along, across = points @ way, points @ np.array([-way[1], way[0]])
+    assert along.min() < r - e < r + e < along.max(), "the pin of 9.6 mm goes 1.1 mm in and out"
+    assert along.max() - along.min() - 2 * e == pytest.approx(across.max() - across.min(), rel=1e-3)
+    assert across.max() == pytest.approx(-across.min(), abs=1e-3)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TimeRun
     from geartrain.numerics.arrays import Floats
+    from geartrain.scene.elements import SceneWheel
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
 
 _FINE = 0.05  # mm that chords of plates may leave their curves
@@ -78,7 +79,22 @@ def build_scene(
     dials, pointers = _engraved(scene, model), scene.pointers
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
-    return replace(scene, parts=parts, dials=with_balls(dials, pointers), pointers=pointers)
+    wheels = tuple(_opened(each, model) for each in scene.wheels)
+    return replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
+
+
+def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
+    """A wheel with its slots, and with its hole for an eccentric: what turns in other holes fills them."""
+    blank = model.blanks.wheels.get(wheel.id)
+    moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
+    if model.plan is not None:
+        moved_in |= {name for each in model.plan.stack.eccentrics if each.wave is None for name in each.wheels}
+    if blank is None or wheel.id not in moved_in:
+        return wheel
+    # the teeth of the model may have play, for which it is turned otherwise
+    turn = next(each.turn for each in model.scene.wheels if each.id == wheel.id) - wheel.turn
+    way = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FINE) @ way)) for each in blank.contours[1:]))
 
 
 def _told(part: SolidPart, model: SolidModel) -> ScenePart:

@@ -49,7 +49,7 @@ export class WheelPart {
       add(coneShape(this.surface, root - 0.01, this.apex, thickness, hub), this.matrix, this.toothed);
       add(coneShape(this.surface, 1, this.apex, thickness, hub), this.matrix, this.smooth);
     } else {
-      add(this.holed() ?? discShape(root * radius, thickness, hub, this.depth, size), this.matrix, this.own);
+      add(wheel.holes.length ? this.holed() : discShape(root * radius, thickness, hub, this.depth, size), this.matrix, this.own);
       add(plainRimShape(0.98 * root * radius, radius, 0.96 * thickness, size), this.matrix, this.smooth);
     }
   }
@@ -64,16 +64,10 @@ export class WheelPart {
     add(shape, this.matrix, profile.hole ? this.own : this.toothed, Math.min(wheel.teeth, MOST_TEETH));
   }
 
-  /** The disc with its holes for pins of another body; null where it has none, or they leave no rim. */
+  /** The disc with what is cut out of it. */
   holed() {
-    const { wheel, root, scene, matrix } = this;
-    const coupling = scene.couplings.find((each) => each.hole && wheelOfHoles(scene, each) === wheel);
-    if (!coupling) return null;
-    const [rim, wide, back] = [root * wheel.radius, coupling.hole / 2, matrix.clone().invert()];
-    const holes = coupling.holes_at.map((place) => vector(place).applyMatrix4(back));
-    const apart = holes.length > 1 ? Math.hypot(holes[0].x - holes[1].x, holes[0].y - holes[1].y) : Infinity;
-    if (holes.some(({ x, y }) => Math.hypot(x, y) + wide >= rim) || apart <= 2 * wide) return null;
-    const outlines = [circle(0, 0, rim, 168), ...holes.map(({ x, y }) => circle(x, y, wide, 48))];
+    const { root, wheel } = this;
+    const outlines = [circle(root * wheel.radius), ...wheel.holes];
     return flatShape({ outlines, height: 0.97 * wheel.thickness }); // thinner than its teeth: faces at one height flicker
   }
 
@@ -95,16 +89,7 @@ export class WheelPart {
 }
 
 /** Points round a circle, x and y by turns. */
-const circle = (x, y, radius, count) =>
-  Array.from({ length: count }, (_, n) => (2 * Math.PI * n) / count).flatMap((angle) => [x + radius * Math.cos(angle), y + radius * Math.sin(angle)]);
-
-/** Of the flat wheels of the body that has the holes of a coupling the one nearest to them. */
-function wheelOfHoles(scene, { slot, slot_at: at }) {
-  const along = vector(scene.bodies[slot].direction);
-  const off = ({ centre }) => Math.abs(vector(centre).sub(vector(at)).dot(along));
-  const flat = scene.wheels.filter(({ body, kind, cone }) => body === slot && kind !== "ring" && kind !== "worm" && !cone);
-  return flat.sort((one, other) => off(one) - off(other))[0];
-}
+const circle = (radius) => Array.from({ length: 168 }, (_, n) => (Math.PI * n) / 84).flatMap((angle) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
 
 const mates = (scene, index) =>
   scene.pairs.filter(({ wheels }) => wheels.includes(index)).map(({ wheels: [one, other] }) => (one === index ? other : one));

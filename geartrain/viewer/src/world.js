@@ -66,7 +66,7 @@ export class World {
     for (const part of built.length ? built : supports(scene, reach, radii, size)) this.put(part);
     const made = new Set(scene.parts.map(({ name }) => name));
     for (const coupling of scene.couplings) {
-      if (!made.has(`${coupling.id} slot`) && !made.has(`${coupling.id} pin 1`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
+      if (!made.has(`${coupling.id} pin`) && !made.has(`${coupling.id} pin 1`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
     }
     scene.dials.forEach((_, index) => dialParts(scene, index).forEach((part) => this.put(part)));
     const orders = new Map();

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab
+from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab, wait
 
 SMALL = """() => [...document.querySelectorAll('button, select, input:not([type=checkbox]), .tick, summary, .handle')]
   .filter((each) => each.checkVisibility())
@@ -155,3 +155,18 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
     shown.page.keyboard.press("Enter")
     assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
     assert shown.run(SMALL) == []
+
+
+def test_on_paper_stand_picture_dials_and_outputs_and_nothing_to_press(show: Opening) -> None:
+    shown = show(SIMPLE, viewport={"width": 718, "height": 1040})
+    shown.run("geartrain.setTurns('1/4')")
+    assert not shown.page.locator(".outputs").is_visible()
+    shown.page.emulate_media(media="print")
+    wait(shown, "document.querySelector('[data-angle=carrier]').textContent !== ''")
+    for seen in (".view canvas", ".dial", ".outputs", ".sources"):
+        assert shown.page.locator(seen).first.is_visible(), seen
+    for pressed in (".tools", ".go", ".grip", "[role=tablist]", ".wheels"):
+        assert not shown.page.locator(pressed).first.is_visible(), pressed
+    # a fourth of a turn of the sun, and 2/7 of that
+    assert shown.page.locator("[data-angle=carrier]").inner_text() == f"{360 - 90 * 2 / 7:.2f}\u00b0"
+    assert shown.run("document.documentElement.scrollWidth") <= 718

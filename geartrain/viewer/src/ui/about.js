@@ -47,7 +47,7 @@ export function about(side, many) {
     el(
       "p",
       { class: "quiet" },
-      `${scene.wheels.length} wheels, ${scene.pairs.length} gear pairs${scene.couplings.length ? `, ${scene.couplings.length} pins` : ""}.`,
+      `${[[scene.wheels, "wheel"], [scene.pairs, "gear pair"], [scene.couplings, "pin"]].filter(([{ length }]) => length).map(([{ length }, noun]) => `${length} ${noun}${length === 1 ? "" : "s"}`).join(", ")}.`,
       scene.unit && ` Speeds in ${scene.unit}.`,
     ),
     movement(scene),

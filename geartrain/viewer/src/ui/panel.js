@@ -24,6 +24,7 @@ export class Panel {
       "panels",
     );
     this.tabs.onShow = () => this.open(true);
+    matchMedia("print").addEventListener("change", ({ matches }) => matches && this.set(true)); // pages that were hidden
     this.grip = el(
       "button",
       {

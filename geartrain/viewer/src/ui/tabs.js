@@ -13,7 +13,7 @@ export class Tabs {
           { type: "button", role: "tab", id: tab, "aria-controls": page, onclick: () => this.show(panel.name) },
           panel.name,
         ),
-        page: el("div", { role: "tabpanel", id: page, tabindex: 0, "aria-labelledby": tab, class: "page" }, panel.node),
+        page: el("div", { role: "tabpanel", id: page, tabindex: 0, "aria-labelledby": tab, class: "page", "data-page": panel.name }, panel.node),
       };
     });
     const list = el(

@@ -34,6 +34,8 @@ _CIRCUITS_ABREAST = 6
 SOURCES = "Sources"
 """The title under which a report cites; a page has a list with links in its place."""
 
+_SIDES = ("above", "below", "behind")  # from which one looks without an article
+
 
 def describe_train(found: TrainReport) -> Document:
     """The report on one train: outputs, speeds, torques, strength, motion and doubts; then structure, circuits, errata.
@@ -146,7 +148,9 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
         held = expectations_met(answers)
         yield f"Verdict: determined; {held}." if held else "Verdict: determined."
     unit = declared.unit_name
-    clock = f"; positive is {declared.view.positive} seen from the {declared.view.from_}" if declared.view.from_ else ""
+    side = declared.view.from_ or ""
+    seen = side if side in _SIDES else f"the {side}"
+    clock = f"; positive is {declared.view.positive} seen from {seen}" if side else ""
     yield (
         f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
     ) + f", absolute, about each link's own axis{clock}."

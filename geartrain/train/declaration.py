@@ -341,7 +341,7 @@ class Train(Declared):
     def unit_name(self) -> str:
         """The unit of speeds, for a reader: `turns per year_tropical_J2000`, `rpm`, or nothing for plain numbers."""
         if self.unit is not None:
-            return f"turns per {self.unit.per}"
+            return f"turns per {str(self.unit.per).removeprefix('1 ')}"
         return self.input_unit
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:

@@ -557,3 +557,15 @@ def test_a_terminal_of_80_columns_is_never_overrun_and_shows_every_speed(name: s
     for answer in load(name).answers():
         for speed in answer.speeds.values():
             assert str(speed) in shown
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("south-pointing-chariot", "seen from above"),
+        ("watch-going-train", "turns per h,"),
+        ("prague-orloj", "from the dial"),
+    ],
+)
+def test_units_and_sides_are_told_as_one_says_them(name: str, words: str) -> None:
+    assert words in " ".join(terminal(name, 80).split())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, tan
 
 import pytest
 import shipped
@@ -63,6 +63,27 @@ def test_tools_stand_in_one_row_on_a_laptop(show: Opening) -> None:
     assert max(box["y"] for box in tools if box) - min(box["y"] for box in tools if box) < 20
 
 
+# the colours of plates, of carriers' arms and of what else is of brass and is no wheel, by the body that it is of
+OF_BRASS = """[geartrain.stages[0].world].flatMap(({ parts, palette }) => parts.filter(
+  ({ plate, dial }) => plate && dial === undefined,
+).map(({ slot, body }) => {
+  const { r, g, b } = palette.looks[slot].colour.clone().convertLinearToSRGB();
+  return [geartrain.scenes[0].bodies[body].id, [r, g, b].map((part) => Math.round(255 * part))];
+}))"""
+
+
+def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(show: Opening) -> None:
+    shown = show(SIMPLE)
+    brass = shown.run(OF_BRASS)
+    shown.page.get_by_label("Colours").select_option("speed")
+    speeds = dict(shown.run(OF_BRASS))
+    grey, turning = speeds["frame"], speeds["carrier"]
+    assert max(grey) - min(grey) < 40, "plates that stand still look as if they turned"
+    assert turning[2] > turning[0] + 40, "a carrier that turns as its sun does is not blue"
+    shown.page.get_by_label("Colours").select_option("plain")
+    assert shown.run(OF_BRASS) == brass
+
+
 def test_losses_are_told_where_they_are_known(show: Opening) -> None:
     shown = show("norton-compound")
     shown.page.get_by_label("Colours").select_option("loss")
@@ -93,9 +114,12 @@ FACE = """((id) => {
 
 
 def test_a_disc_has_holes_for_its_pins_in_place_of_arms(show: Opening) -> None:
-    """Its root stands at 25 - 3 - 1.5 mm; a hole is as wide as its pin of 4 mm and two eccentricities of 1.5 mm."""
+    """Its root stands at 25 - 3 - 1.5 mm; a hole is as wide as its pin of 4 mm and two eccentricities of 1.5 mm.
+
+    In its middle it sits on an eccentric of 12 mm. Holes are polygons around their circles, of 20 corners and of 26.
+    """
     shown = show("cycloidal-reducer")
-    assert shown.run(f"{FACE}('lobes')") == pytest.approx(pi * (20.5**2 - 6 * 3.5**2), rel=2e-3)
+    holes = 6 * 20 * 3.5**2 * tan(pi / 20) + 26 * 6**2 * tan(pi / 26)
+    assert shown.run(f"{FACE}('lobes')") == pytest.approx(pi * 20.5**2 - holes, rel=1e-3)
     shown = show("rv-reducer")
     assert shown.run(f"{FACE}('lobes')") is not None
-    assert [shown.run(f"{FACE}('{wheel}')") for wheel in ("z1", "z2")] == [None, None]

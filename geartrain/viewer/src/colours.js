@@ -30,13 +30,26 @@ export function speedColour(speed, fastest) {
 /** From none lost to the most lost. */
 export const lossColour = (loss, most) => (loss === null ? GREY : mix(LINE, FAULT, most ? loss / most : 0));
 
+function speedColours({ bodies }) {
+  const speeds = bodies.map((body) => (body.speed === null ? 0 : body.sense * ratio(body.speed)));
+  const fastest = Math.max(...speeds.map(Math.abs), 1e-300);
+  return speeds.map((speed) => speedColour(speed, fastest));
+}
+
+const OF_BRASS = [PARTS.arm, PARTS.plate, PARTS.pipe, PARTS.bezel]; // which would be taken for what a colour says
+
+/** The colour of a part that is no wheel, in one of the modes. */
+export function partColours(scene, mode) {
+  const bodies = mode === "speed" ? speedColours(scene) : null;
+  return ({ colour, body }) => (mode === "plain" || !OF_BRASS.includes(colour) ? colour : (bodies?.[body] ?? GREY));
+}
+
 /** A colour by wheel in one of the modes. */
 export function colours(scene, mode) {
-  const speeds = scene.bodies.map((body) => (body.speed === null ? 0 : body.sense * ratio(body.speed)));
-  const fastest = Math.max(...speeds.map(Math.abs), 1e-300);
+  const bodies = speedColours(scene);
   const most = Math.max(...scene.wheels.map((wheel) => wheel.loss ?? 0), 0);
   const ways = {
-    speed: (wheel) => speedColour(speeds[wheel.body], fastest),
+    speed: (wheel) => bodies[wheel.body],
     status: (wheel) => STATUS[wheel.status] ?? STATUS[""],
     loss: (wheel) => lossColour(wheel.loss, most),
   };

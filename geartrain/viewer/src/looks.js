@@ -2,7 +2,7 @@
 
 import { Color } from "three";
 
-import { BROKEN, CHOSEN, colours } from "./colours.js";
+import { BROKEN, CHOSEN, colours, partColours } from "./colours.js";
 import { vector } from "./space.js";
 
 const GHOST = 0.14; // opacity of what is not highlighted
@@ -25,6 +25,7 @@ export class Looks {
   paint(mode, data) {
     this.mode = mode;
     this.base = data?.wheels ?? colours(this.scene, mode);
+    this.part = partColours(this.scene, mode);
     this.recolour();
   }
 
@@ -57,7 +58,10 @@ export class Looks {
     });
     const bodies = new Set([...(chosen?.wheels ?? [])].map((index) => this.scene.wheels[index].body));
     const kept = ({ body, plate }) => !chosen || (bodies.has(body) && !plate);
-    for (const part of this.parts) this.palette.paint(part.slot, { opacity: kept(part) ? (this.isGlass(part) ? GLASS : 1) : GHOST });
+    for (const part of this.parts) {
+      const opacity = kept(part) ? (this.isGlass(part) ? GLASS : 1) : GHOST;
+      this.palette.paint(part.slot, { opacity, ...(part.colour && this.part && { colour: new Color(this.part(part)) }) });
+    }
   }
 
   /** towards   from the middle to the camera: covers on that side are of glass, and plates of the frame behind which wheels stand */

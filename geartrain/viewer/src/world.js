@@ -114,7 +114,7 @@ export class World {
   put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, frame, opened }) {
     const slot = this.palette.slot(colour, gloss, opened);
     this.castings[cover ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
-    this.parts.push({ slot, body, at, dial, plate, cover, frame });
+    this.parts.push({ slot, body, at, dial, plate, cover, frame, colour });
   }
 
   adder(casting, { wheel: { body }, at }) {

@@ -20,6 +20,8 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.scene.built_elements import SceneHanger as SceneHanger
+    from geartrain.scene.built_elements import ScenePart as ScenePart
     from geartrain.scene.construction import make_scene as make_scene
     from geartrain.scene.count_formulas import CountCondition as CountCondition
     from geartrain.scene.count_formulas import CountFormula as CountFormula
@@ -27,7 +29,6 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneBody as SceneBody
     from geartrain.scene.elements import SceneCoupling as SceneCoupling
     from geartrain.scene.elements import ScenePair as ScenePair
-    from geartrain.scene.elements import ScenePart as ScenePart
     from geartrain.scene.elements import SceneWheel as SceneWheel
     from geartrain.scene.elements import ToothProfile as ToothProfile
     from geartrain.scene.error_steps import ErrorLawTable as ErrorLawTable
@@ -71,6 +72,7 @@ __all__ = [
     "SceneCoupling",
     "SceneEpoch",
     "SceneFormulas",
+    "SceneHanger",
     "ScenePair",
     "ScenePart",
     "SceneRun",
@@ -104,8 +106,9 @@ _PLACES = {
     "SceneCoupling": "elements",
     "SceneEpoch": "train_scene",
     "SceneFormulas": "count_formulas",
+    "SceneHanger": "built_elements",
     "ScenePair": "elements",
-    "ScenePart": "elements",
+    "ScenePart": "built_elements",
     "SceneRun": "scene_run",
     "SceneWheel": "elements",
     "SolidModel": "solids.solid_assembly",

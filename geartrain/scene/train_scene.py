@@ -18,13 +18,13 @@ from typing import Any, Literal
 
 from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
+from geartrain.scene.built_elements import SceneHanger, ScenePart
 from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.dial_scale import DialScale
 from geartrain.scene.elements import (
     SceneBody,
     SceneCoupling,
     ScenePair,
-    ScenePart,
     SceneShiftElement,
     SceneWheel,
     ToothProfile,
@@ -257,6 +257,8 @@ class Scene:
         The simulated motion through time, which is then played; None where the train is turned by its crank.
     parts : sequence of ScenePart
         Plates, pillars, arbors, pipes and all else that holds the wheels, of a train as built; else none.
+    hangers : sequence of SceneHanger
+        The pendulum and the weight of a train as built that declares them; else none.
 
     See Also
     --------
@@ -292,6 +294,7 @@ class Scene:
     asks: bool = True
     run: SceneRun | None = None
     parts: Sequence[ScenePart] = ()
+    hangers: Sequence[SceneHanger] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import tau
+from math import pi, tau
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -25,6 +25,8 @@ from geartrain.train.fields import Count, Declared, Id
 
 GRAVITY = 9.80665
 """Standard gravity, m/s^2."""
+
+_NEAR = 0.05  # of the length of a pendulum with all of its mass in its bob
 
 DriveTorque = Annotated[Torque, not_below_zero("it acts the way the input turns: give its magnitude")]
 
@@ -170,6 +172,8 @@ class Escapement(Declared):
     --------
     >>> Escapement(link="escape", teeth=30, beat="1 s").speed
     Fraction(1, 60)
+    >>> Escapement(link="escape", teeth=30, beat="1 s", pendulum="994 mm").pendulum.si
+    0.994
     """
 
     link: Id = Field(description="The link of the escape wheel")
@@ -177,6 +181,22 @@ class Escapement(Declared):
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
         description="Time from one beat to the next, of which each lets half a tooth pass"
     )
+    pendulum: Annotated[MeasuredLength, above_zero("give a length such as 994 mm")] | None = Field(
+        None, description="Length of its pendulum, from where it hangs to the middle of its bob"
+    )
+
+    @model_validator(mode="after")
+    def _beats(self) -> Escapement:
+        """A pendulum swings from side to side in pi sqrt(l/g); a rod with some mass makes it a little quicker."""
+        if self.pendulum is not None:
+            length = GRAVITY * (self.beat.si / pi) ** 2
+            if abs(self.pendulum.si / length - 1) > _NEAR:
+                raise PydanticCustomError(
+                    "escapement",
+                    "a pendulum of that length does not beat so",
+                    {"fix": f"by pi sqrt(l/g) it is {1000 * length:.4g} mm long: give that, or another `beat`"},
+                )
+        return self
 
     @property
     def speed(self) -> Fraction:

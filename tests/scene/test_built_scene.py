@@ -159,3 +159,31 @@ def test_a_slot_is_cut_where_its_pin_wanders() -> None:
     assert along.min() < r - e < r + e < along.max(), "the pin of 9.6 mm goes 1.1 mm in and out"
     assert along.max() - along.min() - 2 * e == pytest.approx(across.max() - across.min(), rel=1e-3)
     assert across.max() == pytest.approx(-across.min(), abs=1e-3)
+
+
+def test_a_clock_has_its_pendulum_and_its_weight_in_true_size() -> None:
+    scene = build_scene(shipped.train("longcase-clock"))
+    hangers = {each.kind: each for each in scene.hangers}
+    pendulum, line, weight = (hangers[kind] for kind in ("pendulum", "line", "weight"))
+    assert scene.bodies[pendulum.body].id == "escape"
+    assert pendulum.length == 994
+    # a tooth a swing to and fro, of 2 pi sqrt(l/g) seconds: in a minute the escape wheel goes round once
+    swing = 2 * np.pi * np.sqrt(0.994 / 9.80665)
+    assert pendulum.rate * swing == pytest.approx(60, abs=0.02)
+    great = scene.bodies[weight.body]
+    assert great.id == "great"
+    turned = -2 * np.pi * 16 * great.sense  # 16 turns of line, backwards
+    assert weight.rate * turned == pytest.approx(1277, abs=1), "as its declaration says, 1.28 m"
+    # the line leaves the barrel where its rim goes down
+    arm = np.subtract(line.point, great.point)
+    arm = arm - arm @ np.array(great.direction) * np.array(great.direction)
+    assert np.cross(np.array(great.direction) * turned, arm) @ np.array(line.down) == pytest.approx(1277, abs=1)
+    assert np.pi * weight.wide**2 * 4 * weight.wide * 11.34e-6 == pytest.approx(5.9), "lead"
+    zero = next(face.zero for face in scene.dials)
+    assert pendulum.down == pytest.approx([-each for each in zero])
+    behind = next(face for face in scene.dials)
+    plates = [part for part in scene.parts if part.kind == "frame"]
+    back = max(-np.dot(np.subtract(part.place, behind.centre), behind.normal) + part.height / 2 for part in plates)
+    bob = -np.dot(np.subtract(pendulum.point, behind.centre), behind.normal) - 0.4 * pendulum.wide
+    assert bob > back, "behind both plates"
+    assert build_scene(shipped.train("watch-going-train")).hangers == ()

@@ -137,6 +137,13 @@ def test_an_escapement_lets_half_a_tooth_pass_a_beat() -> None:
     assert escapement.speed == Fraction(1, 60)
 
 
+def test_a_pendulum_of_39_14_inches_beats_seconds_and_one_of_a_quarter_of_that_half_seconds() -> None:
+    for length, beat in (("994.1 mm", "1 s"), ("248.5 mm", "0.5 s")):
+        escapement = declared(f"escapement: {{link: b, teeth: 30, beat: {beat}, pendulum: {length}}}").escapement
+        assert escapement is not None
+        assert escapement.pendulum is not None
+
+
 def test_a_child_replaces_friction_bearing_and_drive_whole(tmp_path: Path) -> None:
     rest = "inputs: {a: 1}\nfriction: {sliding: 0.1, static: 0.3}\ndrive: {torque: 2 N m}\ndensity: 1 g/cm3"
     (tmp_path / "old.yaml").write_text(PAIR.format(rest=rest), encoding="utf-8")
@@ -174,6 +181,7 @@ SLIPS = {
     "escapement: {link: frame, teeth: 30, beat: 1 s}": "which does not turn",
     "links: {a: {inertia: -1 kg m2}}": "-1 kg m2 is below 0",
     "escapement: {link: a, teeth: 30, beat: 1}": "'1' has no unit",
+    "escapement: {link: a, teeth: 30, beat: 1 s, pendulum: 1.1 m}": "it is 993.6 mm long",
 }
 
 

@@ -33,6 +33,23 @@ def sleeves(plan: FramePlan) -> Iterator[TurnedPart]:
                 yield from _OnMember(around, member).all()
 
 
+def free_beside(
+    plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
+) -> tuple[float, float] | None:
+    """Heights beside a wheel between which a drum on its arbor is in nobody's way.
+
+    size   its radius, and its length, of which less is taken where there is no room for it (mm)
+    """
+    around, (radius, longest) = _Around(plan, column), size
+    disc = next(each for each in member.discs if each.name == name)
+    for part in (1.0, 0.75, 0.5, 0.25):
+        for low, high in ((disc.high, disc.high + part * longest), (disc.low - part * longest, disc.low)):
+            room = (low, high + _FREE) if low == disc.high else (low - _FREE, high)
+            if around.is_free(member, *room, radius):
+                return low, high
+    return None
+
+
 @dataclass(frozen=True)
 class _Around:
     """What is in the way of rings on an axis."""

@@ -1,11 +1,12 @@
 // Where the bodies of a train stand. Each is a node under the body that bears its axis, and is turned about its axis
 // by the angle its parent sees; taken apart, layers move along the direction of most wheels.
 
-import { Group, Vector3 } from "three";
+import { Group, Matrix4, Vector3 } from "three";
 
-import { isParallel, vector } from "./space.js";
+import { frameAt, isParallel, vector } from "./space.js";
 import { Reading } from "./ui/reading.js";
 
+const SWING = 0.035; // rad to either side: 2 degrees, of a pendulum with an anchor
 const ASIDE = 0.7; // how far bodies on other axes go from the middle, over their distance from it
 
 /** Balls turn as bodies of scenes do, `as` which, but each about an axis through its own middle. */
@@ -19,11 +20,24 @@ const balls = ({ bodies, dials, pointers }) =>
 const slides = ({ bodies, dials, pointers }) =>
   pointers.flatMap(({ body, dial }, slide) => (dial !== null && dials[dial].scale.turns > 1 ? [{ ...bodies[body], as: body, slide }] : []));
 
+/** Where what hangs stands when the body by which it moves has turned by `joint`. */
+function hung(matrix, { kind, point, direction, down, length, rate }, joint) {
+  const frame = frameAt(point, direction, down);
+  const now = length + Math.max(0.1 * length - length, rate * joint); // no higher than its barrel
+  const own = new Matrix4();
+  if (kind === "pendulum") own.makeRotationZ(SWING * Math.sin(rate * joint));
+  else if (kind === "line") own.makeScale(now / length, 1, 1);
+  else own.makeTranslation(now - length, 0, 0);
+  matrix.copy(frame).multiply(own).multiply(frame.invert());
+}
+
 export class Poses {
   /** main   the direction along which layers move; `middle`, what stays; `parting`, how far they go over their distance */
   constructor(machine, main, middle, parting) {
     Object.assign(this, { machine, main, middle, parting, share: 0 });
-    this.bodies = [...machine.scene.bodies, ...balls(machine.scene), ...slides(machine.scene)];
+    const { scene } = machine;
+    const parent = scene.bodies.findIndex((body) => body.parent === null);
+    this.bodies = [...scene.bodies, ...balls(scene), ...slides(scene), ...scene.hangers.map((hanger, hangs) => ({ ...hanger, parent, as: hanger.body, hangs }))];
     this.readings = this.bodies.map(({ slide }) => (slide === undefined ? null : new Reading(machine.scene, machine, slide)));
     this.root = new Group();
     this.nodes = this.bodies.map(() => new Group());
@@ -45,6 +59,7 @@ export class Poses {
       if (body.parent === null) return;
       const joint = this.machine.moves ? this.machine.joint(body.as ?? index) : 0;
       const { matrix } = this.nodes[index];
+      if (body.hangs !== undefined) return hung(matrix, body, joint);
       const point = vector(body.point);
       matrix.makeRotationAxis(vector(body.direction), joint);
       const out = this.slid(index);
@@ -100,6 +115,11 @@ export class Poses {
   /** The node of the ball of a dial. */
   ball(dial) {
     return this.bodies.findIndex((body) => body.ball === dial);
+  }
+
+  /** The node of what hangs. */
+  hanger(hanger) {
+    return this.bodies.findIndex((body) => body.hangs === hanger);
   }
 
   anchor(index) {

@@ -7,7 +7,7 @@ import { holds, quarterOf } from "./cutaway.js";
 import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
 import { dialParts, pointerParts } from "./faces.js";
 import { Ground } from "./ground.js";
-import { couplingParts, crankOf } from "./joints.js";
+import { couplingParts, crankOf, hangerParts } from "./joints.js";
 import { Looks } from "./looks.js";
 import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
@@ -78,6 +78,7 @@ export class World {
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
       pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });
+    scene.hangers.forEach((hanger, index) => hangerParts(hanger).forEach((part) => this.put({ ...part, body: hanger.kind === "rod" ? hanger.body : this.poses.hanger(index) })));
     this.crank = this.buildCrank(reach);
     this.crank?.parts.forEach((part) => this.put(part));
   }

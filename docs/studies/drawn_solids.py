@@ -20,7 +20,7 @@ import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.scene import Scene, SceneCoupling, ScenePair, ScenePart
+from geartrain.scene import Scene, SceneCoupling, ScenePair, ScenePart, SceneWheel
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
@@ -179,7 +179,31 @@ class DrawnTeeth:
             float((first.at(stands[0][one]) ^ second.at(stands[1][other])).volume())
             for one, other in np.argwhere(apart < first.reach + second.reach)
         )
+        shared += self._in_pins(pair.wheels, (first, second), stands, bodies, (0.0, ahead))
         return shared / min(first.volume, second.volume)
+
+    def _in_pins(
+        self,
+        wheels: tuple[int, int],
+        teeth: Sequence[DrawnTooth],
+        stands: Sequence[Floats],
+        bodies: Floats,
+        ahead: Sequence[float],
+    ) -> float:
+        """What teeth have in common with pins that stand in their mate, parts of their own (mm3)."""
+        shared = 0.0
+        for at, index in enumerate(wheels):
+            ring, tooth, places = self.scene.wheels[index], teeth[1 - at], stands[1 - at]
+            middles = tooth.middles(places)
+            for pin in (part for name, part in self.parts.items() if name.startswith(f"{ring.id} pin ")):
+                turned = _about(np.array(ring.centre), pin, 2 * pi * ahead[at] / ring.teeth)
+                stand = bodies[ring.body] @ turned @ _frame(pin)
+                solid = _turned(pin).transform(stand[:3])
+                low, high, radius, _ = pin.bands[0]
+                middle, reach = stand[:3] @ [0, 0, (low + high) / 2, 1], np.hypot((high - low) / 2, radius)
+                near = np.linalg.norm(middles - middle, axis=1) < tooth.reach + reach
+                shared += sum(float((tooth.at(each) ^ solid).volume()) for each in places[near])
+        return shared
 
     def in_slot(self, coupling: SceneCoupling, bodies: Floats, aside: float = 0.0) -> float:
         """What a pin and the plate with its slot have in common, over the pin's part in the plate.
@@ -192,6 +216,41 @@ class DrawnTeeth:
         cylinder = _turned(pin).transform((bodies[coupling.pin] @ _frame(pin))[:3])
         shared: float = (cylinder ^ _plate(slot).transform(stand[:3])).volume()
         return shared / (slot.height * pi * pin.bands[0][2] ** 2)
+
+    def in_holes(self, coupling: SceneCoupling, bodies: Floats, aside: float = 0.0) -> float:
+        """What pins and the wheel in whose holes or slot they move have in common, over the part of one pin in it.
+
+        aside   by how much (mm, at the pins' circle) the wheel is turned beyond where it stands
+        """
+        wheel, pins = self.holed[coupling.id]
+        x = np.cos(wheel.turn) * np.array(wheel.reference)
+        x = x + np.sin(wheel.turn) * np.cross(wheel.direction, wheel.reference)
+        own = np.eye(4)
+        own[:3] = np.column_stack([x, np.cross(wheel.direction, x), wheel.direction, wheel.centre])
+        stand = bodies[wheel.body] @ own @ _about_z(aside / coupling.pin_radius)
+        lines = [np.array(line).reshape(-1, 2) for line in wheel.holes]
+        disc = manifold3d.Manifold.cylinder(wheel.thickness, wheel.root, wheel.root, 256, center=True)
+        for line in lines:
+            hole = manifold3d.CrossSection([line], manifold3d.FillRule.NonZero)
+            disc -= manifold3d.Manifold.extrude(hole, 2 * wheel.thickness).translate((0, 0, -wheel.thickness))
+        disc = disc.transform(stand[:3])
+        shared = sum((_turned(pin).transform((bodies[coupling.pin] @ _frame(pin))[:3]) ^ disc).volume() for pin in pins)
+        return float(shared) / (wheel.thickness * pi * pins[0].bands[0][2] ** 2)
+
+    @cached_property
+    def holed(self) -> dict[str, tuple[SceneWheel, list[ScenePart]]]:
+        """Of couplings whose slot or holes are cut into a wheel: that wheel, and the pins."""
+        found = {}
+        for each in self.scene.couplings:
+            wheels = [wheel for wheel in self.scene.wheels if wheel.body == each.slot and wheel.holes]
+            pins = [
+                part
+                for name, part in self.parts.items()
+                if name == f"{each.id} pin" or name.startswith(f"{each.id} pin ")
+            ]
+            if wheels and pins and f"{each.id} slot" not in self.parts:
+                found[each.id] = wheels[0], [pin for pin in pins if pin.bands]
+        return found
 
     @cached_property
     def parts(self) -> dict[str, ScenePart]:

@@ -95,6 +95,10 @@ def measured(browser: Browser, name: str, pitch: int, cycle: int) -> DrawnRecord
             poses = teeth.matrices([*through_the_cycle(scene, pitch + cycle)])
             there, turned = (max(teeth.in_slot(coupling, each, by) for each in poses) for by in (0.0, ASIDE))
             found[coupling.id] = there, turned
+        for coupling in (each for each in scene.couplings if each.id in teeth.holed):
+            poses = teeth.matrices([*through_the_cycle(scene, pitch + cycle)])
+            there, turned = (max(teeth.in_holes(coupling, each, by) for each in poses) for by in (0.0, ASIDE))
+            found[coupling.id] = there, turned
     worst = max(found, key=lambda pair: found[pair][0], default="")
     return DrawnRecord(
         name,

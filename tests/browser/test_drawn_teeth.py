@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
 pytest.importorskip("manifold3d", reason="the extra proof is not installed")
@@ -37,6 +39,7 @@ def test_drawn_teeth_have_nothing_in_common_through_a_pitch_and_through_the_cycl
     found = measured(browser, name, 4, 3)
     assert not found.left
     assert found.worst < NOTHING, found.pair
+    assert found.turned > 0.01, "off its phase every pair is found"
 
 
 def test_a_wheel_that_stands_off_its_phase_is_found(browser: Browser) -> None:
@@ -58,3 +61,26 @@ def test_a_pin_stays_in_its_slot_whether_sizes_are_declared_or_chosen(browser: B
             poses = teeth.matrices([*through_the_cycle(scene, 6)])
             assert max(teeth.in_slot(coupling, each) for each in poses) < NOTHING, coupling.id
             assert max(teeth.in_slot(coupling, each, ASIDE) for each in poses) > 0.01, coupling.id
+
+
+def test_a_pendulum_swings_once_a_tooth_and_a_weight_falls_as_its_barrel_turns(browser: Browser) -> None:
+    scene = shipped.built("longcase-clock")
+    with opened(browser, scene) as drawn:
+        poses = drawn.matrices([Fraction(0), Fraction(1, 7200), Fraction(3, 7200), Fraction(1, 4), Fraction(12)])
+    bodies = poses[:, -len(scene.hangers) :]  # after all others
+    where = {hanger.kind: at for at, hanger in enumerate(scene.hangers)}
+    end = {}
+    for kind in ("pendulum", "line", "weight"):
+        hanger = scene.hangers[where[kind]]
+        start = np.array([*np.add(hanger.point, np.multiply(hanger.down, hanger.length)), 1.0])
+        end[kind] = (bodies[:, where[kind]] @ start)[:, :3] - start[:3]
+    down = np.array(scene.hangers[where["weight"]].down)
+    aside = np.linalg.norm(end["pendulum"], axis=1)
+    # the lead turns once an hour: half a second is a quarter of a swing of two seconds, 994 mm times 2 degrees
+    assert aside[1] == pytest.approx(34.8, abs=0.1)
+    assert end["pendulum"][2] == pytest.approx(end["pendulum"][1] * [-1, 1, 1], abs=1e-3), "to the other side"
+    assert aside[[0, 3]] == pytest.approx([0, 0], abs=1e-3), "after 450 swings"
+    assert end["weight"] @ down == pytest.approx(end["line"] @ down, abs=1e-6)
+    # sixteen turns of line in eight days of 24 hours
+    fall = 16 * 2 * np.pi * 12.7 / 192
+    assert end["weight"] @ down == pytest.approx(fall * np.array([0, 1 / 7200, 3 / 7200, 0.25, 12]), abs=1e-3)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
 
 _FINE = 0.05  # mm that chords of plates may leave their curves
+_FIT = 0.01  # mm that those of holes may, of which a running fit leaves 0.04 mm all round
 _DIGITS = 4  # decimals of a mm
 _HAND = 1.0  # mm of an arbor's end that a hand takes
 _SAME = 1e-6
@@ -98,7 +99,7 @@ def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
     # the teeth of the model may have play, for which it is turned otherwise
     turn = next(each.turn for each in model.scene.wheels if each.id == wheel.id) - wheel.turn
     way = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
-    return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FINE) @ way)) for each in blank.contours[1:]))
+    return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FIT) @ way)) for each in blank.contours[1:]))
 
 
 def _told(part: SolidPart, model: SolidModel) -> ScenePart:

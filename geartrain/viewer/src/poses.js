@@ -59,7 +59,7 @@ export class Poses {
       if (body.parent === null) return;
       const joint = this.machine.moves ? this.machine.joint(body.as ?? index) : 0;
       const { matrix } = this.nodes[index];
-      if (body.hangs !== undefined) return hung(matrix, body, joint);
+      if (body.hangs !== undefined) return hung(matrix, body, this.unwound(body.as, joint));
       const point = vector(body.point);
       matrix.makeRotationAxis(vector(body.direction), joint);
       const out = this.slid(index);
@@ -67,6 +67,14 @@ export class Poses {
     });
     this.root.updateMatrixWorld(true);
     this.nodes.forEach((node, index) => array.set(node.matrixWorld.elements, 16 * index));
+  }
+
+  /** An angle with its whole turns. */
+  unwound(index, joint) {
+    const { machine } = this;
+    if (!machine.moves || machine.simulated) return joint;
+    const mean = 2 * Math.PI * machine.scene.bodies[index].sense * machine.speeds[index] * machine.made();
+    return joint + 2 * Math.PI * Math.round((mean - joint) / (2 * Math.PI));
   }
 
   /** Layers apart: 0 as they stand, 1 fully. */

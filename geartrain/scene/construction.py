@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -138,4 +139,5 @@ def _sources(train: GearTrain) -> dict[str, dict[str, str]]:
 
 
 def _plain(notice: Problem) -> dict[str, str]:
-    return {"what": notice.what, "why": notice.why, "fix": notice.fix, "place": notice.place}
+    place = re.sub(r"^.*[\\/]", "", notice.place)  # a page is shown where nobody has the writer's folders
+    return {"what": notice.what, "why": notice.why, "fix": notice.fix, "place": place}

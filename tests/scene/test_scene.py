@@ -322,3 +322,10 @@ def test_the_ball_of_the_moons_phase_stands_in_the_moons_pointer() -> None:
         "its axis is the pointer's"
     )
     assert 0 < way @ np.array(zodiac.normal) < phase.radius < zodiac.radius / 10
+
+
+def test_notices_name_the_file_and_no_folder() -> None:
+    """A page of a train is shown to others, who have no folders of the writer's."""
+    places = [notice["place"] for notice in shipped.scene("prague-orloj").notices]
+    assert "prague-orloj.yaml:16" in places
+    assert not any("/" in place or "\\" in place for place in places)

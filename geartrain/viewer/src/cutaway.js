@@ -3,7 +3,7 @@
 
 import { isParallel, offAxis, vector } from "./space.js";
 
-const OPENED = ["frame", "carrier", "post", "pillar", "foot"]; // kinds of parts that are cut; arbors, studs and wheels within rings stay whole
+const OPENED = ["frame", "carrier", "wall", "post", "pillar", "foot"]; // kinds of parts that are cut; arbors, studs and wheels within rings stay whole
 const LEVEL = 1e-3; // of a train's size: rings nearer than that along their axis stand in one stage
 
 /** Whether a part of a built train is cut; pins are where they stand in a ring. */
@@ -12,7 +12,8 @@ export const isOpened = (scene, { kind, body }) =>
 
 /**
  * The quarter: its edge goes through `at` along the axis of most rings, its sides lie along `right` and `up` from there,
- * as seen from the front; null for a train without rings. `hides`, whether its rings stand before each other.
+ * as seen from the front; null for a train without rings. `hides`, whether its rings stand before each other, or a cup's
+ * wall round one.
  */
 export function quarterOf(scene, size) {
   const rings = scene.wheels.filter(({ kind }) => kind === "ring");
@@ -25,7 +26,8 @@ export function quarterOf(scene, size) {
   const seen = isParallel(direction, [0, 1, 0]) ? vector([0, 0, -1]) : vector([0, 1, 0]);
   const up = seen.addScaledVector(towards, -seen.dot(towards)).normalize();
   const heights = most.map(({ centre }) => vector(centre).dot(towards));
-  const hides = Math.max(...heights) - Math.min(...heights) > LEVEL * size;
+  const walled = scene.parts.some(({ kind }) => kind === "wall");
+  const hides = walled || Math.max(...heights) - Math.min(...heights) > LEVEL * size;
   return { at: vector(point), up, right: up.clone().cross(towards), hides };
 }
 

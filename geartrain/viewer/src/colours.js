@@ -5,7 +5,8 @@ import { FAULT, LINE, QUIET, SERIES } from "./series.js";
 // the hands of one dial in order, as in palette.css
 export const NEEDLES = SERIES;
 export const BROKEN = FAULT;
-export const CHOSEN = SERIES[0];
+export const HANDLE = SERIES[0];
+export const CHOSEN = SERIES[6]; // apart from what turns fast
 // metals, and what is made of other things
 export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
 export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };

@@ -3,7 +3,7 @@
 import { Matrix4 } from "three";
 
 import { armBetween } from "./arbors.js";
-import { CHOSEN, PARTS } from "./colours.js";
+import { HANDLE, PARTS } from "./colours.js";
 import { ball, band, bar, plate, roundEnded, Shape, swept } from "./shape.js";
 import { along, across, frameAt, onAxis, vector } from "./space.js";
 
@@ -73,8 +73,8 @@ export function crankOf(scene, index, end, side, reach, size) {
   const parts = [
     { colour: PARTS.arbor, shape: lever, matrix: frame },
     { colour: PARTS.arbor, shape: bar(0.016 * size, -thick, thick), matrix: frame },
-    { colour: CHOSEN, shape: grip, matrix: standing(reach, out) },
-    { colour: CHOSEN, shape: ball(0.0165 * size), matrix: standing(reach, 2 * out) },
+    { colour: HANDLE, shape: grip, matrix: standing(reach, out) },
+    { colour: HANDLE, shape: ball(0.0165 * size), matrix: standing(reach, 2 * out) },
   ].map((part) => ({ body: index, at, ...part }));
   const knob = vector([reach, 0, out]).applyMatrix4(frame);
   return { body: index, at, end: onAxis(body, end + 2 * out), knob, touch: 0.06 * size, reach, parts };

@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, Color, GLSL3, Points, RawShaderMaterial } from "three";
 
-import { CHOSEN } from "./colours.js";
+import { NEEDLES } from "./colours.js";
 import { vector } from "./space.js";
 
 const corner = `
@@ -48,7 +48,7 @@ export class Sparks {
       glslVersion: GLSL3,
       vertexShader: corner,
       fragmentShader: point,
-      uniforms: { unit: { value: 64 }, apart: { value: new Color(CHOSEN).convertLinearToSRGB() } },
+      uniforms: { unit: { value: 64 }, apart: { value: new Color(NEEDLES[0]).convertLinearToSRGB() } },
       transparent: true,
       depthTest: false,
       depthWrite: false,

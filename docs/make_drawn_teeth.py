@@ -37,9 +37,10 @@ Written by
 The page of every shipped train is opened in a browser and asked for the very triangles of its teeth, and for the
 matrices by which it turns them. From these [manifold3d](https://github.com/elalish/manifold) makes closed solids and
 intersects every tooth of a wheel with every near one of its mate: bevels, crowns, rings, lanterns, the threads of
-worms, triangular teeth with their ripple. Pins are intersected with the bars that have their slots. Positions are
-{PITCH} through a pitch of each mesh, and {CYCLE} at random through the cycle of the train. What teeth have in common is
-given over the volume of the smaller tooth.
+worms, triangular teeth with their ripple. Lobes are intersected with the pins of their ring, and pins with the bars
+that have their slots, or with the wheels that have slots or round holes for them. Positions are {PITCH} through a pitch
+of each mesh, and {CYCLE} at random through the cycle of the train. What teeth have in common is given over the volume
+of the smaller tooth.
 
 That the measure can fail is shown beside it: one wheel is turned on by eighths of a pitch, a slot by 0.7 mm, and the
 column says what is then in common at most, for the pair of the train of which this is least. Triangular teeth with
@@ -49,6 +50,9 @@ much play can be turned far before they touch, some by nearly a whole pitch.
 TOLD = """
 In {pairs:,} pairs of {trains} trains, in {positions:,} positions, the most in common is {worst}; trains above {nothing}
 of a tooth: {above}. Left out are {left} pairs that cannot stand as they are declared, which the package tells.
+
+The wheel of a strain wave bends as it turns, and exports bend it; the picture draws it round, on an eccentric, so that
+teeth beside the crest of the wave run a little into those of the ring.
 """
 
 if __name__ == "__main__":

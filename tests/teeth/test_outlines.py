@@ -363,3 +363,10 @@ def test_an_arc_is_flattened_on_its_circle(bulge: float, tolerance: float) -> No
         assert radius - sqrt(max(radius**2 - half**2, 0.0)) <= 1.01 * tolerance or len(points) == 2
         assert atan2(points[1][1], points[1][0]) * bulge < 0, "a positive bulge turns left, below its chord"
     assert acos(max(-1.0, 1 - tolerance / radius)) > 0
+
+
+def test_a_circle_as_wide_as_a_country_has_a_bounded_number_of_points() -> None:
+    found = Contour.circle(4e11).flattened(0.01)
+    assert len(found) == 65536
+    assert np.hypot(*found.T) == pytest.approx(4e11, rel=1e-14)
+    assert len(Contour.circle(1e5).flattened(0.01)) == pytest.approx(pi / acos(1 - 0.01 / 1e5), rel=1e-3)

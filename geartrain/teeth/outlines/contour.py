@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 
 _SAME = 1e-9  # vertices nearer than this are one
+_LEAST_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion teeth are drawn too
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,10 @@ class Contour:
         return area, polar
 
     def flattened(self, tolerance: float) -> Floats:
-        """Points (m, 2), the first not repeated, whose chords leave the arcs by at most `tolerance` (mm)."""
+        """Points (m, 2), the first not repeated, whose chords leave the arcs by at most `tolerance` (mm).
+
+        A circle has 65 536 of them at most: of one beyond some kilometres they leave it by more.
+        """
         parts = []
         for start, end, bulge in zip(self.points, np.roll(self.points, -1, axis=0), self.bulges, strict=True):
             parts.append(_arc(start, end, float(bulge), tolerance) if bulge else start[None, :])
@@ -75,8 +79,8 @@ class Contour:
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
     """Points of an arc, its end left out."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
-    # the chord whose sagitta is the tolerance; 0 where that is lost beside 1: tenths of a degree then
-    step = 2 * acos(max(1 - tolerance / radius, -1.0)) or pi / 1800
+    # the chord whose sagitta is the tolerance
+    step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _LEAST_STEP)
     count = max(1, ceil(abs(sweep) / step))
     centre = _arc_centre(start, end, bulge)
     turn = sweep * np.arange(count) / count

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.errors import GearTrainError, Problem, printable
-from geartrain.numerics.decimal_text import plural as plural
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain

@@ -19,7 +19,6 @@ from geartrain.cli.common import (
     Sink,
     Without,
     is_sound,
-    plural,
     sink,
     tell,
 )
@@ -28,6 +27,7 @@ from geartrain.cli.option_values import input_rate, quantity
 from geartrain.cli.option_values import restitution as read_restitution
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.decimal_text import plural
 
 if TYPE_CHECKING:
     from geartrain.export.proof import TrainProof

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import STANDARD_NAME, Sink, plural, sink, tell
+from geartrain.cli.common import STANDARD_NAME, Sink, sink, tell
 from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.option_values import whole
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.decimal_text import plural
 from geartrain.viewer.shot import Look, Shot, period_of
 
 if TYPE_CHECKING:

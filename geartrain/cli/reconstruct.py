@@ -19,7 +19,6 @@ from geartrain.cli.common import (
     Seed,
     check_distinct_outputs,
     give,
-    plural,
     sink,
     tell,
 )
@@ -36,6 +35,7 @@ from geartrain.cli.reconstruction_findings import (
     weighted,
     write_page,
 )
+from geartrain.numerics.decimal_text import plural
 
 if TYPE_CHECKING:
     from geartrain.report.reconstruction_report import RankedTrain

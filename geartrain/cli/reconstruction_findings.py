@@ -8,8 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from geartrain.cli.common import Sink, as_json, plural, tell
+from geartrain.cli.common import Sink, as_json, tell
 from geartrain.cli.long_runs import ProgressBar, RunOptions, close_journal, long_run, progress
+from geartrain.numerics.decimal_text import plural
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution

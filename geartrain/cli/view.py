@@ -25,13 +25,13 @@ from geartrain.cli.common import (
     file_name,
     is_sound,
     load_all,
-    plural,
     sink,
     tell,
 )
 from geartrain.cli.films import SUFFIXES, FilmRequest, with_shot
 from geartrain.cli.time_runs import Rate, Restitution, Skip, Steps, TimeRequest, ToothModel, run_in_time
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.decimal_text import plural
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

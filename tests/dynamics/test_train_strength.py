@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import ended
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain
 from geartrain.dynamics.strength.arbor_strength import greatest_moment
+from geartrain.dynamics.strength.strength_results import PairStrength
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report, collect_strength_report, describe_strength
 
@@ -56,9 +57,14 @@ def test_stress_and_lewis_factor_are_one_statement() -> None:
         assert wheel.shared_stress < wheel.tip_stress
 
 
+@pytest.fixture(scope="module")
+def one() -> PairStrength:
+    return geartrain.load(PAIR).strength().pairs["p~w"]
+
+
+@settings(max_examples=25)
 @given(st.floats(0.01, 50), st.floats(0.2, 10))
-def test_scaling(more: float, wider: float) -> None:
-    one = geartrain.load(PAIR).strength().pairs["p~w"]
+def test_scaling(one: PairStrength, more: float, wider: float) -> None:
     train = PAIR.replace("60 N m", f"{60 * more:.12f} N m").replace("20 mm", f"{20 * wider:.12f} mm")
     other = geartrain.load(train).strength().pairs["p~w"]
     for first, second in zip(one.wheels, other.wheels, strict=True):

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.viewer.shot import MOST_FRAMES, Shot, moves, pace_of
+from geartrain.viewer.shot import Shot, check_length, moves, pace_of
 
 if TYPE_CHECKING:
     from geartrain.scene import Scene
@@ -56,11 +56,7 @@ def film_parts(scenes: Sequence[Scene], shot: Shot) -> list[FilmPart]:
     seconds = shot.seconds or _STATE
     turns = shot.turns if shot.turns is not None else _slowest(scenes, shot.fps) * Fraction(seconds)
     each = replace(shot, seconds=seconds, turns=turns)
-    if each.frames * len(scenes) > MOST_FRAMES:
-        why = f"it would have {each.frames * len(scenes)} pictures, and {MOST_FRAMES} are the most"
-        raise QuestionError(
-            Problem("the film is too long", why, "give fewer --seconds for each state, or a lower --fps")
-        )
+    check_length(each.frames * len(scenes), "--seconds for each state")
     return [
         FilmPart(scene, list(_moments(each, scene, at, len(scenes))), _words(scene)) for at, scene in enumerate(scenes)
     ]

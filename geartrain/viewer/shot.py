@@ -18,9 +18,7 @@ Look = Literal["free", "front", "back", "side"]
 _PACE = Fraction(1, 4)  # turns a second of what turns fastest: an eye can follow its teeth
 _STEP = Fraction(2, 5)  # teeth that pass from one picture to the next: from a half on they seem to go backwards
 _LEAST, _LONGEST, _USUAL = 2.0, 40.0, 6.0  # s: of a film, of a whole period that is shown, of a part of a longer one
-_MOST_SIDE, _LEAST_SIDE = 4096, 16
-MOST_FRAMES = 5000
-"""Pictures of a film."""
+_MOST_SIDE, _LEAST_SIDE, _MOST_FRAMES = 4096, 16, 5000
 _ORBIT = 12.0  # s of one turn of the camera
 
 
@@ -115,9 +113,7 @@ class Shot:
         """
         turns, seconds = self._span(scene)
         found = replace(self, turns=turns, seconds=seconds)
-        if found.frames > MOST_FRAMES:
-            why = f"it would have {found.frames} pictures, and {MOST_FRAMES} are the most"
-            raise QuestionError(Problem("the film is too long", why, "give fewer --seconds, or a lower --fps"))
+        check_length(found.frames, "--seconds")
         return found
 
     def _span(self, scene: Scene) -> tuple[Fraction, float]:
@@ -166,6 +162,13 @@ class Shot:
         period = period_of(scene)
         whole = not self.turns or (scene.run is None and period is not None and (self.turns / period).denominator == 1)
         return whole and float(self.turntable).is_integer()
+
+
+def check_length(pictures: int, fewer: str) -> None:
+    """Raises `QuestionError` where a film has too many pictures; `fewer` is what the reader may give less of."""
+    if pictures > _MOST_FRAMES:
+        why = f"it would have {pictures} pictures, and {_MOST_FRAMES} are the most"
+        raise QuestionError(Problem("the film is too long", why, f"give fewer {fewer}, or a lower --fps"))
 
 
 def moves(scene: Scene) -> bool:

@@ -18,7 +18,7 @@ from fractions import Fraction
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.decimal_text import decimal, plural
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution, Journal
 from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
@@ -304,13 +304,9 @@ def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
     return Shortfall(
         considered,
         {SENSE: considered},
-        f"{_plural(stages)}, {internal} with a ring: the output has {has} the input, whatever the counts",
+        f"{plural(stages, 'stage')}, {internal} with a ring: the output has {has} the input, whatever the counts",
         f"add an idler, or a stage (stages={stages + 1}), or make a mesh internal (internal={rings})",
     )
-
-
-def _plural(stages: int) -> str:
-    return f"{stages} stage{'' if stages == 1 else 's'}"
 
 
 def _too_large(question: StageProblem, considered: int) -> Shortfall:

@@ -51,8 +51,7 @@ TOLD = """
 In {pairs:,} pairs of {trains} trains, in {positions:,} positions, the most in common is {worst}; trains above {nothing}
 of a tooth: {above}. Left out are {left} pairs that cannot stand as they are declared, which the package tells.
 
-The wheel of a strain wave bends as it turns, and exports bend it; the picture draws it round, on an eccentric, so that
-teeth beside the crest of the wave run a little into those of the ring.
+The wheel of a strain wave bends as it turns: its teeth are taken as they are bent in each position.
 """
 
 if __name__ == "__main__":

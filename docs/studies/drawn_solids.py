@@ -6,7 +6,7 @@ Everything is read out of the page in a browser: the shapes it casts, and the ma
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,15 +18,13 @@ from typing import TYPE_CHECKING, Any
 
 import manifold3d
 import numpy as np
-from numpy.typing import NDArray
 
 from geartrain.scene import Scene, SceneCoupling, ScenePair, ScenePart, SceneWheel
 from geartrain.viewer import page
+from studies.tooth_solids import BentTeeth, DrawnTooth, Floats, about_z
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
-
-Floats = NDArray[np.float64]
 
 # of each wheel what the viewer casts as teeth: shapes in the wheel's frame, where that stands, and how many copies
 SHAPES = """(() => {
@@ -53,100 +51,24 @@ POSES = """((asked) => {
   machine.turns = before;
   return found;
 })"""
+# corners of the teeth of thin wheels as they are bent in the picture after each of some turns, by wave, of their body
+BENT = """((asked) => {
+  const { machines: [machine], stages: [{ world }] } = globalThis["geartrain"];
+  const before = machine.turns;
+  const found = asked.map((turns) => {
+    machine.turns = before.constructor.of(turns);
+    world.turn();
+    return world.scene.waves.map(({ wheel }) => {
+      const { parts, geometry } = world.castings[1];
+      const { first, last } = parts.find(({ slot }) => slot === world.wheels[wheel].toothed);
+      return [...geometry.attributes.position.array.slice(3 * first, 3 * last)];
+    });
+  });
+  machine.turns = before;
+  world.turn();
+  return found;
+})"""
 PATIENCE = 90_000  # ms: software draws slowly on a busy machine
-CORE = 330  # corners of a worm's core: five rounds of two times 33
-
-
-class DrawnTooth:
-    """A tooth of a wheel as a closed solid about the wheel's own z axis, and where all its copies stand."""
-
-    def __init__(self, points: Floats, elements: Sequence[float], count: int, worm: bool = False) -> None:
-        sections = _turns(points, count) if worm else _sections(points)
-        self.solid = _lofted(sections)
-        self.volume = float(self.solid.volume())
-        corners = np.concatenate(sections)
-        self.middle = corners.mean(0)
-        self.reach = float(np.linalg.norm(corners - self.middle, axis=1).max())
-        stand = np.array(elements).reshape(4, 4).T
-        self.copies = np.array([stand @ _about_z(2 * pi * copy / count) for copy in range(count)])
-
-    def standing(self, body: Floats, ahead: float = 0.0) -> Floats:
-        """Matrices of all copies where their body stands, turned on by some pitches (copies, 4, 4)."""
-        found: Floats = body @ self.copies @ _about_z(2 * pi * ahead / len(self.copies))
-        return found
-
-    def middles(self, stands: Floats) -> Floats:
-        """Where the middles of its copies are (copies, 3)."""
-        return np.asarray(stands[:, :3, :3] @ self.middle + stands[:, :3, 3])
-
-    def at(self, stand: Floats) -> manifold3d.Manifold:
-        """The copy that stands so."""
-        placed: manifold3d.Manifold = self.solid.transform(stand[:3])
-        return placed
-
-
-def _sections(points: Floats) -> list[Floats]:
-    """The outlines of both faces, corner by corner, out of the corners of the triangles drawn.
-
-    Of a tooth four corners of every piece of flank, then on either face four of every strip down to its base; of a pin
-    the flanks alone.
-    """
-    quads = points.reshape(-1, 4, 3)
-    pieces = len(quads) // 3
-    strips = quads[pieces : 3 * pieces].reshape(2, pieces, 4, 3)
-    whole = len(quads) == 3 * pieces and np.allclose(strips[0, :, 3], quads[:pieces, 0])
-    flanks = quads[:pieces] if whole else quads
-    if not np.allclose(flanks[:-1, 1], flanks[1:, 0]) or not np.allclose(flanks[:-1, 2], flanks[1:, 3]):
-        raise ValueError("the pieces of a flank do not hang together: the viewer builds teeth in another way")
-    if not whole:
-        return [flanks[:, 0], flanks[:, 3]]
-    outer = [np.vstack([flanks[:, at], flanks[-1:, to]]) for at, to in ((0, 1), (3, 2))]
-    base = [np.vstack([strips[end, :, 0], strips[end, -1:, 1]]) for end in (0, 1)]
-    return [np.vstack([side, foot[::-1]]) for side, foot in zip(outer, base, strict=True)]
-
-
-def _turns(points: Floats, starts: int) -> list[Floats]:
-    """The sections of the first thread of a worm along its turns: of three strips side by side, behind the core."""
-    strips = points[CORE:].reshape(starts, 3, -1, 2, 3)[0]
-    if not np.allclose(strips[:-1, :, 1], strips[1:, :, 0]):
-        raise ValueError("the strips of a thread do not hang together: the viewer builds worms in another way")
-    return list(np.stack([*strips[:, :, 0], strips[-1, :, 1]], axis=1))
-
-
-def _lofted(sections: Sequence[Floats]) -> manifold3d.Manifold:
-    """What outlines of as many corners have between them, its flanks parted into triangles as the viewer does."""
-    count = len(sections[0])
-    here = np.arange(count)
-    after = np.roll(here, -1)
-    strip = np.vstack([np.c_[here, after, after + count], np.c_[here, after + count, here + count]])
-    sides = np.vstack([strip + at * count for at in range(len(sections) - 1)])
-    flat = _unrolled(sections[0])
-    left = np.sum(flat[:, 0] * np.roll(flat[:, 1], -1) - np.roll(flat[:, 0], -1) * flat[:, 1]) > 0
-    cap = np.array(manifold3d.triangulate([flat if left else flat[::-1]]))
-    cap = cap[:, ::-1] if left else (count - 1 - cap)[:, ::-1]  # against the way the sides go round
-    faces = np.vstack(
-        [sides, cap if left else cap[:, ::-1], (cap[:, ::-1] if left else cap) + count * (len(sections) - 1)]
-    )
-    corners = np.ascontiguousarray(np.vstack(sections))
-    for each in (faces, faces[:, ::-1]):
-        solid = manifold3d.Manifold(manifold3d.Mesh64(corners, np.ascontiguousarray(each, dtype=np.uint64)))
-        if solid.status() == manifold3d.Error.NoError and solid.volume() > 0:
-            return solid
-    raise ValueError(f"a tooth is no closed solid: {solid.status()}")
-
-
-def _unrolled(outline: Floats) -> Floats:
-    """An outline about the z axis in a plane: along the circle, and across it, radially or along the axis."""
-    x, y, z = outline.T
-    radius = np.hypot(x, y)
-    aside = radius if np.ptp(radius) >= np.ptp(z) else z
-    return np.stack([np.arctan2(y, x) * radius.mean(), aside], axis=1)
-
-
-def _about_z(angle: float) -> Floats:
-    turned = np.eye(4)
-    turned[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    return turned
 
 
 @dataclass(frozen=True)
@@ -156,19 +78,35 @@ class DrawnTeeth:
     scene: Scene
     wheels: Sequence[DrawnTooth | None]
     poses: Callable[[Sequence[str]], Any]
+    bends: Callable[[Sequence[str]], Any]
+
+    def bent(self, turns: Sequence[Fraction]) -> list[dict[int, BentTeeth]]:
+        """Teeth of thin wheels by wheel after each of some turns of the lead, as waves bend them."""
+        waves = self.scene.waves
+        if not waves:
+            return [{} for _ in turns]
+        return [
+            {
+                wave.wheel: BentTeeth(self.scene.wheels[wave.wheel], np.array(points))
+                for wave, points in zip(waves, pose, strict=True)
+            }
+            for pose in self.bends([str(each) for each in turns])
+        ]
 
     def matrices(self, turns: Sequence[Fraction]) -> Floats:
         """Of all bodies after each of some turns of the lead, as numbers (turns, bodies, 4, 4)."""
         found = np.array(self.poses([str(each) for each in turns]))
         return np.asarray(found.reshape(len(turns), -1, 4, 4).swapaxes(2, 3))
 
-    def common(self, pair: ScenePair, bodies: Floats, ahead: float = 0.0) -> float:
+    def common(
+        self, pair: ScenePair, bodies: Floats, ahead: float = 0.0, bent: Mapping[int, BentTeeth] | None = None
+    ) -> float:
         """What teeth of both wheels have in common, over the volume of the smaller tooth.
 
-        bodies   where bodies stand, of one pose
+        bodies   where bodies stand, of one pose; `bent`, thin wheels in that
         ahead    pitches by which the second wheel is turned beyond that
         """
-        first, second = (self.wheels[at] for at in pair.wheels)
+        first, second = ((bent or {}).get(at, self.wheels[at]) for at in pair.wheels)
         if first is None or second is None:
             raise ValueError(f"'{pair.id}' has a wheel that is drawn without teeth")
         here, there = (bodies[self.scene.wheels[at].body] for at in pair.wheels)
@@ -176,7 +114,7 @@ class DrawnTeeth:
         middles = [tooth.middles(each) for tooth, each in zip((first, second), stands, strict=True)]
         apart = np.linalg.norm(middles[0][:, None] - middles[1], axis=2)
         shared = sum(
-            float((first.at(stands[0][one]) ^ second.at(stands[1][other])).volume())
+            float((first.placed(stands[0], one) ^ second.placed(stands[1], other)).volume())
             for one, other in np.argwhere(apart < first.reach + second.reach)
         )
         shared += self._in_pins(pair.wheels, (first, second), stands, bodies, (0.0, ahead))
@@ -185,7 +123,7 @@ class DrawnTeeth:
     def _in_pins(
         self,
         wheels: tuple[int, int],
-        teeth: Sequence[DrawnTooth],
+        teeth: Sequence[DrawnTooth | BentTeeth],
         stands: Sequence[Floats],
         bodies: Floats,
         ahead: Sequence[float],
@@ -202,7 +140,7 @@ class DrawnTeeth:
                 low, high, radius, _ = pin.bands[0]
                 middle, reach = stand[:3] @ [0, 0, (low + high) / 2, 1], np.hypot((high - low) / 2, radius)
                 near = np.linalg.norm(middles - middle, axis=1) < tooth.reach + reach
-                shared += sum(float((tooth.at(each) ^ solid).volume()) for each in places[near])
+                shared += sum(float((tooth.placed(places, int(at)) ^ solid).volume()) for at in np.flatnonzero(near))
         return shared
 
     def in_slot(self, coupling: SceneCoupling, bodies: Floats, aside: float = 0.0) -> float:
@@ -227,7 +165,7 @@ class DrawnTeeth:
         x = x + np.sin(wheel.turn) * np.cross(wheel.direction, wheel.reference)
         own = np.eye(4)
         own[:3] = np.column_stack([x, np.cross(wheel.direction, x), wheel.direction, wheel.centre])
-        stand = bodies[wheel.body] @ own @ _about_z(aside / coupling.pin_radius)
+        stand = bodies[wheel.body] @ own @ about_z(aside / coupling.pin_radius)
         lines = [np.array(line).reshape(-1, 2) for line in wheel.holes]
         disc = manifold3d.Manifold.cylinder(wheel.thickness, wheel.root, wheel.root, 256, center=True)
         for line in lines:
@@ -274,7 +212,7 @@ def _about(point: Floats, part: ScenePart, angle: float) -> Floats:
     """A turn about the line through a point along the z axis of a part."""
     there = _frame(part)
     there[:3, 3] = point
-    return np.asarray(there @ _about_z(angle) @ np.linalg.inv(there))
+    return np.asarray(there @ about_z(angle) @ np.linalg.inv(there))
 
 
 def _turned(part: ScenePart) -> manifold3d.Manifold:
@@ -305,7 +243,12 @@ def opened(browser: Browser, scene: Scene) -> Iterator[DrawnTeeth]:
                 time.sleep(0.02)
             found = zip(sheet.evaluate(SHAPES), scene.wheels, strict=True)
             wheels = [_tooth(shapes, wheel.kind == "worm") for shapes, wheel in found]
-            yield DrawnTeeth(scene, wheels, lambda asked: sheet.evaluate(POSES, asked))
+            yield DrawnTeeth(
+                scene,
+                wheels,
+                lambda asked: sheet.evaluate(POSES, asked),
+                lambda asked: sheet.evaluate(BENT, asked),
+            )
         finally:
             sheet.close()
 

@@ -113,10 +113,11 @@ def measured(browser: Browser, name: str, pitch: int, cycle: int) -> DrawnRecord
 
 def overlap(teeth: DrawnTeeth, pair: ScenePair, pitch: int, cycle: int) -> tuple[float, float]:
     """What teeth of a pair have in common at most, and what they would have off their phase, of a tooth."""
-    poses = teeth.matrices([*through_a_pitch(teeth.scene, pair, pitch), *through_the_cycle(teeth.scene, cycle)])
-    there = [teeth.common(pair, bodies) for bodies in poses]
+    turns = [*through_a_pitch(teeth.scene, pair, pitch), *through_the_cycle(teeth.scene, cycle)]
+    poses, bent = teeth.matrices(turns), teeth.bent(turns)
+    there = [teeth.common(pair, bodies, bent=thin) for bodies, thin in zip(poses, bent, strict=True)]
     # by less than a pitch: how far teeth with play have to be turned is not known
-    turned = [teeth.common(pair, poses[0], eighths / 8) for eighths in range(1, 8)]
+    turned = [teeth.common(pair, poses[0], eighths / 8, bent[0]) for eighths in range(1, 8)]
     return max(there), max(turned)
 
 

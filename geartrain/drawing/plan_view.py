@@ -7,34 +7,32 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import floor, log10
 from textwrap import shorten, wrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.colors import to_rgb
 
-from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Patch, Path, PathPatch, Polygon
+from geartrain.drawing.backend import Axes, Figure, Line2D, Patch
 from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
 from geartrain.drawing.labels import Box
-from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side, oblique_callouts
+from geartrain.drawing.oblique_side_views import SideScale, draw_obliquely, draw_side, oblique_callouts
 from geartrain.drawing.plan_labels import place_names
-from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels, project_scene
+from geartrain.drawing.plan_parts import draw_flat, from_below
+from geartrain.drawing.projection import ProjectedScene, ScaledPage, project_scene
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
-    FILL,
     FINE,
     GREY,
     LETTER,
     ORANGE,
     PURPLE,
     RED,
-    SHADE,
     SMALL,
     sheet,
     title_of,
     write,
 )
-from geartrain.scene import Scene, SceneCoupling, SceneWheel
+from geartrain.scene import Scene, SceneWheel
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -42,11 +40,8 @@ if TYPE_CHECKING:
 
 _LEAST, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
 _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
-_FAR, _NEAR = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))  # colours of the lowest and highest layer
-_ONLY = 0.7  # from the lowest layer's colour to the highest's, of a train in one layer
 _SIDE = 1.1  # inches: least width of the side view
 _TOLD = 8.5  # points: what is told above the plan
-_CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
@@ -68,7 +63,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     shift = np.array([left, _FOOT + _RIM + over]) - plan.low
     page = ScaledPage(axes, plan.scale, shift, _FOOT - 0.1)
     if standing.flat:
-        _draw_flat(page, standing)
+        draw_flat(page, standing)
     else:
         draw_obliquely(axes, standing, page.at)
     for wheel, (x, y, _, _) in written:
@@ -140,7 +135,7 @@ def _names(
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     if labels and standing.flat:
-        facing = [wheel for wheel in _from_below(standing)[::-1] if standing.faces(wheel)]
+        facing = [wheel for wheel in from_below(standing)[::-1] if standing.faces(wheel)]
         written, callouts = place_names(standing, facing, plan.at, plan.scale)
         across = [wheel for wheel in standing.scene.wheels if not standing.faces(wheel)]
         callouts += oblique_callouts(standing, plan.at, across)
@@ -148,13 +143,6 @@ def _names(
         callouts = oblique_callouts(standing, plan.at, standing.scene.wheels)
     edges = float(plan.low[0]) - _RIM, float(plan.low[0] + plan.size[0]) + _RIM
     return written, find_margin(callouts, edges, (float(plan.low[1]), float(plan.low[1] + plan.size[1])))
-
-
-def _from_below(standing: ProjectedScene) -> list[SceneWheel]:
-    """Wheels in the order in which they are drawn."""
-    return sorted(
-        standing.scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius)
-    )
 
 
 def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> None:
@@ -207,109 +195,6 @@ def _hubs(standing: ProjectedScene) -> list[Floats]:
     """Axes of all bodies, so that trains without wheels have a size too."""
     bodies = standing.scene.bodies
     return [standing.seen([standing.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
-
-
-# --------------------------------------------------------------------------------------------------------------- wheels
-
-
-def _draw_flat(page: ScaledPage, standing: ProjectedScene) -> None:
-    scene, wheels = standing.scene, _from_below(standing)
-    heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
-    red = broken_wheels(scene)
-    for order, wheel in enumerate(wheels):
-        place = heights.index(round(float(standing.seen(standing.centre(wheel))[2]), 6))
-        level = place / (len(heights) - 1) if len(heights) > 1 else _ONLY
-        if not standing.faces(wheel):
-            draw_across(page.axes, standing, wheel, page.at, red, 2 + order / len(wheels))
-            continue
-        _draw_wheel(page, standing, wheel, level, 2 + order / len(wheels), wheel.id in red)
-    _draw_arms(page, standing)
-    for coupling in scene.couplings:
-        _draw_coupling(page, standing, coupling)
-    for spot in {tuple(np.round(page.at(standing.seen(standing.centre(wheel))), 4)) for wheel in wheels}:
-        page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
-
-
-def _draw_wheel(
-    page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, level: float, order: float, red: bool
-) -> None:
-    chord = min(_CHORD / page.scale, _COARSE * wheel.module)
-    outline = page.at(standing.seen(standing.outline(wheel, chord=chord)))
-    face = (*(_FAR + (_NEAR - _FAR) * level), 0.78)
-    style: dict[str, Any] = {"edgecolor": RED if red else BLACK, "linewidth": 1.2 if red else 0.6, "zorder": order}
-    if wheel.kind == "ring":
-        rim = page.at(standing.seen(standing.circle(wheel, wheel.root * 1.1)))
-        page.axes.add_artist(PathPatch(_hollow(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
-    else:
-        page.axes.add_artist(Polygon(outline, facecolor=face, gid=f"wheel {wheel.id}", **style))
-    for pin in standing.pins(wheel):
-        page.axes.add_artist(Polygon(page.at(standing.seen(pin)), facecolor="white", **style))
-    centre = page.at(standing.seen(standing.centre(wheel)))
-    page.axes.add_artist(
-        Circle(
-            (float(centre[0]), float(centre[1])),
-            wheel.radius * page.scale,
-            fill=False,
-            edgecolor=RED if red else BLUE,
-            linewidth=0.6,
-            linestyle="-.",
-            zorder=order,
-            gid=f"pitch {wheel.id}",
-        )
-    )
-
-
-def _hollow(outer: Floats, inner: Floats) -> Path:
-    """What lies between two closed lines."""
-    codes = [
-        code for line in (outer, inner) for code in (Path.MOVETO, *[Path.LINETO] * (len(line) - 1), Path.CLOSEPOLY)
-    ]
-    return Path(np.concatenate([outer, outer[:1], inner[::-1], inner[-1:]]), codes)
-
-
-# ----------------------------------------------------------------------------------------------------- arms, pins, bars
-
-
-def _draw_arms(page: ScaledPage, standing: ProjectedScene) -> None:
-    arms = list(arms_of(standing))
-    wide = 4.5 if len(arms) < 6 else 2.5
-    for body, start, end in arms:
-        line = page.at(standing.seen(np.array([start, end])))
-        name = f"arm {standing.scene.bodies[body].id}"
-        page.axes.plot(*line.T, color="white", linewidth=wide + 2, solid_capstyle="round", zorder=4)
-        page.axes.plot(*line.T, color=ORANGE, linewidth=wide, solid_capstyle="round", zorder=4, gid=name)
-
-
-def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
-    """The pin, and the slot as far as the pin goes; or pins in their holes."""
-    if coupling.hole:
-        _draw_holes(page, standing, coupling)
-        return
-    pin = page.at(standing.seen(standing.pose.point(coupling.pin, coupling.pin_at)))
-    body = standing.scene.bodies[coupling.slot]
-    hub = page.at(standing.seen(standing.pose.point(coupling.slot, coupling.slot_at if body else body.point)))
-    along = pin - hub
-    far = float(np.hypot(*along)) or 1.0
-    reach = coupling.offset * page.scale
-    ends = hub + np.outer([max(far - 1.2 * reach, 0.3 * far), far + 0.6 * reach + 0.04], along / far)
-    page.axes.plot(*ends.T, color=PURPLE, linewidth=5.5, solid_capstyle="round", zorder=5, gid=f"slot {coupling.id}")
-    page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
-    spot = (float(pin[0]), float(pin[1]))
-    page.axes.add_artist(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
-
-
-def _draw_holes(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
-    for what, body, places, size in (
-        ("hole", coupling.slot, coupling.holes_at, coupling.hole),
-        ("pin", coupling.pin, coupling.pins_at, coupling.pin_diameter),
-    ):
-        for at, place in enumerate(places):
-            x, y = page.at(standing.seen(standing.pose.point(body, place)))
-            gid = f"{what} {at + 1} {coupling.id}"
-            round_ = Circle((float(x), float(y)), size / 2 * page.scale, zorder=5, gid=gid)
-            face, edge = ("white", PURPLE) if what == "hole" else (PURPLE, BLACK)
-            round_.set(facecolor=face, edgecolor=edge, linewidth=0.8)
-            page.axes.add_artist(round_)
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:

@@ -11,8 +11,9 @@ import numpy as np
 
 from geartrain.drawing.backend import Axes
 from geartrain.numerics.polylines import simplified
-from geartrain.scene import Scene, SceneWheel
+from geartrain.scene import Scene, SceneWave, SceneWheel
 from geartrain.scene.pose import ScenePose, scene_pose
+from geartrain.teeth.outlines.wave_tooth import bent_line
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -68,7 +69,42 @@ class ProjectedScene:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
         steps = 2 * np.pi / wheel.teeth * np.arange(wheel.teeth)
-        return self._around(wheel, radius, wheel.turn + (steps[:, None] + tooth[None, :-1, 1]).ravel(), height)
+        angle = wheel.turn + (steps[:, None] + tooth[None, :-1, 1]).ravel()
+        if wave := self.wave(wheel):
+            return self._bent(wave, radius, angle)
+        return self._around(wheel, radius, angle, height)
+
+    def wave(self, wheel: SceneWheel) -> SceneWave | None:
+        """What bends a wheel, if it is thin."""
+        return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
+
+    def bore(self, wave: SceneWave) -> Floats:
+        """The edge of a wave, on which its wheel runs (points, 3)."""
+        angle = np.linspace(0, 2 * np.pi, _ROUND)
+        return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
+
+    def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
+        """Points (n, 3) of the middle plane of a thin wheel as its wave bends it.
+
+        radius, angle   (n,) of them in the round wheel, from its reference
+        """
+        wheel = self.scene.wheels[wave.wheel]
+        first, along = np.array(wheel.reference), np.array(wheel.direction)
+        x, y = first @ wave.towards, np.cross(along, first) @ wave.towards
+        lobe = np.arctan2(y, x) + self.pose.angles[wave.by] - self.pose.angles[wheel.body]
+        line = radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+        found = bent_line(line, wave.middle, (wave.rise, wave.lobes), (0.0, float(lobe)))
+        return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
+
+    def lobes(self, wave: SceneWave) -> Floats:
+        """Points (lobes, 3) of the bore of a thin wheel that its wave presses out the most."""
+        wheel = self.scene.wheels[wave.wheel]
+        bore = wave.middle + wave.rise - wave.wall / 2
+        turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
+        first, along = np.array(wave.towards), np.array(wheel.direction)
+        ring = np.cos(turn)[:, None] * first + np.sin(turn)[:, None] * np.cross(along, first)
+        # of the generator, about whose axis the wheel stands too
+        return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
         """A circle about a wheel's axis (points, 3)."""

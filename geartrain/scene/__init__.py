@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneBody as SceneBody
     from geartrain.scene.elements import SceneCoupling as SceneCoupling
     from geartrain.scene.elements import ScenePair as ScenePair
+    from geartrain.scene.elements import SceneWave as SceneWave
     from geartrain.scene.elements import SceneWheel as SceneWheel
     from geartrain.scene.elements import ToothProfile as ToothProfile
     from geartrain.scene.error_steps import ErrorLawTable as ErrorLawTable
@@ -76,6 +77,7 @@ __all__ = [
     "ScenePair",
     "ScenePart",
     "SceneRun",
+    "SceneWave",
     "SceneWheel",
     "SolidModel",
     "SolidPart",
@@ -110,6 +112,7 @@ _PLACES = {
     "ScenePair": "elements",
     "ScenePart": "built_elements",
     "SceneRun": "scene_run",
+    "SceneWave": "elements",
     "SceneWheel": "elements",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_assembly",

@@ -14,6 +14,7 @@ from geartrain.errors import Problem
 from geartrain.scene import nominal_teeth as likeness
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.elements import SceneBody, SceneWheel, ToothProfile
+from geartrain.scene.strain_waves import bent_wheels
 
 if TYPE_CHECKING:
     from geartrain.scene.layout import WheelPlace
@@ -91,10 +92,11 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
         drawn = "drawn as their first pairs have them" if of_first else "drawn as a likeness"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
+    bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
-        if own.flexible:
-            why = "a wave bends it into its ring on all sides of its lobes, and a picture moves it round whole"
-            fix = "take speeds and torques from the train, and its bent form from docs/reducers.md"
+        if own.flexible and name not in bent:
+            why = "no link carries its axis round within a ring of more teeth, and so no wave bends it"
+            fix = "declare it as trains/engineering/strain-wave.yaml does"
             yield Problem(f"'{name}' is flexible, and drawn round", why, fix)
 
 

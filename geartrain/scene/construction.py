@@ -18,6 +18,7 @@ from geartrain.scene.joints import find_couplings, find_elements, find_pairs, fi
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.movement import find_movement
 from geartrain.scene.sky import find_epoch
+from geartrain.scene.strain_waves import bend
 from geartrain.scene.train_scene import Scene
 from geartrain.scene.wheel_phases import phase_wheels
 
@@ -83,7 +84,8 @@ def make_scene(
     wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
     dials = find_dials(stage)
     notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
-    bodies, pointers = find_bodies(stage), find_pointers(stage, dials)
+    pointers = find_pointers(stage, dials)
+    bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
     pairs, couplings = find_pairs(stage, drawn.forms, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
@@ -99,6 +101,7 @@ def make_scene(
         verdict=verdict,
         bodies=bodies,
         wheels=wheels,
+        waves=waves,
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,

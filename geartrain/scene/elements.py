@@ -281,3 +281,34 @@ class SceneShiftElement:
     bodies: Sequence[int]
     closed: bool
     text: str
+
+
+@dataclass(frozen=True, slots=True)
+class SceneWave:
+    """What bends a thin wheel into its ring as it goes round; wheel and wall of its cup stand about one axis with it.
+
+    Attributes
+    ----------
+    wheel, by : int
+        Indices of the wheel, and of the body whose angle is the wave's.
+    towards : tuple of float
+        Unit vector across the axis: to the first lobe in the zero pose.
+    rise : float
+        How far the middle line of the wheel's wall goes out at a lobe, and in between lobes [mm].
+    lobes : int
+        How many of them.
+    middle, wall : float
+        Radius of that line in the round wheel, and the thickness of its wall [mm].
+
+    See Also
+    --------
+    make_scene : gives it, in `Scene.waves`.
+    """
+
+    wheel: int
+    by: int
+    towards: Vector
+    rise: float
+    lobes: int
+    middle: float
+    wall: float

@@ -26,6 +26,7 @@ from geartrain.scene.elements import (
     SceneCoupling,
     ScenePair,
     SceneShiftElement,
+    SceneWave,
     SceneWheel,
     ToothProfile,
 )
@@ -259,6 +260,8 @@ class Scene:
         Plates, pillars, arbors, pipes and all else that holds the wheels, of a train as built; else none.
     hangers : sequence of SceneHanger
         The pendulum and the weight of a train as built that declares them; else none.
+    waves : sequence of SceneWave
+        What bends thin wheels into their rings.
 
     See Also
     --------
@@ -295,6 +298,7 @@ class Scene:
     run: SceneRun | None = None
     parts: Sequence[ScenePart] = ()
     hangers: Sequence[SceneHanger] = ()
+    waves: Sequence[SceneWave] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""

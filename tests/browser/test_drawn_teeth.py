@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 # rings, involutes of no play, bevels, crowns and pins, triangular teeth on and off the phase of their law, a disc among
-# pins, a worm, circular arcs that ripple, a ring of two teeth more than its wheel, wheels of three teeth
+# pins, a worm, circular arcs that ripple, a ring of two teeth more than its wheel, wheels of three teeth, a bent one
 TRAINS = (
     "planetary-24-18-60-involute",
     "humpage",
@@ -31,6 +31,7 @@ TRAINS = (
     "norton-compound",
     "lu-daolong-hodometer",
     "crossed-helical",
+    "strain-wave",
 )
 
 

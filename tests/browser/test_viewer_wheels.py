@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
+import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab
 
@@ -122,3 +124,34 @@ def test_a_disc_has_holes_for_its_pins_in_place_of_arms(show: Opening) -> None:
     assert least < shown.run(f"{FACE}('lobes')") < most
     shown = show("rv-reducer")
     assert shown.run(f"{FACE}('lobes')") is not None
+
+
+# of a train with one wave, after some turns: corners of the wheel's teeth, and of the wall of its cup, about its axis
+BENT = """((turns) => {
+  const { world } = geartrain.stages[0];
+  if (!world.cut) world.castTeeth();
+  geartrain.setTurns(turns);
+  world.turn();
+  const corners = (casting, slot) => {
+    const { first, last } = casting.parts.find((part) => part.slot === slot);
+    return [...casting.geometry.attributes.position.array.slice(3 * first, 3 * last)];
+  };
+  const wheel = world.wheels[world.scene.waves[0].wheel];
+  const wall = world.parts.find((part) => part.wall);
+  return [corners(world.castings[1], wheel.toothed), corners(world.castings[0], wall.slot)];
+})"""
+
+
+def test_a_thin_wheel_is_bent_where_its_wave_stands_and_its_cup_is_round_at_the_bottom(show: Opening) -> None:
+    """After an eighth of a turn the lobes are at 45 degrees, and the wheel itself has gone back by 0.45 degrees."""
+    shown = show("strain-wave")
+    teeth, wall = (np.array(each).reshape(-1, 3) for each in shown.run(f"{BENT}('1/8')"))
+    tips = np.hypot(*teeth[:, :2].T)
+    at = np.degrees(np.arctan2(teeth[:, 1], teeth[:, 0])) % 180
+    near = {lobe: np.abs((at - lobe - 0.45 + 90) % 180 - 90) < 1.0 for lobe in (45, 135)}
+    assert tips[near[45]].max() == pytest.approx(101.7, abs=0.01)
+    assert tips[near[135]].max() == pytest.approx(99.7, abs=0.01)
+    outside = np.hypot(*wall[:, :2].T)
+    bottom, mouth = (np.abs(wall[:, 2] - end(wall[:, 2])) < 0.01 for end in (np.max, np.min))
+    assert np.ptp(outside[bottom & (outside > 98)]) < 0.01
+    assert np.ptp(outside[mouth & (outside > 98)]) == pytest.approx(2.0, abs=0.1)

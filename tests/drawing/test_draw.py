@@ -329,6 +329,20 @@ def test_a_stick_diagram_without_clutches_is_as_it_was() -> None:
     assert not [gid for gid in gids(drawn("planetary-24-18-60", "stick")) if gid.startswith("element")]
 
 
+def test_a_plan_bends_a_thin_wheel_where_its_wave_stands() -> None:
+    """After a sixth of a turn the generator lies at 60 degrees, and the teeth are farthest out there."""
+    figure = plan_figure(make_scene(load("strain-wave")), Fraction(1, 6))
+    lobes = [line for line in figure.axes[0].lines if line.get_gid() == "wave generator"]
+    ways = [np.diff(np.asarray(line.get_xydata()), axis=0)[0] for line in lobes]
+    assert sorted(np.degrees(np.arctan2(y, x)) for x, y in ways) == pytest.approx([-120, 60])
+    (wheel,) = (patch for patch in figure.axes[0].patches if patch.get_gid() == "wheel spline")
+    line = np.asarray(wheel.get_path().vertices) - lobes[0].get_xydata()[0]
+    far, scale = np.hypot(*line.T), np.hypot(*ways[0]) / (99.1 - 2.4 + 1)
+    at = np.degrees(np.arctan2(line[:, 1], line[:, 0])) % 180
+    assert far[np.abs(at - 60) < 1].max() / scale == pytest.approx(101.7, abs=0.01)
+    assert far[np.abs(at - 150) < 1].max() / scale == pytest.approx(99.7, abs=0.01)
+
+
 # --------------------------------------------------------------------------------------------------------------- graph
 
 

@@ -1,8 +1,7 @@
 """Thin wheels bent into their rings, as they are written: no tooth in the ring wherever the wave stands.
 
-A wheel that a wave bends is no rigid body, and cannot be turned as others are. Its middle line keeps its length: what
-lies on it at the angle t moves outwards by w cos(n (t - s)), s the angle of the wave, and along by -w/n sin(n (t - s));
-what lies beside it stays on its normal. While the wave turns the wheel itself turns by the ring's teeth.
+A wheel that a wave bends is no rigid body, and cannot be turned as others are: while the wave turns, the wheel itself
+turns by the ring's teeth.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from geartrain.errors import Problem
 from geartrain.export.proof.cut_outlines import plane_geometry
 from geartrain.export.proof.turned_pair import NOTHING
 from geartrain.kinematics.buildability import BuildFinding
+from geartrain.teeth.outlines.wave_tooth import bent_line
 
 if TYPE_CHECKING:
     from typing import Any
@@ -60,23 +60,6 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
         c, s = np.cos(pitch / 2), np.sin(pitch / 2)
         held = shapely.transform(material, lambda points, c=c, s=s: points @ np.array([[c, s], [-s, c]]))
         yield float(shapely.intersection(bent, held).area)
-
-
-def bent_line(line: Floats, middle: float, wave: tuple[float, int], turns: tuple[float, float]) -> Floats:
-    """Points of a thin wheel (n, 2) once it is bent and turned.
-
-    middle   radius of its middle line
-    wave     how far it rises, and its lobes
-    turns    of the wheel and of the wave (rad)
-    """
-    (rise, lobes), (own, where) = wave, turns
-    place = np.arctan2(line[:, 1], line[:, 0]) + own
-    phase, off = lobes * (place - where), np.hypot(*line.T) - middle
-    out, along = rise * np.cos(phase), -rise / lobes * np.sin(phase)
-    at = place + along / middle
-    leaning = at + (lobes * rise * np.sin(phase) + along) / middle
-    points = (middle + out) * np.exp(1j * at) + off * np.exp(1j * leaning)
-    return np.column_stack([points.real, points.imag])
 
 
 def _divided(line: Floats) -> Floats:

@@ -19,7 +19,7 @@ from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.wave_tooth import bent_circle
+from geartrain.teeth.outlines.wave_tooth import bent_line
 
 if TYPE_CHECKING:
     pass
@@ -97,7 +97,9 @@ class Eccentric:
         if self.wave is None:
             return Contour.circle(self.radius, self.centre)
         wave, half = self.wave, self.wave.wall / 2
-        points = bent_circle(self.radius + half, half, wave.rise, wave.lobes, _POINTS)
+        turn = 2 * np.pi * np.arange(_POINTS) / _POINTS
+        bore = self.radius * np.column_stack([np.cos(turn), np.sin(turn)])
+        points = bent_line(bore, self.radius + half, (wave.rise, wave.lobes))
         c, s = cos(wave.towards), sin(wave.towards)
         return Contour(points @ np.array([[c, s], [-s, c]]) + np.array(self.centre), np.zeros(_POINTS))
 

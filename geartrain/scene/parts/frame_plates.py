@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import dist
+from math import ceil, cos, dist, pi, sin
 
 import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
-from geartrain.scene.parts.eccentrics import running_hole
+from geartrain.scene.parts.eccentrics import Eccentric, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.pin_circles import StandingPins
@@ -25,6 +25,7 @@ from geartrain.teeth.outlines.contour import Contour
 _PILLAR_MOST, _PILLAR_LEAST = 4.0, 1.5  # mm: radius of a pillar
 _PILLAR_PART = 0.04  # of the width of all that turns between the plates
 _LAND = 3.0  # mm of plate round a hole
+_WIDE = 6.0  # bores in the radius of a wave that is lightened
 _BLADE = 0.05  # mm: holes nearer to each other are one
 
 
@@ -70,6 +71,20 @@ class FlatPlate:
         edge = Contour(self.outline.points - np.array(self.at), self.outline.bulges)
         circles = (Contour.circle(each.diameter / 2, (each.at[0] - x, each.at[1] - y)) for each in self.holes)
         return edge, *circles
+
+
+def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
+    """What a wide wave is lightened by: holes between its lobes, at the least six, of bores of some size (mm)."""
+    wave, radius = eccentric.wave, eccentric.radius
+    if wave is None or radius < _WIDE * bore:
+        return
+    count = wave.lobes * ceil(6 / wave.lobes)
+    out = 0.55 * radius
+    diameter = round(min(0.42 * radius, 1.6 * out * sin(pi / count)), 1)
+    for at in range(count):
+        angle = wave.towards + (2 * at + 1) * pi / count
+        x, y = eccentric.centre
+        yield Hole("window", (x + out * cos(angle), y + out * sin(angle)), diameter)
 
 
 @dataclass(frozen=True)
@@ -155,7 +170,8 @@ class FramePlates:
             yield FlatPlate(plate.disc.link, plate.disc.name, edge, holes, low, high, plate.disc.at)
         for each in self.plan.stack.eccentrics:
             faces = each.faces(self._disc(each.name))
-            yield FlatPlate(each.link, each.name, each.edge, tuple(self._hub(each.name)), *faces, each.centre)
+            holes = *self._hub(each.name), *_windows(each, self.plan.bores[each.name])
+            yield FlatPlate(each.link, each.name, each.edge, holes, *faces, each.centre)
 
     def _disc(self, name: str) -> StackDisc:
         return next(disc for disc in self.plan.discs if disc.name == name)

@@ -9,13 +9,14 @@ from math import atan2, dist, inf
 from typing import TYPE_CHECKING, Protocol
 
 from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
+from geartrain.numerics.vectors import size
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
 from geartrain.scene.parts.eccentrics import USUAL_ARBOR, WALL, Eccentric, Wave, eccentric_radius
 from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.pin_circles import PinCircle
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
-from geartrain.teeth.outlines.wave_tooth import CUP
-from geartrain.teeth.outlines.wave_tooth import WALL as WALL_PART
+from geartrain.scene.strain_waves import BentWheel, bent_wheels
+from geartrain.teeth.outlines.wave_tooth import CUP, wall
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ class StackEccentrics:
             yield each if number == 1 else replace(each, name=f"{each.name} {number}")
 
     def _each(self) -> Iterator[Eccentric]:
+        waves = {each.wheel: each for each in bent_wheels(self.stack.train, self.stack.layout)}
         for label, axis in self.stack.layout.axes.items():
             own = self.stack.carrier_axis(axis)
             discs = [disc for disc in self.stack.wheel_discs if disc.axis == label]
@@ -92,30 +94,20 @@ class StackEccentrics:
                 continue
             at = self._place(own)
             if dist(at, discs[0].at) < ON_ECCENTRIC * min(disc.root for disc in discs):
-                if self._lobes(discs):
-                    yield self._wave(axis.carrier, own, label, discs)
+                if bent := next((waves[disc.name] for disc in discs if disc.name in waves), None):
+                    yield self._wave(bent, label, at)
                 elif cranks := list(self._cranks(axis.carrier, own)):
                     yield from self._on_cranks(cranks, at, label, discs)
                 else:
                     yield from self._on_arbor(axis.carrier, own, label, discs)
 
-    def _lobes(self, discs: Sequence[StackDisc]) -> int:
-        """Of the wave that bends a thin wheel: as many as its ring has teeth more; 0 of wheels that are stiff."""
-        declared = self.stack.train.declaration
-        for gear in declared.gears:
-            counts = {name: declared.wheels[name][1] for name in gear.pair}
-            thin = next((name for name, wheel in counts.items() if wheel.flexible), None)
-            if thin is not None and any(disc.name == thin for disc in discs):
-                return abs(sum((wheel.count or 0) * (1 if wheel.internal else -1) for wheel in counts.values()))
-        return 0
-
-    def _wave(self, link: str, own: str, label: str, discs: Sequence[StackDisc]) -> Eccentric:
-        at, (x, y) = self._place(own), discs[0].at
-        blank = self.stack.blanks[discs[0].name]
-        towards, length = atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius
-        wave = Wave(dist(at, (x, y)), self._lobes(discs), wall(blank), towards, length)
-        radius = blank.root_radius - wave.wall
-        return Eccentric(f"{link} wave", link, own, at, at, radius, (discs[0].name,), label, wave=wave)
+    def _wave(self, bent: BentWheel, label: str, at: Point) -> Eccentric:
+        """What bends a thin wheel."""
+        (x, y), blank = self._place(label), self.stack.blanks[bent.wheel]
+        thin = wall(blank.pitch_radius)
+        wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
+        name, radius = f"{bent.link} wave", blank.root_radius - thin
+        return Eccentric(name, bent.link, bent.axis, at, at, radius, (bent.wheel,), label, wave=wave)
 
     def _place(self, label: str) -> Point:
         return self.stack.flat(self.stack.layout.axes[label].point)
@@ -161,11 +153,6 @@ class StackEccentrics:
             yield Eccentric(f"{link} eccentric", link, own, place, moved, radius, wheels, label, middle, name)
 
 
-def wall(blank: Blank) -> float:
-    """How thick a wheel is under its teeth (mm) that a wave bends."""
-    return WALL_PART * 2 * blank.pitch_radius
-
-
 def find_cups(stack: UprightTrain) -> Iterator[FlexibleCup]:
     """Walls between thin wheels and links on axes of the frame."""
     declared, tree = stack.train.declaration, stack.train.tree
@@ -175,7 +162,9 @@ def find_cups(stack: UprightTrain) -> Iterator[FlexibleCup]:
             place = stack.layout.axes.get(tree.axis(cup) or "")
             if own and place is not None and place.carrier == declared.frame and stack.is_upright(place):
                 blank, at = stack.blanks[own[0].name], stack.flat(place.point)
-                yield FlexibleCup(coupling.name, cup, thin, own[0].name, at, blank.root_radius, wall(blank))
+                yield FlexibleCup(
+                    coupling.name, cup, thin, own[0].name, at, blank.root_radius, wall(blank.pitch_radius)
+                )
 
 
 def find_pin_circles(stack: UprightTrain) -> Iterator[PinCircle]:

@@ -48,16 +48,26 @@ def wave_tooth(z: int, play: float, ring: bool = False) -> FixedTooth:
     return FixedTooth(tip, root, tooth, "ring" if ring else "external")
 
 
-def bent_circle(middle: float, inwards: float, rise: float, lobes: int, number: int) -> Floats:
-    """A circle of a thin ring once a wave bends it, as points (number, 2); in any one unit of length.
+def wall(radius: float) -> float:
+    """How thick a wheel that a wave bends is under its teeth, in the unit of its pitch radius."""
+    return WALL * 2 * radius
 
-    middle    radius of the ring's middle line, which does not stretch
-    inwards   how far within that the circle lies
-    rise      of the wave, whose first lobe is on the x axis
+
+def bent_line(line: Floats, middle: float, wave: tuple[float, int], turns: tuple[float, float] = (0.0, 0.0)) -> Floats:
+    """Points of a thin wheel (n, 2) once a wave bends it, and it is turned; lengths in any one unit.
+
+    The wheel is no rigid body. Its middle line keeps its length: what lies on it at the angle t moves outwards by
+    w cos(n (t - s)), s the angle of the wave, and along by -w/n sin(n (t - s)); what lies beside stays on its normal.
+
+    middle   radius of its middle line
+    wave     how far it rises, and its lobes, the first of which is on the x axis
+    turns    of the wheel and of the wave (rad)
     """
-    turn = 2 * pi * np.arange(number) / number
-    along = -rise / lobes * np.sin(lobes * turn)
-    tilt = (lobes * rise * np.sin(lobes * turn) + along) / middle
-    line = (middle + rise * np.cos(lobes * turn)) * np.exp(1j * (turn + along / middle))
-    line -= inwards * np.exp(1j * (turn + along / middle + tilt))
-    return np.column_stack([line.real, line.imag])
+    (rise, lobes), (own, where) = wave, turns
+    place = np.arctan2(line[:, 1], line[:, 0]) + own
+    phase, off = lobes * (place - where), np.hypot(*line.T) - middle
+    out, along = rise * np.cos(phase), -rise / lobes * np.sin(phase)
+    at = place + along / middle
+    leaning = at + (lobes * rise * np.sin(phase) + along) / middle
+    points = (middle + out) * np.exp(1j * at) + off * np.exp(1j * leaning)
+    return np.column_stack([points.real, points.imag])

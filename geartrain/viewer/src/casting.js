@@ -40,7 +40,7 @@ export class Casting {
         for (const at of job.shape.indices) index[next++] = first + at;
         first += job.shape.corners;
       }
-      this.parts.push({ body: job.body, slot: job.slot, from, to: next, ball: around(data.position.array, began, first) });
+      this.parts.push({ body: job.body, slot: job.slot, from, to: next, first: began, last: first, ball: around(data.position.array, began, first) });
     }
     this.slots = [...new Set(this.jobs.map(({ slot }) => slot))];
     this.jobs = [];

@@ -9,6 +9,8 @@ import { along, frameAt, isParallel, offAxis, vector } from "./space.js";
 
 const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, pin: PARTS.pin };
 const FLAT_GLOSS = 0.5;
+const WALL = "wall"; // of a cup, which goes on from a thin wheel
+const ROUND = 84; // corners of what is as wide as a train
 const COVERS = ["frame", "carrier", "dial"];
 
 /** All of them: {body, colour, gloss, shape, matrix, at, kind, cover}; `cover`, the way across of what stands before wheels or behind them, else null. */
@@ -18,15 +20,18 @@ export function builtParts(scene, main) {
     const flat = part.outlines.length > 0;
     const upright = isParallel(direction, main.toArray());
     const cover = COVERS.includes(kind) ? vector(direction) : null;
-    const shape = flat ? flatShape(part) : turnedShape(part.bands);
+    const shape = flat ? flatShape(part) : turnedShape(part.bands, kind === WALL ? ROUND : 40);
     // what stands along the way layers move is stretched when they do
     const at = upright && !flat ? null : vector(place);
-    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, frame: kind === "frame", opened: isOpened(scene, part) };
+    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, frame: kind === "frame", wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
   });
 }
 
+/** Points of its axis at both ends of a turned part. */
+const endsOf = ({ place, direction, bands }) => [bands[0][0], bands.at(-1)[1]].map((end) => vector(place).addScaledVector(vector(direction), end));
+
 /** Half a section from its bands, counter-clockwise; bands that do not meet make several. */
-function turnedShape(bands) {
+function turnedShape(bands, most) {
   const shape = new Shape();
   let run = [];
   bands.forEach((band, n) => {
@@ -34,7 +39,7 @@ function turnedShape(bands) {
     if (n + 1 < bands.length && bands[n + 1][0] - band[1] < 1e-6) return;
     const outside = run.flatMap(([low, high, radius]) => [[radius, low], [radius, high]]);
     const inside = run.toReversed().flatMap(([low, high, , bore]) => [[bore, high], [bore, low]]);
-    swept(shape, chamfered([...outside, ...inside]), Math.max(14, Math.min(40, Math.round(10 * Math.max(...run.map(([, , radius]) => radius))))));
+    swept(shape, chamfered([...outside, ...inside]), Math.max(14, Math.min(most, Math.round(10 * Math.max(...run.map(([, , radius]) => radius))))));
     run = [];
   });
   return shape;

@@ -26,6 +26,7 @@ export class WheelPart {
     this.surface = blankOf(alongThread(scene, index), this.apex);
     const radii = this.profile.points.map(([radius]) => radius);
     const ring = wheel.kind === "ring";
+    this.wave = scene.waves.find((wave) => wave.wheel === index);
     this.root = ring ? Math.max(...radii) : Math.min(...radii);
     this.crest = Math.max(...radii);
     this.depth = (Math.max(...radii) - Math.min(...radii)) * wheel.radius;
@@ -45,6 +46,10 @@ export class WheelPart {
     else if (kind === "ring") {
       add(rimShape(root * radius, ringRim(wheel), thickness, size), this.matrix, this.own);
       add(plainRimShape(radius, root * radius, 0.96 * thickness, size), this.matrix, this.smooth);
+    } else if (this.wave) {
+      const bore = root * radius - this.wave.wall;
+      add(rimShape(bore, root * radius, thickness, size), this.matrix, this.own);
+      add(plainRimShape(root * radius, radius, 0.96 * thickness, size), this.matrix, this.smooth);
     } else if (cone) {
       add(coneShape(this.surface, root - 0.01, this.apex, thickness, hub), this.matrix, this.toothed);
       add(coneShape(this.surface, 1, this.apex, thickness, hub), this.matrix, this.smooth);
@@ -58,7 +63,8 @@ export class WheelPart {
   castTeeth(add, many) {
     const { wheel, profile, surface, root } = this;
     if (wheel.kind === "worm") return;
-    const base = wheel.kind === "ring" ? root + 0.02 : root - Math.min(0.03, 0.1 * root);
+    const depth = this.wave ? this.wave.wall / (2 * wheel.radius) : Math.min(0.03, 0.1 * root);
+    const base = wheel.kind === "ring" ? root + 0.02 : root - depth;
     const fine = many > MANY_TEETH ? 0.3 : Math.min(0.3, Math.max(0.02, (SEEN * this.size) / this.depth));
     const shape = profile.hole ? pinShape(profile.points, surface) : toothShape(profile.points, base, surface, fine);
     add(shape, this.matrix, profile.hole ? this.own : this.toothed, Math.min(wheel.teeth, MOST_TEETH));

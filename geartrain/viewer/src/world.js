@@ -1,6 +1,7 @@
 // A train in space: its parts, cast into one geometry, each of which finds its body's pose when it is drawn.
 
 import { barBetween, hubs, spans, supports } from "./arbors.js";
+import { Bend } from "./bend.js";
 import { Casting } from "./casting.js";
 import { PARTS } from "./colours.js";
 import { holds, quarterOf } from "./cutaway.js";
@@ -13,7 +14,7 @@ import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
 import { builtParts, cornersOf, rodsOf } from "./parts.js";
 import { Poses } from "./poses.js";
-import { along, isParallel, onAxis, sharesAxis, vector } from "./space.js";
+import { along, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.js";
 import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
 
@@ -36,6 +37,7 @@ export class World {
     this.castings = [new Casting(), new Casting(), new Casting()]; // teeth come later, when the rest is seen; covers
     this.parts = [];
     this.build();
+    this.bends = this.scene.waves.map((wave) => this.bendOf(machine, wave));
     this.looks = new Looks(this.scene, this.palette, this.wheels, this.parts);
     this.looks.showTeeth(false);
     this.looks.paint("plain");
@@ -83,6 +85,18 @@ export class World {
     this.crank?.parts.forEach((part) => this.put(part));
   }
 
+  /** A thin wheel, with the wall that goes on from its face. */
+  bendOf(machine, wave) {
+    const part = this.wheels[wave.wheel];
+    const { body, thickness } = part.wheel;
+    const near = (end) => end.distanceTo(part.at);
+    const walls = this.parts
+      .filter(({ wall }) => wall && offAxis(this.scene.bodies[body], wall[0]) < 1e-6 * this.size)
+      .map(({ slot, wall }) => ({ slot, ends: wall.toSorted((one, other) => near(one) - near(other)) }));
+    const joined = walls.filter(({ ends: [end] }) => near(end) < thickness);
+    return new Bend(machine, wave, part, joined.map(({ slot, ends }) => ({ slot, bottom: ends[1] })));
+  }
+
   /** At the end of its arbor that is the less in the way of what runs in it; lengthened past that. */
   buildCrank(reach) {
     const { scene, size } = this;
@@ -112,10 +126,10 @@ export class World {
     return crank;
   }
 
-  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, frame, opened }) {
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, frame, wall, opened }) {
     const slot = this.palette.slot(colour, gloss, opened);
     this.castings[cover ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
-    this.parts.push({ slot, body, at, dial, plate, cover, frame, colour });
+    this.parts.push({ slot, body, at, dial, plate, cover, frame, wall, colour });
   }
 
   adder(casting, { wheel: { body }, at }) {
@@ -135,6 +149,7 @@ export class World {
     const { value } = this.uniforms.poses;
     this.poses.turn(value.image.data);
     value.needsUpdate = true;
+    for (const bend of this.bends) bend.turn(this.castings);
     this.sparks?.set(this.machine.time());
   }
 

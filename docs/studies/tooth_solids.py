@@ -1,0 +1,138 @@
+"""Teeth that the viewer draws as closed solids, out of the corners of its triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+
+import manifold3d
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.scene import SceneWheel
+
+Floats = NDArray[np.float64]
+
+CORE = 330  # corners of a worm's core: five rounds of two times 33
+
+
+class DrawnTooth:
+    """A tooth of a wheel as a closed solid about the wheel's own z axis, and where all its copies stand."""
+
+    def __init__(self, points: Floats, elements: Sequence[float], count: int, worm: bool = False) -> None:
+        sections = _turns(points, count) if worm else _sections(points)
+        self.solid = _lofted(sections)
+        self.volume = float(self.solid.volume())
+        corners = np.concatenate(sections)
+        self.middle = corners.mean(0)
+        self.reach = float(np.linalg.norm(corners - self.middle, axis=1).max())
+        stand = np.array(elements).reshape(4, 4).T
+        self.copies = np.array([stand @ about_z(2 * pi * copy / count) for copy in range(count)])
+
+    def standing(self, body: Floats, ahead: float = 0.0) -> Floats:
+        """Matrices of all copies where their body stands, turned on by some pitches (copies, 4, 4)."""
+        found: Floats = body @ self.copies @ about_z(2 * pi * ahead / len(self.copies))
+        return found
+
+    def middles(self, stands: Floats) -> Floats:
+        """Where the middles of its copies are (copies, 3)."""
+        return np.asarray(stands[:, :3, :3] @ self.middle + stands[:, :3, 3])
+
+    def placed(self, stands: Floats, copy: int) -> manifold3d.Manifold:
+        """A copy where it stands."""
+        found: manifold3d.Manifold = self.solid.transform(stands[copy][:3])
+        return found
+
+
+class BentTeeth:
+    """The teeth of a thin wheel in one pose, each of another form: what `DrawnTooth` is for those of one form."""
+
+    def __init__(self, wheel: SceneWheel, points: Floats) -> None:
+        sections = [_sections(each) for each in points.reshape(wheel.teeth, -1, 3)]
+        self.solids = [_lofted(each) for each in sections]
+        self.volume = min(float(each.volume()) for each in self.solids)
+        corners = [np.concatenate(each) for each in sections]
+        self.own = np.array([[*each.mean(0), 1.0] for each in corners])
+        self.reach = max(float(np.linalg.norm(each - each.mean(0), axis=1).max()) for each in corners)
+        self.wheel = wheel
+
+    def standing(self, body: Floats, ahead: float = 0.0) -> Floats:
+        """Matrices of all teeth, turned on by some pitches as they are bent (teeth, 4, 4)."""
+        frame = np.eye(4)
+        x, z = np.array(self.wheel.reference), np.array(self.wheel.direction)
+        frame[:3] = np.column_stack([x, np.cross(z, x), z, self.wheel.centre])
+        turned = frame @ about_z(2 * pi * ahead / self.wheel.teeth) @ np.linalg.inv(frame)
+        return np.broadcast_to(body @ turned, (self.wheel.teeth, 4, 4))
+
+    def middles(self, stands: Floats) -> Floats:
+        """Where the middles of its teeth are (teeth, 3)."""
+        return np.asarray(np.einsum("nij,nj->ni", stands[:, :3], self.own))
+
+    def placed(self, stands: Floats, copy: int) -> manifold3d.Manifold:
+        """A tooth where it stands."""
+        found: manifold3d.Manifold = self.solids[copy].transform(stands[copy][:3])
+        return found
+
+
+def _sections(points: Floats) -> list[Floats]:
+    """The outlines of both faces, corner by corner, out of the corners of the triangles drawn.
+
+    Of a tooth four corners of every piece of flank, then on either face four of every strip down to its base; of a pin
+    the flanks alone.
+    """
+    quads = points.reshape(-1, 4, 3)
+    pieces = len(quads) // 3
+    strips = quads[pieces : 3 * pieces].reshape(2, pieces, 4, 3)
+    whole = len(quads) == 3 * pieces and np.allclose(strips[0, :, 3], quads[:pieces, 0])
+    flanks = quads[:pieces] if whole else quads
+    if not np.allclose(flanks[:-1, 1], flanks[1:, 0]) or not np.allclose(flanks[:-1, 2], flanks[1:, 3]):
+        raise ValueError("the pieces of a flank do not hang together: the viewer builds teeth in another way")
+    if not whole:
+        return [flanks[:, 0], flanks[:, 3]]
+    outer = [np.vstack([flanks[:, at], flanks[-1:, to]]) for at, to in ((0, 1), (3, 2))]
+    base = [np.vstack([strips[end, :, 0], strips[end, -1:, 1]]) for end in (0, 1)]
+    return [np.vstack([side, foot[::-1]]) for side, foot in zip(outer, base, strict=True)]
+
+
+def _turns(points: Floats, starts: int) -> list[Floats]:
+    """The sections of the first thread of a worm along its turns: of three strips side by side, behind the core."""
+    strips = points[CORE:].reshape(starts, 3, -1, 2, 3)[0]
+    if not np.allclose(strips[:-1, :, 1], strips[1:, :, 0]):
+        raise ValueError("the strips of a thread do not hang together: the viewer builds worms in another way")
+    return list(np.stack([*strips[:, :, 0], strips[-1, :, 1]], axis=1))
+
+
+def _lofted(sections: Sequence[Floats]) -> manifold3d.Manifold:
+    """What outlines of as many corners have between them, its flanks parted into triangles as the viewer does."""
+    count = len(sections[0])
+    here = np.arange(count)
+    after = np.roll(here, -1)
+    strip = np.vstack([np.c_[here, after, after + count], np.c_[here, after + count, here + count]])
+    sides = np.vstack([strip + at * count for at in range(len(sections) - 1)])
+    flat = _unrolled(sections[0])
+    left = np.sum(flat[:, 0] * np.roll(flat[:, 1], -1) - np.roll(flat[:, 0], -1) * flat[:, 1]) > 0
+    cap = np.array(manifold3d.triangulate([flat if left else flat[::-1]]))
+    cap = cap[:, ::-1] if left else (count - 1 - cap)[:, ::-1]  # against the way the sides go round
+    faces = np.vstack(
+        [sides, cap if left else cap[:, ::-1], (cap[:, ::-1] if left else cap) + count * (len(sections) - 1)]
+    )
+    corners = np.ascontiguousarray(np.vstack(sections))
+    for each in (faces, faces[:, ::-1]):
+        solid = manifold3d.Manifold(manifold3d.Mesh64(corners, np.ascontiguousarray(each, dtype=np.uint64)))
+        if solid.status() == manifold3d.Error.NoError and solid.volume() > 0:
+            return solid
+    raise ValueError(f"a tooth is no closed solid: {solid.status()}")
+
+
+def _unrolled(outline: Floats) -> Floats:
+    """An outline about the z axis in a plane: along the circle, and across it, radially or along the axis."""
+    x, y, z = outline.T
+    radius = np.hypot(x, y)
+    aside = radius if np.ptp(radius) >= np.ptp(z) else z
+    return np.stack([np.arctan2(y, x) * radius.mean(), aside], axis=1)
+
+
+def about_z(angle: float) -> Floats:
+    turned = np.eye(4)
+    turned[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return turned

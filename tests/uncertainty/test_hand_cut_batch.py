@@ -12,7 +12,7 @@ from test_hand_cut_law import equally_deep, even
 
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.uncertainty import CutWheel, cut_transmission_function
 from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
@@ -257,3 +257,14 @@ def test_a_bound_has_its_ends() -> None:
     assert jamming_bound(sizes, 0.0) == 0.0
     assert jamming_bound(sizes, 1.0) == 1.0
     assert jamming_bound(sizes.at(0.001), 0.01) == 1.0
+
+
+def test_wheels_whose_tips_do_not_meet_touch_nowhere_and_stop_nothing() -> None:
+    """Of places alone too, for which tables stand in of couples that there are none of."""
+    sizes = TriangularSizes(45, 225, *equal_depth(45, 225, THIRTY, THIRTY), THIRTY, THIRTY, 0.0225)
+    assert sizes.R1 + sizes.R2 < sizes.D
+    driver, driven = cut(sizes, np.random.default_rng(5), 3, PLACES)
+    found = batch_verdicts(sizes, driver, driven, 0.0)
+    assert found.play.tolist() == [np.inf] * 3
+    assert found.disengaged.all()
+    assert not (found.stops | found.standstill).any()

@@ -44,7 +44,11 @@ def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    play, teeth = backlash_of_pitch_errors(pair), _Passing(pair)
+    teeth = _Passing(pair)
+    if teeth.reach < 0:  # the tip circles do not meet
+        nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
+        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere, never)
+    play = backlash_of_pitch_errors(pair)
     for rows in _parts(np.abs(play) < _UNSURE * pair.sizes.p2, chunk // pair.count):
         play[rows] = MeshingCycle(_some(pair, rows)).play()
     clash, stands = np.zeros(len(play), bool), np.zeros(len(play), bool)

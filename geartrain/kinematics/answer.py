@@ -51,7 +51,7 @@ class Answer(FrozenFields, Tabular, Result):
     place : str
         Where the state's inputs were declared.
     unit : str
-        Unit of all speeds, such as `turns per year_tropical_J2000` or `rpm`; empty for plain numbers.
+        Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers.
     verdict : Verdict
         Whether the speeds follow from the inputs.
     speeds : mapping of str to Fraction, float or LongFloat

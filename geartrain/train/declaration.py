@@ -339,9 +339,10 @@ class Train(Declared):
 
     @property
     def unit_name(self) -> str:
-        """The unit of speeds, for a reader: `turns per year_tropical_J2000`, `rpm`, or nothing for plain numbers."""
+        """The unit of speeds, for a reader: `turns per tropical year`, `rpm`, or nothing for plain numbers."""
         if self.unit is not None:
-            return f"turns per {str(self.unit.per).removeprefix('1 ')}"
+            row = period_table().get(self.unit.per)
+            return f"turns per {(row.what if row else '') or str(self.unit.per).removeprefix('1 ')}"
         return self.input_unit
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:

@@ -18,7 +18,8 @@ from geartrain.errors import suggest
 class Period:
     """One row: a period in days, a speed in turns per year, or a bare count.
 
-    `value` is exact: the fraction given by the source where there is one, else the decimal as printed.
+    `value` is exact: the fraction given by the source where there is one, else the decimal as printed. `what` is what
+    goes round or is counted, and of a period that serves as a unit its plain name; may be empty.
     """
 
     name: str

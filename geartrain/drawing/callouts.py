@@ -68,6 +68,12 @@ class CalloutMargin:
         return min(ends, default=inf), max(ends, default=-inf)
 
     @property
+    def lines(self) -> list[Floats]:
+        """Both ends (2, 2) of every line."""
+        sides = zip((self.left, self.right), self.edges, strict=True)
+        return [np.array([(edge, y), each.anchor]) for side, edge in sides for each, y in side]
+
+    @property
     def has_lists(self) -> bool:
         """True where one line leads to several things."""
         return any(len(each.words) > 1 for side in (self.left, self.right) for each, _ in side)

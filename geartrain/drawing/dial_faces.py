@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,10 +19,6 @@ from geartrain.scene.dial_marks import engrave
 from geartrain.scene.dial_scale import DialScale, clock_point, plain_circle
 from geartrain.scene.hand_outlines import HANDS
 from geartrain.scene.pose import body_errors, turns_of
-
-if TYPE_CHECKING:
-    pass
-
 
 _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
@@ -56,11 +51,15 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """A face with the pointers that are read on it; `name` is empty for a plain face of one output."""
+    """A face with the pointers that are read on it; `name` is empty for a plain face of one output.
+
+    title   what stands over it where that is not its name: one dial may stand about several axes
+    """
 
     name: str
     scale: DialScale
     pointers: tuple[int, ...]
+    title: str = ""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
@@ -126,6 +125,8 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         if dial is not None:
             on.setdefault(dial, []).append(at)
     faces = [_dialled(scene, dial, pointers) for dial, pointers in on.items()]
+    names = [face.name for face in faces]
+    faces = [replace(face, title=_told_apart(scene, face)) if names.count(face.name) > 1 else face for face in faces]
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
@@ -142,6 +143,10 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
 def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
     face = scene.dials[dial]
     return DialPicture(face.id, face.scale, tuple(pointers))
+
+
+def _told_apart(scene: Scene, face: DialPicture) -> str:
+    return f"{face.name} ({', '.join(scene.pointers[at].output for at in face.pointers)})"
 
 
 # -------------------------------------------------------------------------------------------------------------- drawing
@@ -162,7 +167,8 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
         _draw_pointer(axes, face, readings[at], centre, outer * share, order)
     axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
     name = face.name or readings[face.pointers[0]].output
-    write(axes, centre[0], centre[1] + _FACE / 2 + 0.02, name, fontsize=SMALL, fontweight="bold", gid=f"dial {name}")
+    title, y = face.title or name, centre[1] + _FACE / 2 + 0.02
+    write(axes, centre[0], y, title, fontsize=SMALL, fontweight="bold", gid=f"dial {name}")
 
 
 def _draw_key(

@@ -15,7 +15,7 @@ import numpy as np
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import settle
 from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Path, PathPatch, Rectangle
-from geartrain.drawing.labels import LabelSpace, text_box, text_width
+from geartrain.drawing.labels import Box, LabelSpace, text_box, text_width
 from geartrain.drawing.style import BLACK, BLUE, FINE, GREY, PURPLE, RED, SMALL, sheet, title_of, too_many, write
 
 if TYPE_CHECKING:
@@ -29,6 +29,8 @@ _CROWDED = 6.0  # inches of bend that an inch too little of clearance is worth
 _ROOMY = 3.0  # inches: what a graph of one link would add to its edges
 _BENDS = [0.0, *(side * size for size in (0.15, 0.3, 0.5, 0.8, 1.2, 1.7) for side in (1, -1))]
 _SHORT = 4  # letters of a name that fits into its vertex
+_TRACED = 81  # points of an edge that labels of others keep off
+_RIMS = 0.03  # inches between two labels
 _SHARES = (0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.27, 0.73)  # of an edge, where its label may stand
 _BESIDE = (
     (0.0, 0.0),
@@ -40,7 +42,8 @@ _BESIDE = (
     (0.0, -0.24),
 )  # inches off it
 _NAME = 8.5  # points
-_SMALL = 0.11  # inches: half a vertex that is named beside it
+_IN = 9  # points of one in its vertex
+_SMALL, _LARGE = 0.11, 0.19  # inches: half a vertex that is named beside it, and at least of one that holds its name
 _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 
@@ -89,18 +92,22 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     shift = np.array([width / 2, _FOOT + _RIM]) - np.array([(low[0] + high[0]) / 2, low[1]])
     figure, axes = sheet(width, float(height) + _HEAD + _FOOT - 0.3, title_of(declared.name, declared.title))
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, places + shift, strict=True)}
-    named = max(map(len, links)) > _SHORT
+    beside = max(map(len, links)) > _SHORT
+    inner = max(_LARGE, *(text_width(link, _IN, "bold") / 2 + 0.05 for link in links))
     curves = _curves(edges, at)
     for edge, curve in zip(edges, curves, strict=True):
         _draw_edge(axes, edge, curve)
     room = LabelSpace()
+    outside = [link for link in links if beside or link == declared.frame]  # no word is read over hatching
+    half = {link: _SMALL if link in outside else inner for link in links}
     for link in links:
-        size = 2 * _SMALL if named else 0.42
-        room.take((*at[link], size, size))
+        room.take((*at[link], 2 * half[link], 2 * half[link]))
     for link in links:
-        _draw_vertex(axes, link, at, link == declared.frame, named)
-        if named:
+        _draw_vertex(axes, link, at, link == declared.frame, half[link])
+        if link in outside:
             _name_vertex(axes, link, at, edges, room)
+        else:
+            write(axes, *at[link], link, fontweight="bold", fontsize=_IN)
     if labels:
         _draw_labels(axes, edges, curves, room)
     figure.legend(handles=list(_legend(edges)), loc="lower center", ncols=5, fontsize=SMALL - 1, frameon=False)
@@ -201,23 +208,36 @@ def _width(text: str) -> float:
 
 
 def _draw_labels(axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], room: LabelSpace) -> None:
-    """Every edge's label on it, near its middle, or beside it, where it hides no other one; the longest first."""
+    """Every edge's label on it, near its middle, or beside it, where it hides no other label, and no other edge if it
+    can; the longest first.
+    """
     order = sorted(range(len(edges)), key=lambda at: (-len(edges[at].label), at))
-    for edge, curve in ((edges[at], curves[at]) for at in order):
-        spots = [(*map(float, _point(curve, share)),) for share in _SHARES]
+    lines = np.array([[_point(curve, share) for share in np.linspace(0, 1, _TRACED)] for curve in curves])
+    for at in order:
+        edge, others = edges[at], np.delete(lines, at, axis=0).reshape(-1, 2)
+        spots = [(*map(float, _point(curves[at], share)),) for share in _SHARES]
         moved = [(x + dx, y + dy) for dx, dy in _BESIDE for x, y in spots]
-        boxes = [text_box([edge.label], FINE, x, y) for x, y in moved]
-        x, y, _, _ = room.place(boxes) or boxes[0]
+        boxes = [(x, y, wide + _RIMS, high + _RIMS) for x, y, wide, high in _boxes(edge.label, moved)]
+        clear = [box for box in boxes[: len(spots)] if not _hit(box, others)]
+        x, y, _, _ = room.place([*clear, *boxes]) or boxes[0]
         turning = edge.kind == "revolute"
         color = RED if edge.broken else {"revolute": GREY, "gear": BLUE}.get(edge.kind, PURPLE)
         style = "italic" if turning else "normal"
         write(axes, x, y, edge.label, color, 6.0, fontsize=FINE, fontstyle=style)
 
 
-def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], frame: bool, named: bool) -> None:
-    """A circle, of the frame a hatched square; short names stand in it, if all are short."""
+def _boxes(label: str, spots: Sequence[tuple[float, float]]) -> Iterator[Box]:
+    return (text_box([label], FINE, x, y) for x, y in spots)
+
+
+def _hit(box: Box, points: Floats) -> bool:
+    """True if one of the points (n, 2) lies in the box."""
+    return bool((np.abs(points - box[:2]) < np.array(box[2:]) / 2).all(1).any())
+
+
+def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], frame: bool, size: float) -> None:
+    """A circle, of the frame a hatched square, of half the size that is given."""
     x, y = at[link]
-    size = _SMALL if named else 0.19
     style: dict[str, Any] = {
         "facecolor": "white",
         "edgecolor": BLACK,
@@ -229,8 +249,6 @@ def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], f
         axes.add_patch(Rectangle((x - size, y - size), 2 * size, 2 * size, hatch="////", **style))
     else:
         axes.add_patch(Circle((x, y), size, **style))
-    if not named:
-        write(axes, x, y, link, fontweight="bold", fontsize=9)
 
 
 def _name_vertex(

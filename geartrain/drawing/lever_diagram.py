@@ -37,6 +37,7 @@ class Point(NamedTuple):
 
 _MOST = 120  # panels
 _LEAST, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
+_NARROW, _EDGE = 5.0, 0.45  # inches: least width of a page, and what is free at its right
 _GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
 _FINE = 8.5  # points
 _UPRIGHT = 1.4  # times as high as wide, beyond which states stand in columns
@@ -62,7 +63,8 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     answers = [train.solve(name) for name in states]
     wide = [max(_width(_points(train, lever, answer)) for answer in answers) for lever in levers]
     bands = _bands(wide)
-    span = max(max(sum(wide[at] + _GAP for at in band) for band in bands) + 0.45, 5.0)
+    wide = _filling(wide, bands)
+    span = max(sum(wide[at] + _GAP for at in band) for band in bands) + _EDGE
     tall = (_TALL + _HEAD) * len(bands) + 0.45
     columns = min(max(round((tall * len(answers) / (_UPRIGHT * span)) ** 0.5), 1), len(answers))
     rows = -(-len(answers) // columns)
@@ -71,7 +73,8 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     limits = _limits(train, levers, answers)
     for place, answer in enumerate(answers):
         corner = span * (place // rows), height - 0.35 - tall * (place % rows)
-        page.text(corner[0] + 0.15, corner[1] - 0.3, _heading(train, answer), fontsize=SMALL, parse_math=False)
+        heading = _heading(train, answer, place == 0)
+        page.text(corner[0] + 0.15, corner[1] - 0.3, heading, fontsize=SMALL, parse_math=False)
         top = corner[1] - 0.45
         for band in bands:
             top -= _TALL + _HEAD
@@ -107,6 +110,13 @@ def _bands(wide: Sequence[float]) -> list[list[int]]:
     return bands
 
 
+def _filling(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
+    """Widths of panels, of few as much more as fills a page of the least width."""
+    most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
+    room = _NARROW - _EDGE - _GAP * len(most)
+    return [each * max(room / sum(wide[at] for at in most), 1.0) for each in wide]
+
+
 def _width(points: Sequence[Point]) -> float:
     """Inches in which the words above and below a panel stand side by side."""
     above = sum(_letters(max([*point.names, _said(point.speed)], key=len)) for point in points)
@@ -118,12 +128,14 @@ def _letters(text: str) -> float:
     return text_width(text, _FINE, "bold") + 0.15
 
 
-def _heading(train: GearTrain, answer: Answer) -> str:
-    closed, unit = train.cases[answer.state].engaged, train.declaration.unit_name
-    state = f"state {answer.state}, " if answer.state is not None else ""
-    if closed:
-        state += f"{' and '.join(closed)} closed, "
-    return f"{state}speeds in {unit or 'the unit of the inputs'}" + ("" if answer.verdict else f"; {answer.verdict}")
+def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
+    """The state and what is closed in it, and why it has no speeds; above the first, what all speeds are in."""
+    said = [] if answer.state is None else [f"state {answer.state}"]
+    if closed := train.cases[answer.state].engaged:
+        said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
+    if first:
+        said.append(f"speeds in {train.declaration.unit_name or 'the unit of the inputs'}")
+    return "; ".join(said if answer.verdict else [*said, str(answer.verdict)])
 
 
 def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
@@ -176,6 +188,7 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
     axes.tick_params(labelsize=_FINE - 0.5, colors=GREY)
     axes.set_xticks([])
     axes.locator_params(axis="y", nbins=4)
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")  # signs as in the fractions above
     low, high = min(xs), max(xs)
     rim = 0.08 * (high - low) or 0.5
     axes.set_xlim(low - rim, high + rim)

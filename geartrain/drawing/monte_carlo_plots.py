@@ -154,7 +154,7 @@ def errors_figure(trials: TrialResults) -> Figure:
     """Histograms of every pointer's error at random positions; of all trials where in hardly any the train runs."""
     found = {each.name: np.degrees(each.kept) for each in trials.pointers}
     jammed = any(len(each.errors) <= 1 for each in trials.pointers)
-    note = ", flanks that push alone reckoned where the train jams" if jammed else ""
+    note = ", of a train that jams as its pushing flanks alone have it" if jammed else ""
     return histogram_figure(found, f"at random positions{note}")
 
 

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     Place = Callable[[Floats], Floats]
 
 
+_SEAM = 0.3  # points: what joins two tiles of one surface
+_SECTIONS = 48  # of a worm, between which its thread is drawn
+
+
 @dataclass(frozen=True, slots=True)
 class _Face:
     points: Floats
@@ -86,13 +90,19 @@ def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
     """Faces in order, the last over all others."""
-    edges = [RED if wheel.id in red and face.edge else BLACK if face.edge else "none" for wheel, face in faces]
+    tints = [_tint(wheel, face.light) for wheel, face in faces]
+    edges = [
+        (RED if wheel.id in red else BLACK)
+        if face.edge
+        else tint  # a seam without a line lets what is behind it through
+        for (wheel, face), tint in zip(faces, tints, strict=True)
+    ]
     axes.add_collection(
         PolyCollection(
             [place(face.points) for _, face in faces],
-            facecolors=[_tint(wheel, face.light) for wheel, face in faces],
+            facecolors=tints,
             edgecolors=edges,
-            linewidths=[face.edge for _, face in faces],
+            linewidths=[face.edge or _SEAM for _, face in faces],
             zorder=order,
             gid="wheels",
         ),
@@ -107,8 +117,12 @@ def _tint(wheel: SceneWheel, light: float) -> Floats:
 
 
 def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """The strips of the surface between both ends, then the far end, then the near one."""
+    """The strips of the surface between both ends, then the far end, then the near one; of a worm, its thread."""
     far, near = _ends(standing, wheel)
+    if wheel.kind == "worm":
+        yield from _thread(standing, wheel)
+        yield near
+        return
     first, last = near.points, far.points
     middle = (first.mean(0) + last.mean(0)) / 2
     for start in range(0, len(first), max(len(first) // 72, 1)):
@@ -121,6 +135,18 @@ def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
             yield _Face(points, float(points[:, 2].mean()), shade, 0.0)
     yield far
     yield near
+
+
+def _thread(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
+    """What is seen of the surface of a worm, as tiles between sections along its axis."""
+    heights = np.linspace(-0.5, 0.5, _SECTIONS + 1) * wheel.thickness
+    rows = np.array([standing.seen(standing.outline(wheel, height=height)) for height in heights])
+    after = np.roll(rows, -1, axis=1)
+    tiles = np.stack([rows[:-1], after[:-1], after[1:], rows[1:]], axis=2).reshape(-1, 4, 3)
+    normals = np.cross(tiles[:, 2] - tiles[:, 0], tiles[:, 3] - tiles[:, 1])
+    towards = normals[:, 2] / np.maximum(np.linalg.norm(normals, axis=1), 1e-9)
+    for points, up in zip(tiles[towards > 0], towards[towards > 0], strict=True):
+        yield _Face(points, float(points[:, 2].mean()), float(up), 0.0)
 
 
 def _ends(standing: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:

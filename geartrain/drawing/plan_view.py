@@ -15,7 +15,7 @@ from geartrain.drawing.backend import Axes, Figure, Line2D, Patch
 from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
 from geartrain.drawing.labels import Box
 from geartrain.drawing.oblique_side_views import SideScale, draw_obliquely, draw_side, oblique_callouts
-from geartrain.drawing.plan_labels import place_names
+from geartrain.drawing.plan_labels import PlanNames
 from geartrain.drawing.plan_parts import draw_flat, from_below
 from geartrain.drawing.projection import ProjectedScene, ScaledPage, project_scene
 from geartrain.drawing.style import (
@@ -76,7 +76,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     _scale_bar(axes, plan.scale)
     _remark(page, scene, width)
     _write_above(axes, shifted, said)
-    handles = list(_legend(scene, margin.has_lists))
+    handles = list(_legend(standing, margin.has_lists))
     figure.legend(
         handles=handles,
         loc="lower right",
@@ -134,15 +134,17 @@ def _names(
     """Names on wheels and beside the plan, in inches about the origin of the train."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
+    facing = [wheel for wheel in from_below(standing)[::-1] if standing.faces(wheel)] if standing.flat else []
+    names = PlanNames.of(standing, facing, plan.at, plan.scale)
     if labels and standing.flat:
-        facing = [wheel for wheel in from_below(standing)[::-1] if standing.faces(wheel)]
-        written, callouts = place_names(standing, facing, plan.at, plan.scale)
+        written, callouts = names.place()
         across = [wheel for wheel in standing.scene.wheels if not standing.faces(wheel)]
         callouts += oblique_callouts(standing, plan.at, across)
     elif labels:
         callouts = oblique_callouts(standing, plan.at, standing.scene.wheels)
     edges = float(plan.low[0]) - _RIM, float(plan.low[0] + plan.size[0]) + _RIM
-    return written, find_margin(callouts, edges, (float(plan.low[1]), float(plan.low[1] + plan.size[1])))
+    margin = find_margin(callouts, edges, (float(plan.low[1]), float(plan.low[1] + plan.size[1])))
+    return names.place_beside(written, margin.lines), margin
 
 
 def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> None:
@@ -216,8 +218,10 @@ def _scale_bar(axes: Axes, scale: float) -> None:
     write(axes, 0.2 + length * scale / 2, y + 0.12, f"{length:g} mm", fontsize=FINE)
 
 
-def _legend(scene: Scene, lists: bool) -> Iterator[Line2D | Patch]:
-    yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
+def _legend(standing: ProjectedScene, lists: bool) -> Iterator[Line2D | Patch]:
+    scene = standing.scene
+    if standing.flat:
+        yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
     if any(body.role == "carrier" for body in scene.bodies):
         yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")
     if scene.couplings:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -22,6 +23,7 @@ _Given = TypeVar("_Given")
 PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)
 _ROW = 2.3  # inches of a panel
 _POINTERS = 12  # drawn: those that stray most
+_STILL = 90  # letters of the names of pointers that never stray
 _BINS = (12, 60)  # fewest and most of a histogram
 
 
@@ -103,10 +105,13 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
 
 
 def _most(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
-    """The pointers that stray most, in the order given, and words on the others."""
-    names = set(sorted(what, key=lambda name: -spread(what[name]))[:_POINTERS])
-    left = len(what) - len(names)
+    """The pointers that stray most, in the order given, and words on the others; none that never strays."""
+    straying = [name for name in what if spread(what[name]) > 0] or list(what)
+    names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
+    left, still = len(straying) - len(names), [name for name in what if name not in straying]
     words = f"\n{left} pointers that stray less are left out: name them with --output" if left else ""
+    if still:
+        words += f"\nnever astray: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
     return {name: each for name, each in what.items() if name in names}, words
 
 

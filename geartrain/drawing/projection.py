@@ -57,7 +57,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
-        """Teeth of a wheel (points, 3) times `scale`, moved along its axis by `height` (mm).
+        """Teeth of a wheel (points, 3) times `scale`, moved along its axis by `height` (mm) as its helix winds.
 
         chord   how far (mm) points that are left out may lie beside the line
         """
@@ -69,7 +69,8 @@ class ProjectedScene:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
         steps = 2 * np.pi / wheel.teeth * np.arange(wheel.teeth)
-        angle = wheel.turn + (steps[:, None] + tooth[None, :-1, 1]).ravel()
+        first = wheel.turn + (0.0 if wheel.cone else height * np.tan(wheel.helix) / wheel.radius)
+        angle = first + (steps[:, None] + tooth[None, :-1, 1]).ravel()
         if wave := self.wave(wheel):
             return self._bent(wave, radius, angle)
         return self._around(wheel, radius, angle, height)

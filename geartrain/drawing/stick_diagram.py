@@ -46,7 +46,9 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     margin = 0.5 + max((len(link) for link in declared.links), default=1) * 8 * LETTER
     declared.check_state(state)
     elements = width_of(train)
-    width = max(skeleton.width + margin + 0.6 + elements, 5.5)
+    needed = skeleton.width + margin + 0.6 + elements
+    width = max(needed, 5.5)
+    margin += (width - needed) / 2
     figure, axes = sheet(width, skeleton.height + _HEAD + _FOOT, title_of(declared.name, declared.title))
     axes.set_xlim(-margin, width - margin)
     axes.set_ylim(-_FOOT, skeleton.height + _HEAD)
@@ -82,10 +84,9 @@ class _Drawing:
         self.feet: dict[str, tuple[float, float]] = {}
         self.words = StickWords()
         for mesh in skeleton.meshes:
-            self.words.keep_off((mesh.x, mesh.x), (mesh.low, mesh.high))
-            if mesh.ring:
-                ends = min(mesh.low, mesh.meet), max(mesh.high, mesh.meet)
-                self.words.keep_off((mesh.x + _COLUMN, mesh.x + _COLUMN), ends)
+            ends = [mesh.meet, *(self._foot(link, mesh) for link in mesh.ends)]
+            for x in (mesh.x, mesh.x + _COLUMN) if mesh.ring else (mesh.x,):
+                self.words.keep_off((x, x), (min(ends), max(ends)))
         for crank in skeleton.cranks:
             self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, skeleton.rows[crank.axis][0]))
 
@@ -154,6 +155,7 @@ class _Drawing:
                 box = Rectangle((mesh.x - 0.05, mesh.meet - 0.1), 0.1, 0.2, zorder=4)
                 box.set(facecolor="white", edgecolor=PURPLE, linewidth=1.4)
                 self.axes.add_artist(box)
+                self.words.keep_off((mesh.x - 0.06, mesh.x + 0.06), (mesh.meet - 0.12, mesh.meet + 0.12))
         self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
 
     def _upright(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:

@@ -42,7 +42,7 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
             write(axes, x, middle + _HALF + 0.1, above, ha="center", fontsize=_NAME, fontweight="bold")
         write(axes, x, middle - _HALF - 0.1, below, ha="center", fontsize=_NAME, fontweight="bold")
         weight = "bold" if name in closed else "normal"
-        write(axes, x + _PLATE + 0.03, middle, name, color, ha="left", fontsize=_NAME, fontweight=weight)
+        write(axes, x + _PLATE + 0.06, middle, name, color, ha="left", fontsize=_NAME, fontweight=weight)
 
 
 def _letters(train: GearTrain) -> int:

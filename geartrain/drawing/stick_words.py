@@ -17,7 +17,7 @@ _NAME = 8.5  # points of a link's name
 _BESIDE = 0.09  # inches from an upright to the middle of the words along it
 _STEP = 0.06  # inches from one place to the next that is tried
 _AWAY = 0.105  # inches from a shaft to the middle of the words over it
-_APART = 0.02  # inches more between two names along one line
+_APART = 0.02  # inches more between two names along one line, and on either side of a link's
 _FAR = 24  # steps beyond its upright that a name may be moved
 
 
@@ -48,12 +48,14 @@ class StickWords:
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
         """Before its shaft, or over it, behind it or under it."""
-        wide = text_width(link, _NAME, "bold")
+        wide = text_width(link, _NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
-        spots = [(left - 0.04 - wide / 2, y), *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
+        before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second, beside a bearing
+        spots = [*before, *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
         spots += [*((x, y - _AWAY) for x in along), (left - 0.04 - wide / 2, y + _AWAY)]
         spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
-        places = tuple(text_box([link], _NAME, float(x), float(height), "bold") for x, height in spots)
+        tight = [text_box([link], _NAME, float(x), float(height), "bold") for x, height in spots]
+        places = (*((x, height, across + 2 * _APART, tall) for x, height, across, tall in tight), *tight)
         self.links.append(_Words(link, BLACK, places, {"fontsize": _NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
@@ -62,17 +64,19 @@ class StickWords:
         self.wheels.append(_Words(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Behind its end."""
+        """Behind its end, or before it over or under the line."""
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
         ]
+        spots += [(right - wide / 2 - step * _STEP, y + lift) for lift in (0.12, -0.12) for step in range(9)]
         places = tuple(text_box([axis], FINE, x, height) for x, height in spots)
         self.axes.append(_Words(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
         """All of them, what has least choice first; where nothing is free, at the best place."""
-        for each in chain(self.links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
+        links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
+        for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
             x, y, _, _ = self.room.place(each.places) or each.places[0]
             write(axes, x, y, each.text, each.color, zorder=10, **each.how)
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Rgba = tuple[float, float, float, float]
+_ROUNDED = 0.5 / 255  # what a colour written with two digits a channel may be off by
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 # linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
 # space for image processing (Oklab)
@@ -84,13 +85,33 @@ def _none(colour: Any) -> bool:
 
 
 def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
-    """What stands for a colour of the light theme: the palette's own, or what is as far between paper and ink."""
+    """What stands for a colour of the light theme: the palette's own or a mixture of the palette's two of faces, as
+    layers are told apart by; else what is as far between paper and ink.
+    """
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))
-    found = known.get(to_hex(colour[:3]))
-    rgb = np.array(to_rgba(found)[:3]) if found else _between(np.array(colour[:3]), theme)
+    found, own = known.get(to_hex(colour[:3])), np.array(colour[:3])
+    if found:
+        rgb = _rgb_of(found)
+    else:
+        mixed = _mixed_faces(own, light, theme)
+        rgb = _between(own, theme) if mixed is None else mixed
     red, green, blue = map(float, rgb)
     return red, green, blue, colour[3]
+
+
+def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
+    """The theme's shade and fill mixed as the light theme's are in a colour; None of a colour that is no mixture."""
+    shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
+    along = fill - shade
+    share = float((rgb - shade) @ along / (along @ along))
+    if not 0.0 <= share <= 1.0 or np.abs(shade + share * along - rgb).max() > _ROUNDED:
+        return None
+    return _rgb_of(theme.shade) + share * (_rgb_of(theme.fill) - _rgb_of(theme.shade))
+
+
+def _rgb_of(colour: str) -> Floats:
+    return np.array(to_rgba(colour)[:3])
 
 
 def _named(theme: Theme) -> Sequence[str]:
@@ -100,7 +121,7 @@ def _named(theme: Theme) -> Sequence[str]:
 
 def _between(rgb: Floats, theme: Theme) -> Floats:
     """As light against the theme's paper and ink as against white and black; of the same hue, in print of none."""
-    paper, ink = (_oklab(np.array(to_rgba(each)[:3])) for each in (theme.paper, theme.ink))
+    paper, ink = (_oklab(_rgb_of(each)) for each in (theme.paper, theme.ink))
     light, *hue = _oklab(rgb)
     lightness = ink[0] + light * (paper[0] - ink[0])
     strong = 0.0 if theme is THEMES["print"] else 1.0

@@ -12,11 +12,12 @@ from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
+    FINE,
     PALE,
     RED,
     SMALL,
-    TEXT,
     WIDTH,
+    headed,
     kept_extremes,
     legend_above,
     plain,
@@ -41,6 +42,7 @@ _SEEN = 1e-8  # rad: less is no motion of an output
 _SMALL = 0.1  # of the play: lesser gaps are drawn larger
 _FLAT = 1e-3  # deg: outputs that are less ahead are not drawn
 _NAMES = 8  # lines of a spectrum that are named
+_DEEPEST = 3e-5  # of the greatest swing: less is not drawn
 _CLEAR = 1.09  # least ratio of two frequencies that are both named
 
 
@@ -70,16 +72,21 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     --------
     >>> import geartrain
     >>> run = geartrain.load("moon-triangular-inertia").dynamics("1 turn/s", turns=0.02, skip=0, steps=2000)
-    >>> [axes.get_ylabel().split()[0] for axes in time_run_figure(run).axes]
-    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'ahead', 'swing']
+    >>> [axes.get_title("left").split(":")[0] for axes in time_run_figure(run).axes]
+    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'outputs', 'spectrum; lines of moon are named']
     """
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
     leading = [each.output for each in run.leads if degrees(max(each.ahead, each.behind)) > _FLAT]
     tall = [1.0] * (len(pairs) + len(stops)) + [1.5] * bool(leading) + [2.0] * bool(moving)
     if not tall:
-        what = f"in time nothing of '{run.train}' is to be seen"
-        raise QuestionError(Problem(what, "nothing has play, and nothing swings", "draw a train with real teeth"))
+        what, why = (
+            f"'{run.train}' has no motion in time to draw",
+            "no pair has play, and no output leaves its mean motion",
+        )
+        raise QuestionError(
+            Problem(what, why, "declare tooth forms with play, or an escapement, or draw another train")
+        )
     figure = Figure(figsize=(WIDTH, 0.9 + 1.25 * sum(tall)), dpi=100, layout="constrained")
     panels = list(figure.subplots(len(tall), 1, squeeze=False, gridspec_kw={"height_ratios": tall})[:, 0])
     for panel in panels:
@@ -98,8 +105,12 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     if panels:
         panels[-1].set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
         _key(panels[0], bool(pairs))
-    figure.axes[0].set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
-    return figure
+    return headed(figure, title)
+
+
+def _head(panel: Axes, text: str) -> None:
+    """What a panel shows, above it, where no line is hidden."""
+    panel.set_title(text, fontsize=SMALL, loc="left", color=BLACK, parse_math=False)
 
 
 def _key(panel: Axes, gaps: bool) -> None:
@@ -165,9 +176,8 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
     panel.set_ylim(-0.12 * top, top)
     panel.set_xlim(at[0], at[-1])
     apart = next(each.apart for each in run.contacts if each.name == pair)
-    panel.set_ylabel(f"{short(pair)}\ngap (deg)", fontsize=SMALL, parse_math=False)
-    text = f"apart {100 * apart:.3g} %; coast flank from {back.min():.3g} deg on"
-    write(panel, 0.995, 0.8, text, ha="right", transform=panel.transAxes)
+    panel.set_ylabel("gap (deg)", fontsize=SMALL)
+    _head(panel, f"{short(pair)}: apart {100 * apart:.3g} % of the time; coast flank from {back.min():.3g} deg on")
 
 
 def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
@@ -176,7 +186,8 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
     panel.set_xlim(at[0], at[-1])
-    panel.set_ylabel(f"{short(stop)}\nspeed (rad/s)", fontsize=SMALL, parse_math=False)
+    panel.set_ylabel("speed (rad/s)", fontsize=SMALL)
+    _head(panel, f"{short(stop)}: speed between the beats of the escapement")
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
@@ -206,27 +217,32 @@ def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     if first < len(across):
         panel.set_xlim(across[first], across[-1])
     legend_above(panel, 4)
-    panel.set_ylabel("ahead of touching\nteeth (deg)", fontsize=SMALL)
+    panel.set_ylabel("ahead (deg)", fontsize=SMALL)
+    _head(panel, "outputs: ahead of what touching teeth do")
     panel.set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
 
 
 def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     first = int(np.searchsorted(run.time, run.skip))
-    top = 0.0
+    drawn = []
     for place, name in enumerate(moving):
         frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
-        panel.plot(frequency[1:], np.degrees(size[1:]), linewidth=0.8, **series_look(place), label=short(name))
-        top = max(top, float(np.degrees(size[1:]).max(initial=0.0)))
+        drawn.append(np.array([frequency[1:], np.degrees(size[1:])]))
+        panel.plot(*drawn[-1], linewidth=0.8, **series_look(place), label=short(name))
+    top = max(float(size.max(initial=0.0)) for _, size in drawn)
     if top:
-        panel.legend(loc="upper right", frameon=False, fontsize=SMALL)
+        legend_above(panel, 4)
         panel.set_yscale("log")
-        panel.set_ylim(3e-5 * top, 60 * top)
+        panel.set_ylim(_DEEPEST * top, 60 * top)
         panel.set_xscale("log")
-        panel.set_xlim(max(float(frequency[1]), abs(run.rate) / tau / 2), float(frequency[-1]))
+        panel.set_xlim(max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1]))
         for at, amplitude, source in _named(run.spectra[moving[0]]):
-            write(panel, at, 1.4 * amplitude, source, rotation=60, ha="left", va="bottom", fontsize=8.0)
+            over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
+            if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
+                write(panel, at, 1.4 * over, source, rotation=60, ha="left", va="bottom", fontsize=FINE)
     panel.set_ylabel("swing (deg)", fontsize=SMALL)
     panel.set_xlabel("frequency (Hz)", fontsize=SMALL)
+    _head(panel, f"spectrum; lines of {short(moving[0])} are named")
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import atan2, pi
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.train_teeth import STANDARD, TrainTeeth, find_train_teeth
@@ -190,8 +191,16 @@ def _wheel(
         doubt=_doubt(wheel),
         circuits=tuple(circuits),
         loss=loss,
-        helix=wheel.helix if wheel.is_helical else 0.0,
+        helix=_helix(wheel, place),
     )
+
+
+def _helix(wheel: Declared, place: WheelPlace) -> float:
+    """Angle (rad) of its teeth from its axis, of a right hand above 0; of a worm's thread too."""
+    if wheel.kind != "worm":
+        return wheel.helix if wheel.is_helical else 0.0
+    lead = pi * place.module * (wheel.count or 1)
+    return (-1 if wheel.hand == "left" else 1) * atan2(2 * pi * place.radius, lead)
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:

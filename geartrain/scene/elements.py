@@ -132,7 +132,7 @@ class SceneWheel:
     loss : float or None
         Part of the power put in that is lost at its meshes, where loads and friction are declared.
     helix : float
-        Angle of its teeth from the axis [rad], of a right hand above 0.
+        Angle of its teeth, of a worm of its thread, from the axis [rad], of a right hand above 0.
     holes : sequence of sequence of float
         As it is built, outlines of what is cut out of it for pins that move in it, or for an eccentric in which it
         turns, as x and y in turn from its middle, x through its first tooth [mm].

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import acos, atan2, cos, pi, sqrt, tan
+from itertools import pairwise
+from math import acos, atan2, ceil, cos, pi, sqrt, tan
 
 from geartrain.scene.elements import ToothProfile
 
@@ -19,6 +20,7 @@ _ROOM = 0.92  # of half a pitch: where at most a flank ends at the root
 _POINTS = 10  # on a flank
 _PASSING = 0.12  # modules for each tooth that a ring has more than its wheel
 _CROWN_PLAY = 0.06  # of a pitch: what a crown's teeth are thinner than a mate's spaces, whose flanks no rack runs with
+_STEP = pi / 18  # between points of a thread's section, of which a few go round a worm
 _LAND = 0.08  # of a pitch: least half width of a tip
 
 
@@ -86,7 +88,12 @@ def worm(starts: int, height: float) -> ToothProfile:
     half = pi / starts
     low, high = max(1 - 1.25 * height, _LEAST_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
-    return ToothProfile(FORM, ((low, -half), *flanks, (low, half)))
+    corners = [(low, -half), *flanks, (low, half)]
+    points = [corners[0]]
+    for (r, angle), (to, end) in pairwise(corners):
+        steps = ceil((end - angle) / _STEP)
+        points += [(r + (to - r) * at / steps, angle + (end - angle) * at / steps) for at in range(1, steps + 1)]
+    return ToothProfile(FORM, tuple(points))
 
 
 def _tooth(z: float, addendum: float = _ADDENDUM) -> Points:

@@ -108,8 +108,8 @@ THEMES: dict[ThemeName, Theme] = {
         line="#bbbbbb",
         accent="#000000",
         fault="#000000",
-        fill="#ffffff",
-        shade="#d0d0d0",
+        fill="#f2f2f2",
+        shade="#b8b8b8",
         band="#d8d8d8",
         series=(*("#000000", "#737373") * 3, *("#737373", "#000000") * 2),  # the other grey where dashes come again
     ),

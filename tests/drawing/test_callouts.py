@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import combinations
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,8 +13,9 @@ from shipped import train as load
 
 pytest.importorskip("matplotlib")
 
+from geartrain.drawing import picture
 from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
-from geartrain.drawing.plan_labels import place_names
+from geartrain.drawing.plan_labels import PlanNames
 from geartrain.drawing.projection import project_scene
 from geartrain.scene import make_scene
 
@@ -54,7 +56,7 @@ def test_all_wheels_of_an_axis_share_a_line_and_stand_from_inside_out() -> None:
     scene = make_scene(load("freeth-2021"))
     standing = project_scene(scene, Fraction(0))
     facing = [wheel for wheel in scene.wheels if standing.faces(wheel)]
-    written, callouts = place_names(standing, facing, lambda seen: 0.07 * seen[..., :2], 0.07)
+    written, callouts = PlanNames.of(standing, facing, lambda seen: 0.07 * seen[..., :2], 0.07).place()
     wheels = {f"name {wheel.id}": wheel for wheel in facing}
     told = [key for each in callouts for key, _ in each.words] + [f"name {wheel.id}" for wheel, _ in written]
     assert sorted(told) == sorted(wheels)
@@ -65,3 +67,19 @@ def test_all_wheels_of_an_axis_share_a_line_and_stand_from_inside_out() -> None:
         assert radii == sorted(radii)
         if len(radii) > 1:
             assert each.anchor == pytest.approx((0.07 * scene.front * place[0], 0.07 * place[1]), abs=1e-4)
+
+
+@pytest.mark.parametrize("name", ["huygens-planetarium-1682", "price-1974", "simpson-set"])
+def test_no_line_passes_behind_the_name_on_a_wheel(name: str) -> None:
+    figure = picture(load(name), "plan")
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    thin = [line for line in axes.lines if line.get_linewidth() == 0.6]
+    ends = [axes.transData.transform(np.column_stack(line.get_data())) for line in thin]
+    traced = np.concatenate([one + np.linspace(0, 1, 500)[:, None] * (other - one) for one, other in ends])
+    names = [words for words in axes.texts if (words.get_gid() or "").startswith("name ") and "\n" in words.get_text()]
+    assert names
+    for words in names:
+        box = words.get_window_extent()
+        hit = ((traced > box.min) & (traced < box.max)).all(1).any()
+        assert not hit, words.get_text()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import xml.etree.ElementTree as ET
 from fractions import Fraction
 from pathlib import Path
 
@@ -54,3 +55,18 @@ def test_the_command_draws_on_the_paper_of_its_theme(theme: str, paper: tuple[in
     target = tmp_path / "worm.png"
     assert call("draw", "worm", "-o", target, "--theme", theme).exit_code == 0
     assert tuple(np.asarray(Image.open(target).convert("RGB"))[0, 0]) == paper
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_a_layer_nearer_to_the_reader_is_lighter_in_every_theme(theme: str) -> None:
+    """The arbors of the clock bear wheels in seven layers, one over the other."""
+    root = ET.fromstring(render(picture(load("longcase-clock"), "plan"), ".svg", theme=theme))  # type: ignore[arg-type]
+    faces = []
+    for group in root.iter("{http://www.w3.org/2000/svg}g"):
+        if (group.get("id") or "").startswith("wheel "):
+            (style,) = [path.get("style", "") for path in group.iter("{http://www.w3.org/2000/svg}path")]
+            red, green, blue = (int(part, 16) for part in re.findall("fill: #(..)(..)(..)", style)[0])
+            faces.append(0.2126 * red + 0.7152 * green + 0.0722 * blue)
+    assert len(faces) == len(load("longcase-clock").declaration.wheels)
+    assert faces == sorted(faces), "drawn from the farthest to the nearest"
+    assert faces[-1] > faces[0] + 20

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from places import TRAINS
 from shipped import train as load
@@ -81,6 +82,36 @@ def test_words_keep_off_the_marks_of_teeth() -> None:
             mark for mark in marks if box.x0 < mark.x1 and mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1
         ]
         assert not hidden, words.get_text()
+
+
+@pytest.mark.parametrize("name", ["four-gear-loop", "longcase-clock", "rv-reducer", "zf-8hp70"])
+def test_names_of_links_axes_and_couplings_keep_off_uprights(name: str) -> None:
+    """An upright of a wheel goes past other axes to its own, and so past their names."""
+    (axes,) = picture(load(name), "stick", None, Fraction(0)).axes
+    uprights = [
+        line.get_window_extent()
+        for line in axes.lines
+        if (line.get_gid() or "").startswith(("wheel ", "crank ", "coupling ")) and np.ptp(line.get_xdata()) == 0
+    ]
+    assert uprights
+    for words in axes.texts[1:]:
+        box = words.get_window_extent()
+        struck = [mark for mark in uprights if box.x0 < mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1]
+        assert not struck, words.get_text()
+
+
+def test_panels_of_a_speed_diagram_fill_the_page() -> None:
+    for name in ("planetary-24-18-60", "simpson-set"):
+        figure = picture(load(name), "lever")
+        right = max(axes.get_position().x1 for axes in figure.axes[1:])
+        assert right * figure.get_size_inches()[0] == pytest.approx(figure.get_size_inches()[0] - 0.45, abs=0.01)
+
+
+def test_two_faces_of_one_dial_are_told_apart() -> None:
+    """Its lower dial stands about two axes."""
+    (axes,) = picture(load("price-1974"), "dials").axes
+    titles = {words.get_text() for words in axes.texts if (words.get_gid() or "").startswith("dial ")}
+    assert titles == {"zodiac", "lower (synodic month)", "lower (lunar year)", "upper"}
 
 
 def test_plain_faces_tell_no_cells() -> None:

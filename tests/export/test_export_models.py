@@ -14,6 +14,7 @@ import pytest
 from commands import LOCKED
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from places import TRAINS
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
@@ -162,6 +163,28 @@ def test_likenesses_stand_where_their_cones_say() -> None:
             assert np.sign(points[abs(points[:, 2]) > 1e-9, 2]).tolist() == [wheel.facing] * int(
                 (abs(points[:, 2]) > 1e-9).sum()
             )
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_the_thread_of_a_worm_winds_as_its_hand_says_one_axial_pitch_a_start(hand: str) -> None:
+    """Along its axis by a quarter of its lead, starts times pi times the axial module, a crest is a quarter turn on."""
+    text = (TRAINS / "engineering" / "worm.yaml").read_text(encoding="utf-8").replace("hand: right", f"hand: {hand}")
+    scene = inline(text.partition("inputs:")[0]).scene
+    worm, wheel = scene.wheels
+    points = likeness_solid(worm, scene.profiles[worm.profile]).vertices
+    lead = 2 * pi * (2 * wheel.radius / 60)  # two starts, and sixty teeth on the pitch circle of the wheel
+    r, angle = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
+    crest = r > 0.999 * r.max()
+
+    def middle(height: float) -> complex:
+        here = crest & (abs(points[:, 2] - height) < 1e-6)
+        return complex(np.exp(2j * angle[here]).mean())  # both threads fall on each other
+
+    heights = np.unique(np.round(points[:, 2], 9))
+    one, other = heights[3], heights[17]
+    turned = np.angle(middle(other) / middle(one)) / 2
+    wanted = (1 if hand == "right" else -1) * 2 * pi * (other - one) / lead
+    assert np.exp(2j * turned) == pytest.approx(np.exp(2j * wanted), abs=1e-6)
 
 
 # ----------------------------------------------------------------------------------------------------------------- GLB

@@ -24,13 +24,10 @@ _SLICES = 48  # of a worm
 _SIDES = 720  # of a wheel without teeth
 
 
-def likeness_solid(wheel: SceneWheel, profile: ToothProfile, hand: int = 1) -> Solid:
-    """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z.
-
-    hand   of a worm: 1 right, -1 left
-    """
+def likeness_solid(wheel: SceneWheel, profile: ToothProfile) -> Solid:
+    """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z."""
     if wheel.kind == "worm":
-        return _worm(wheel, profile, hand)
+        return _worm(wheel, profile)
     if wheel.kind == "contrate" or wheel.cone > _FLAT:
         return _crown(wheel, profile)
     if wheel.cone:
@@ -100,14 +97,13 @@ def _crown(wheel: SceneWheel, profile: ToothProfile) -> Solid:
     return Solid(vertices, found if side > 0 else found[:, ::-1])
 
 
-def _worm(wheel: SceneWheel, profile: ToothProfile, hand: int) -> Solid:
-    """A section with as many lobes as starts, turned on along the axis by a turn in a lead."""
+def _worm(wheel: SceneWheel, profile: ToothProfile) -> Solid:
+    """A section with as many lobes as starts, turned on along the axis as its thread winds."""
     points, triangles = _section(wheel, profile)
-    lead = pi * wheel.module * wheel.teeth
     heights = np.linspace(-0.5, 0.5, _SLICES + 1) * wheel.thickness
     slices = []
     for height in heights:
-        turn = hand * 2 * pi * height / lead
+        turn = height * tan(wheel.helix) / wheel.radius
         c, s = np.cos(turn), np.sin(turn)
         x, y = points.T
         slices.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height)]))

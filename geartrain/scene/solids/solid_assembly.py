@@ -240,8 +240,7 @@ class _Parts:
         turn, place = wheel_frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
-            declared = self.work.train.declaration.wheels[wheel.id][1]
-            drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile], -1 if declared.hand == "left" else 1)
+            drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile])
             return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)
         flat = SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, blank.contours, blank.thickness)
         return replace(flat, drawn=wheel_solid(blank))

@@ -71,8 +71,11 @@ def test_the_page_of_the_largest_train_is_below_1200_kilobytes(here: Path) -> No
 
 
 def test_the_program_in_the_page_is_below_720_kilobytes() -> None:
-    """It leaves the largest train some 490 kB of the 1,200 that its page may weigh, of which it takes 290."""
-    assert (VIEWER / "built" / "viewer.js").stat().st_size < 720_000  # thin wheels that bend took the last 2 kB
+    """It leaves the largest train some 480 kB of the 1,200 that its page may weigh, of which it takes 290.
+
+    Thin wheels that bend, and the measure of what stands before wheels, took the last 5 kB.
+    """
+    assert (VIEWER / "built" / "viewer.js").stat().st_size < 720_000
 
 
 def test_the_page_carries_the_scene_unchanged_and_nothing_that_points_elsewhere() -> None:

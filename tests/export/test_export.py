@@ -75,7 +75,7 @@ def from_svg(data: bytes) -> dict[str, list[np.ndarray]]:
                 ring = [
                     z
                     for z, following in zip(points, [*points[1:], points[0]], strict=True)
-                    if abs(z - following) > 1e-9
+                    if abs(z - following) > 1e-6  # mm: what files are rounded to
                 ]
                 found.setdefault(str(name), []).append(np.array([(z.real, -z.imag) for z in ring]))
     assert image.width == pytest.approx(image.viewbox.width * scale)

@@ -23,7 +23,7 @@ from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour
 
 _PILLAR_MOST, _PILLAR_LEAST = 4.0, 1.5  # mm: radius of a pillar
-_PILLAR_PART = 0.04  # of the width of all that turns between the plates
+_PILLAR_PART = 0.025  # of the width of all that turns between the plates: a clock's is 10 mm thick over 200 mm
 _LAND = 3.0  # mm of plate round a hole
 _WIDE = 6.0  # bores in the radius of a wave that is lightened
 _BLADE = 0.05  # mm: holes nearer to each other are one

@@ -20,6 +20,8 @@ _GAP = 1.0  # mm between a pillar and a tip circle
 _HOLE = 4.0  # mm of plate between a pillar and the middle of a pivot's hole
 _FEWEST, _MOST = 3, 5
 _SPREAD = 4.0  # radii between the middles of neighbours, at least
+_UNEVEN = 0.3  # mm of outline that a mm from the middle of the axes to that of the pillars outweighs
+_UPWARDS = 0.05  # the same, for a mm of their mean distance from the middle upwards
 
 
 def pillar_places(
@@ -28,7 +30,7 @@ def pillar_places(
     radius: float,
     suits: Callable[[Point], bool] = lambda _: True,
 ) -> list[Point]:
-    """Four places, three or more if four do not do, whose polygon holds all axes and has the least outline (mm).
+    """Four places, three or more if four do not do, whose polygon holds all axes, is short round, and lies evenly (mm).
 
     In each direction from the middle of the axes the nearest place that is free from there on outwards is taken, if it
     `suits`; where too few do, any.
@@ -41,8 +43,8 @@ def pillar_places(
     suiting = [suits((float(x), float(y))) for x, y in tried]
     tried = tried[suiting] if sum(suiting) >= _FEWEST else tried
     for count in (4, _FEWEST, _MOST):
-        if (found := _around(tried, points, count, _SPREAD * radius)) is not None:
-            return [(float(x), float(y)) for x, y in found]
+        if (found := _around(tried - middle, points - middle, count, _SPREAD * radius)) is not None:
+            return [(float(x), float(y)) for x, y in middle + found]
     return [(float(x), float(y)) for x, y in _far_apart(tried, middle)]
 
 
@@ -68,7 +70,11 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, least_edge: float) -> Floats | None:
-    """The shortest polygon of so many of the places that has all axes inside."""
+    """Of so many of the places, counted from the middle of the axes, those whose polygon has all axes inside.
+
+    Of these the shortest round that stands evenly about the middle, as three pillars at one end and one at the other
+    make a plate no smaller than two at either end do; of such the one that is wide and not high.
+    """
     best, least = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
@@ -78,8 +84,12 @@ def _around(tried: Floats, axes: Floats, count: int, least_edge: float) -> Float
     left &= length >= least_edge
     for chosen in combinations(range(len(tried)), count):
         edges = list(zip(chosen, (*chosen[1:], chosen[0]), strict=True))
-        if all(left[a, b] for a, b in edges) and (whole := sum(float(length[a, b]) for a, b in edges)) < least:
-            best, least = tried[list(chosen)], whole
+        if all(left[a, b] for a, b in edges):
+            places = tried[[*chosen]]
+            whole = sum(float(length[a, b]) for a, b in edges)
+            whole += _UNEVEN * float(np.hypot(*places.mean(axis=0))) + _UPWARDS * float(abs(places[:, 1]).mean())
+            if whole < least:
+                best, least = places, whole
     return best
 
 

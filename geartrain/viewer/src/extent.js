@@ -24,7 +24,11 @@ export function circlesOf(scene, shiftOf = STILL) {
   return [...wheels, ...dials];
 }
 
-const rimOf = (wheel) => (wheel.kind === "ring" ? ringRim(wheel) : Math.max(wheel.tip, wheel.radius));
+/** The circles that hold the middle plane of a wheel wherever it is carried, as `circlesOf`. */
+export const discsOf = (scene, wheel) => carriedRound(scene, wheel, { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), body: wheel.body }, STILL);
+
+/** How far a wheel reaches from its axis. */
+export const rimOf = (wheel) => (wheel.kind === "ring" ? ringRim(wheel) : Math.max(wheel.tip, wheel.radius));
 
 function bothFaces(radius, { body, centre, direction, thickness, cone }, shift) {
   const off = cone ? 1.1 * thickness : 0.6 * thickness;

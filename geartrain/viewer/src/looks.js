@@ -6,14 +6,14 @@ import { BROKEN, CHOSEN, colours, partColours } from "./colours.js";
 import { vector } from "./space.js";
 
 const GHOST = 0.14; // opacity of what is not highlighted
-const GLASS = 0.07; // of a plate before the wheels
+const GLASS = 0.07; // of a plate or a pillar before the wheels
 const HIDDEN = 0.25; // of the wheels, behind a plate that then is of glass
 const GLOSS = 0.75;
 
 export class Looks {
-  /** wheels   `WheelPart`s; `parts`, all else: {slot, body, at, dial, plate} */
-  constructor(scene, palette, wheels, parts) {
-    Object.assign(this, { scene, palette, wheels, parts });
+  /** wheels   `WheelPart`s; `parts`, all else: {slot, body, at, dial, plate, cover, frame, bar} */
+  constructor(scene, palette, wheels, parts, sight) {
+    Object.assign(this, { scene, palette, wheels, parts, sight });
     this.chosen = null;
     this.selected = null;
     this.toothed = false;
@@ -64,10 +64,13 @@ export class Looks {
     }
   }
 
-  /** towards   from the middle to the camera: covers on that side are of glass, and plates of the frame behind which wheels stand */
-  glaze(towards, middle) {
+  /** Covers on the camera's side are of glass, and plates and pillars of the frame behind which wheels stand. */
+  glaze(eye, middle) {
+    if (this.eye?.equals(eye)) return;
+    this.eye = eye.clone();
+    const towards = eye.clone().sub(middle);
     const before = ({ cover, at, frame }) => (frame ? this.hides(at, cover, towards) : towards.dot(cover) * at.clone().sub(middle).dot(cover) > 0);
-    const glass = this.parts.filter((part) => part.cover && before(part));
+    const glass = this.parts.filter((part) => (part.cover && before(part)) || (part.bar && this.sight.isCovering(part.bar, eye)));
     if (this.glass?.length === glass.length && glass.every((part, n) => part === this.glass[n])) return;
     this.glass = glass;
     this.recolour();

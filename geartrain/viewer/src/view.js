@@ -9,8 +9,13 @@ import { Hands } from "./picking.js";
 import { vector } from "./space.js";
 import { World } from "./world.js";
 
+const DEGREE = Math.PI / 180;
 const FIELD = 26; // degrees
 const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: [0.36, 0.3, 0.88] };
+// other ways to look slantwise, the more usual first: degrees above, and to the right
+const OTHERS = [17, 38, 58].flatMap((above) => [25, -25, 0, 55, -55].map((aside) => [above * DEGREE, aside * DEGREE])).map(([above, aside]) => [Math.sin(aside) * Math.cos(above), Math.sin(above), Math.cos(aside) * Math.cos(above)]);
+const BETTER = 1.15; // times as well wheels must be seen from another side, to begin there
+const NEARLY = 0.95; // of the best
 const INTO = [0.62, 0.46, 0.64]; // slantwise into a train that is cut open
 const MARGIN = 1.05;
 const ASIDE = 0.55; // cosine of the way from which layers are seen when taken apart
@@ -144,11 +149,29 @@ export class Stage {
 
   /** The camera to the front, the back, a side, or slantwise; the whole train in the picture. */
   look(from) {
-    const [x, y, z] = LOOKS[from] && from !== "free" ? LOOKS[from] : this.world.opened ? INTO : LOOKS.free;
-    const front = this.machine.scene.front || 1;
+    const straight = from in LOOKS && from !== "free";
     this.from = from;
-    const towards = vector([x * front, y, z * front]).normalize();
-    this.fit(from in LOOKS && from !== "free" ? towards : this.aside(towards));
+    if (straight) this.fit(this.towards(LOOKS[from]));
+    else this.fit(this.aside(this.world.opened ? this.towards(INTO) : this.opening()));
+  }
+
+  /** A way to look, given as from the front. */
+  towards([x, y, z]) {
+    const front = this.machine.scene.front || 1;
+    return vector([x * front, y, z * front]).normalize();
+  }
+
+  /** From where a reader sees a train first: slantwise from the front, or from where wheels are seen better. */
+  opening() {
+    const usual = this.towards(LOOKS.free);
+    if (this.machine.scene.dials.length) return usual; // they are read from there
+    const seen = (towards) => {
+      const { target, distance } = this.framed(towards);
+      return this.world.sight.seen(target.addScaledVector(towards, distance));
+    };
+    const ways = OTHERS.map((way) => this.towards(way)).map((towards) => ({ towards, share: seen(towards) }));
+    const best = Math.max(...ways.map(({ share }) => share));
+    return best > BETTER * seen(usual) ? ways.find(({ share }) => share > NEARLY * best).towards : usual;
   }
 
   /** A way to look, turned from that of the layers as far as these are apart. */
@@ -172,7 +195,7 @@ export class Stage {
 
   /** Where the camera would stand, as near as the whole allows, on the side where it is, or on another. */
   framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
-    const high = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
+    const high = Math.tan((FIELD * DEGREE) / 2) / MARGIN;
     return { towards, ...frame(this.world.outline(), towards, high * this.camera.aspect, high) };
   }
 
@@ -210,7 +233,7 @@ export class Stage {
     const began = performance.now();
     if (this.turned) this.world.turn();
     this.turned = false;
-    this.world.glaze(this.camera.position.clone().sub(this.world.ball.center));
+    this.world.glaze(this.camera.position);
     this.world.refresh();
     this.renderer.render(this.setting, this.camera);
     const took = performance.now() - began;

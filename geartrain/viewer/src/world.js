@@ -14,6 +14,7 @@ import { cutOpen, metals } from "./metal.js";
 import { Palette } from "./palette.js";
 import { builtParts, cornersOf, rodsOf } from "./parts.js";
 import { Poses } from "./poses.js";
+import { Sight } from "./sight.js";
 import { along, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.js";
 import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
@@ -38,7 +39,8 @@ export class World {
     this.parts = [];
     this.build();
     this.bends = this.scene.waves.map((wave) => this.bendOf(machine, wave));
-    this.looks = new Looks(this.scene, this.palette, this.wheels, this.parts);
+    this.sight = new Sight(this.scene);
+    this.looks = new Looks(this.scene, this.palette, this.wheels, this.parts, this.sight);
     this.looks.showTeeth(false);
     this.looks.paint("plain");
     this.root.add(...this.castings[0].cast(this.materials), ...this.castings[2].cast(this.materials));
@@ -126,10 +128,10 @@ export class World {
     return crank;
   }
 
-  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, frame, wall, opened }) {
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, frame, bar, wall, opened }) {
     const slot = this.palette.slot(colour, gloss, opened);
-    this.castings[cover ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
-    this.parts.push({ slot, body, at, dial, plate, cover, frame, wall, colour });
+    this.castings[cover || bar ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
+    this.parts.push({ slot, body, at, dial, plate, cover, frame, bar, wall, colour });
   }
 
   adder(casting, { wheel: { body }, at }) {
@@ -202,9 +204,9 @@ export class World {
     return wheel < 0 ? null : wheel;
   }
 
-  /** Covers between a camera and the wheels are of glass: `towards`, the camera, from the middle. */
-  glaze(towards) {
-    this.looks.glaze(towards, this.ball.center);
+  /** Covers and pillars between a camera and the wheels are of glass. */
+  glaze(eye) {
+    this.looks.glaze(eye, this.ball.center);
   }
 
   /** What the materials read, up to date. */

@@ -1,0 +1,76 @@
+// What stands before wheels, as an eye sees them, and how well they are seen.
+
+import { Ray } from "three";
+
+import { discsOf, rimOf } from "./extent.js";
+import { across, vector } from "./space.js";
+
+const ROUND = 8; // points of each circle
+const CIRCLES = [0.25, 0.6, 0.95]; // of a wheel from its middle, or the inside of a ring, to its rim
+const COVERED = 0.08; // of a wheel's points: before so many no pillar stands but one of glass
+
+/** Points evenly over a disc, or a ring. */
+function pointsOver({ at, direction, radius, inner = 0 }) {
+  const [one, way] = [across(direction), vector(direction)];
+  const other = way.clone().cross(one);
+  return CIRCLES.flatMap((share) => {
+    const reach = inner + share * (radius - inner);
+    return Array.from({ length: ROUND }, (_, n) => {
+      const angle = (2 * Math.PI * (n + share)) / ROUND;
+      return at.clone().addScaledVector(one, reach * Math.cos(angle)).addScaledVector(other, reach * Math.sin(angle));
+    });
+  });
+}
+
+/** The line of a turned part from end to end, and its radius: {from, to, radius}. */
+export function barOf({ place, direction, bands }) {
+  const [from, to] = [bands[0][0], bands.at(-1)[1]].map((height) => vector(place).addScaledVector(vector(direction), height));
+  return { from, to, radius: Math.max(...bands.map(([, , radius]) => radius)) };
+}
+
+export class Sight {
+  constructor(scene) {
+    this.wheels = scene.wheels.map((wheel) => {
+      const disc = { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), inner: wheel.kind === "ring" ? wheel.radius : 0 };
+      return { ...disc, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
+    });
+    this.swept = scene.wheels.flatMap((wheel, n) => discsOf(scene, wheel).map((disc) => pointsOver({ ...disc, inner: this.wheels[n].inner })));
+  }
+
+  /** Whether a bar stands before much of a wheel, wherever that is carried. */
+  isCovering({ from, to, radius }, eye) {
+    const ray = new Ray(eye.clone());
+    const on = eye.clone();
+    const isBehind = (point) => {
+      ray.direction.copy(point).sub(eye).normalize();
+      return ray.distanceSqToSegment(from, to, on) < radius * radius && on.distanceToSquared(eye) < point.distanceToSquared(eye);
+    };
+    return this.swept.some((points) => points.filter(isBehind).length > COVERED * points.length);
+  }
+
+  /**
+   * How well an eye sees wheels as they stand at the beginning, 0 to 1: the mean root of the share that it sees of each, as
+   * each is turned away and stands behind others; a root, so that the worst seen weigh.
+   */
+  seen(eye) {
+    const [way, hit] = [eye.clone(), eye.clone()];
+    const before = (point, own) => this.wheels.some((wheel) => wheel !== own && meets(wheel, eye, way.copy(point).sub(eye), hit));
+    const parts = this.wheels.map((wheel) => {
+      const off = eye.clone().sub(wheel.at);
+      const cosine = off.dot(vector(wheel.direction)) / off.length();
+      const facing = wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // its thread is seen from the side
+      const share = wheel.points.filter((point) => !before(point, wheel)).length / wheel.points.length;
+      return Math.sqrt(facing * share);
+    });
+    return parts.reduce((sum, part) => sum + part, 0) / parts.length;
+  }
+}
+
+/** Whether a disc is met on the way from an eye. */
+function meets({ at, direction, radius, inner }, eye, way, hit) {
+  const normal = vector(direction);
+  const share = normal.dot(hit.copy(at).sub(eye)) / normal.dot(way);
+  if (!(share > 0 && share < 1 - 1e-6)) return false;
+  const off = hit.copy(eye).addScaledVector(way, share).distanceTo(at);
+  return inner < off && off < radius;
+}

@@ -1,0 +1,88 @@
+"""What stands before wheels is of glass, and trains open where wheels are seen: counted in pictures."""
+
+from __future__ import annotations
+
+import io
+from base64 import b64decode
+from math import hypot
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+if TYPE_CHECKING:
+    from conftest import Asked
+
+USUAL = [0.36, 0.3, 0.88]
+# a picture from a side (null: from where the train opens) in which some wheels are blue and nothing else is
+PICTURE = """([towards, wheels, pillars]) => {
+  const [stage] = geartrain.stages, [scene] = geartrain.scenes, {world} = stage;
+  if (towards) stage.fit(stage.camera.position.clone().set(...towards).normalize());
+  else stage.look('free');
+  stage.paint('speed', {wheels: scene.wheels.map((_, n) => (wheels && !wheels.includes(n) ? '#777777' : '#0000ff'))});
+  const aside = world.parts.filter(({body, cover}) => cover || body === scene.crank);
+  for (const {slot} of aside) world.palette.paint(slot, {shown: false});
+  const show = (shown) => world.parts.filter(({bar}) => bar).forEach(({slot}) => world.palette.paint(slot, {shown}));
+  show(pillars);
+  stage.render();
+  const picture = stage.canvas.toDataURL('image/png');
+  show(true);
+  return picture;
+}"""
+PILLARS = """() => {
+  const {parts, looks} = geartrain.stages[0].world;
+  const pillars = parts.filter(({bar}) => bar);
+  return [pillars.filter((part) => looks.isGlass(part)).length, pillars.length];
+}"""
+TOWARDS = """() => {
+  const {camera, controls} = geartrain.stages[0];
+  return camera.position.clone().sub(controls.target).normalize().toArray();
+}"""
+
+
+def blue(asked: Asked, name: str, towards: list[float] | None, wheels: list[int] | None, pillars: bool = True) -> int:
+    """Points of a picture in which wheels are seen."""
+    data: Any = asked(name).run(PICTURE, [towards, wheels, pillars])
+    red, _, strong = np.asarray(
+        Image.open(io.BytesIO(b64decode(data.partition(",")[2]))).convert("RGB"), dtype=int
+    ).transpose(2, 0, 1)
+    return int((strong > red + 40).sum())
+
+
+@pytest.mark.parametrize("name", ["worm", "bevel-differential", "south-pointing-chariot"])
+@pytest.mark.parametrize("towards", [USUAL, [-0.36, 0.3, 0.88], [0.1, -0.2, -0.97]])
+def test_pillars_before_wheels_hide_next_to_nothing_of_them(asked: Asked, name: str, towards: list[float]) -> None:
+    whole = blue(asked, name, towards, None, pillars=False)
+    assert whole > 2000
+    assert blue(asked, name, towards, None) > 0.93 * whole
+
+
+def test_pillars_that_hide_nothing_are_no_glass(asked: Asked) -> None:
+    blue(asked, "planetary-24-18-60", [0, 0, 1], None)
+    assert asked("planetary-24-18-60").run(PILLARS) == [0, 4]
+    blue(asked, "worm", USUAL, None)
+    glass, all_ = asked("worm").run(PILLARS)
+    assert 0 < glass < all_
+
+
+def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(asked: Asked) -> None:
+    """The wheel of a worm was seen from its edge."""
+    shown = asked("worm")
+
+    def shares(towards: list[float] | None) -> list[float]:
+        """Points of each wheel, as far off and as large as the others."""
+        radii: list[float] = shown.run("geartrain.scenes[0].wheels.map(({radius}) => radius)")
+        seen = [blue(asked, "worm", towards, [wheel], pillars=False) for wheel in range(len(radii))]
+        away: float = shown.run("geartrain.stages[0].controls.getDistance()")
+        return [points * (away / radius) ** 2 for points, radius in zip(seen, radii, strict=True)]
+
+    assert min(shares(None)) > 2 * min(shares(USUAL))
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "humpage"])
+def test_others_open_slantwise_from_the_front(asked: Asked, name: str) -> None:
+    asked(name).run("() => geartrain.stages[0].look('free')")
+    x, y, z = (each / hypot(*USUAL) for each in USUAL)
+    front = asked(name).run("geartrain.scenes[0].front")
+    assert asked(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)

@@ -98,7 +98,7 @@ def _fits(work: SolidModel) -> Iterator[str]:
 
 def _steps(work: SolidModel, pictures: bool) -> Iterator[str]:
     for number, step in enumerate(assembly_steps(work), 1):
-        picture = f" ([picture]({picture_path(number)}))" if pictures and step.parts else ""
+        picture = f" ([picture]({picture_path(number)}))" if pictures and step.parts and step.shown else ""
         yield f"{number}. {_cell(step.text)}{picture}"
 
 

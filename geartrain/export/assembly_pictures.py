@@ -11,6 +11,7 @@ import numpy as np
 
 from geartrain.export.assembly_steps import AssemblyStep, assembly_steps
 from geartrain.scene.palette import THEMES, series_colour
+from geartrain.scene.solids.hangers import HUNG
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -38,7 +39,7 @@ def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byt
     pictures = AssemblyPictures(work) if steps else None
     before: dict[str, None] = {}
     for number, step in enumerate(steps, 1):
-        if pictures is not None and step.parts:
+        if pictures is not None and step.parts and step.shown:
             draw = partial(pictures.draw, step, number, tuple(before))
             yield picture_path(number), f"step {number} of putting it together", draw
         before |= dict.fromkeys(step.parts)
@@ -50,7 +51,7 @@ class AssemblyPictures:
     def __init__(self, work: SolidModel) -> None:
         assert work.frame is not None
         self.stack = work.frame.plan.stack
-        self.parts = {part.name: part for part in work.parts}
+        self.parts = {part.name: part for part in work.parts if part.kind not in HUNG}
 
     @cached_property
     def boxes(self) -> dict[str, Floats]:
@@ -82,7 +83,8 @@ class AssemblyPictures:
             f'<g fill="{_PAPER.ink}" font-family="sans-serif" font-size="{letter:.3f}">',
         ]
         corner = np.array([margin, margin + 2 * letter])
-        shown = [(name, _OLD) for name in before if name not in step.parts] + [(name, _NEW) for name in step.parts]
+        there = (name for name in before if name in self.parts and name not in step.parts)
+        shown = [(name, _OLD) for name in there] + [(name, _NEW) for name in step.parts]
         stroke = wide / 700
         for name, (edge, fill) in shown:
             part = self.parts[name]

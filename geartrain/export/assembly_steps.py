@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -17,10 +17,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class AssemblyStep:
-    """One step: what is done, and which parts come in by it."""
+    """One step: what is done, which parts come in by it, and whether a picture shows them; what hangs is too tall."""
 
     text: str
     parts: tuple[str, ...]
+    shown: bool = True
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
@@ -75,6 +76,11 @@ class _Steps:
                 "on the arbors",
                 [*names, *feet],
             )
+        if "pendulum cock" in self.known:
+            yield self._step("Press the cock of the pendulum into its plate", ["pendulum cock"])
+            yield replace(self._step("Hang the pendulum on its cock", ["pendulum rod", "pendulum bob"]), shown=False)
+        if "weight" in self.known:
+            yield replace(self._step("Hang the weight on a line round its barrel", ["weight"]), shown=False)
         yield AssemblyStep("Turn it by the lead through a whole turn of the slowest wheel before it is oiled", ())
 
     def _across(self) -> Iterator[AssemblyStep]:
@@ -103,8 +109,10 @@ class _Steps:
                 order = ", from below in this order" if len(wheels) > 1 else ""
                 spacers, collets = self._sleeves(every)
                 order += _with(wheels, spacers, collets)
+                barrel = self._barrel(every)
                 text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
-                yield self._step(text, [rod_name(column, member), *every, *spacers, *collets])
+                text += ", its barrel beside it" if barrel else ""
+                yield self._step(text, [rod_name(column, member), *every, *spacers, *collets, *barrel])
                 yield from self._on_eccentrics(every)
                 yield from self._plated_pins(every)
         pipes = [member for member in column.members if member.inner]
@@ -118,6 +126,11 @@ class _Steps:
         spacers = (f"spacer {low} to {high}" for low, high in pairwise(names))
         collets = (f"collet of {name}" for name in names)
         return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
+
+    def _barrel(self, wheels: Sequence[str]) -> list[str]:
+        """That is fixed to one of some wheels."""
+        barrel = self.frame.barrel
+        return [] if barrel is None or barrel.wheel not in wheels else [barrel.part.name]
 
     def _pins(self) -> Iterator[AssemblyStep]:
         for name, cut in self.work.cut_couplings.items():

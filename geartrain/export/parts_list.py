@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_part import SolidPart
     from geartrain.train import Wheel
 
-_STEEL = ("arbor", "stud", "pin", "eccentric")
+_STEEL = ("arbor", "stud", "pin", "eccentric", "cock")
+_HANGING = {"pendulum rod": "steel", "weight": "lead"}
 _STOCK = {"laser": "acrylic", "fdm": "PLA"}  # of flat parts; brass for any other process
 _SAME = 4  # decimals of a mm to which parts are alike
 
@@ -30,7 +31,8 @@ class ListedPart:
     names : tuple of str
         Of all of them.
     kind : str
-        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, pillar, post or pin.
+        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock, pin,
+        pendulum or weight.
     material : str
         What its mass is reckoned with.
     size : str
@@ -79,6 +81,8 @@ def _material(work: SolidModel, part: SolidPart) -> str:
         return own
     if part.kind in _STEEL:
         return "steel"
+    if part.name in _HANGING:
+        return _HANGING[part.name]
     return _STOCK.get(work.process.name, "brass") if part.turned is None else "brass"
 
 

@@ -18,8 +18,8 @@ class ScenePart:
     body : int
         Index of the body to which it belongs.
     name, kind : str
-        Of a part list: arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, pin, plate; frame for a plate of
-        the frame, carrier for one that turns with a carrier or a ring, dial for one of dials.
+        Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
+        for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials.
     place : tuple of float
         Where it stands in the zero pose [mm].
     direction, across : tuple of float
@@ -49,32 +49,31 @@ class ScenePart:
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger:
-    """What hangs on a train: a pendulum, the line of a weight and the weight, or a rod that bears one of them.
+    """What hangs on a train: a pendulum, the line of a weight, or the weight.
 
     Attributes
     ----------
-    kind : {"pendulum", "line", "weight", "rod"}
-        A pendulum swings as its escape wheel lets it; a weight falls and its line grows as their barrel turns; a rod,
-        the barrel or the cock of a pendulum, turns with its body.
+    kind : {"pendulum", "line", "weight"}
+        A pendulum swings as its escape wheel lets it; a weight falls and its line grows as their barrel turns.
     body : int
         Index of the body by whose angle it moves.
     point : tuple of float
-        Where it hangs, or one end of a rod [mm].
+        Where it hangs [mm].
     direction, down : tuple of float
         Unit vectors: the axis about which it swings or turns, and the way down, across it.
     length : float
-        From where it hangs to the middle of the bob, or to the weight in the zero pose; of a rod its own [mm].
+        From where it hangs to the middle of the bob, or to the weight in the zero pose [mm].
     rate : float
         Of a pendulum swings to and fro in a turn of its body; else how far a weight falls for each radian [mm].
     wide : float
-        Radius of the bob, the weight, the line or the rod [mm].
+        Radius of the bob, the weight or the line [mm].
 
     See Also
     --------
     build_scene : gives it, in `Scene.hangers`.
     """
 
-    kind: Literal["pendulum", "line", "weight", "rod"]
+    kind: Literal["pendulum", "line", "weight"]
     body: int
     point: Vector
     direction: Vector

@@ -15,7 +15,9 @@ import shapely
 from shipped import train as load
 
 from geartrain.export import export_files
+from geartrain.export.assembly_pictures import step_pictures
 from geartrain.export.assembly_steps import assembly_steps
+from geartrain.export.parts_list import parts_list
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.palette import THEMES
@@ -170,3 +172,26 @@ def test_pictures_of_steps_have_the_colours_of_all_pictures() -> None:
     assert len(pictures) > 2
     used = set(re.findall(r'(?:fill|stroke)="([^"]+)"', " ".join(pictures))) - {"none"}
     assert {theme.paper, theme.ink, theme.line, theme.band, theme.series[0]} == used
+
+
+def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:
+    """A weight of 5.9 kg of lead, a rod and a bob that are 994 mm from their cock; no picture is a metre high."""
+    work = SolidModel(load("longcase-clock"), ManufacturingSizes())
+    rows = {row.names[0]: row for row in parts_list(work)}
+    assert (rows["weight"].material, rows["weight"].mass) == ("lead", pytest.approx(5900))
+    assert rows["great barrel"].size.startswith("diameter 25.4,")
+    parts = {part.name: part for part in work.parts}
+    hung = parts["pendulum rod"].place - parts["pendulum bob"].place
+    assert np.linalg.norm(hung) == pytest.approx(994)
+    plates = [part for part in work.parts if part.name in ("plates back plate", "plates front plate")]
+    cock = parts["pendulum cock"]
+    radii = [
+        contour.points[:, 0].max() - contour.points[:, 0].mean()
+        for plate in plates
+        for contour in plate.contours[1:]
+        if np.hypot(*((contour.points.mean(axis=0) + plate.place[:2]) - cock.place[:2])) < 1e-6
+    ]
+    assert radii == [pytest.approx(1.2, abs=0.05)], "a hole in one plate for its tenon"
+    pictures = [draw().decode() for _, _, draw in step_pictures(work)]
+    heights = [int(re.search(r'height="(\d+)"', each).group(1)) for each in pictures]  # type: ignore[union-attr]
+    assert max(heights) < 1200

@@ -60,7 +60,8 @@ def test_every_link_is_one_solid_body_and_is_borne_by_the_one_that_bears_its_axi
     links = model.scene.bodies
     parts: dict[int, list[Body]] = {}
     for part in model.parts:
-        parts.setdefault(part.body, []).append(Body.of(part))
+        if part.kind != "weight":  # it hangs on a line
+            parts.setdefault(part.body, []).append(Body.of(part))
     assert {body.id for at, body in enumerate(links) if at not in parts} == TOGETHER.get(name, set())
     for at, own in parts.items():
         assert len(groups(own)) == 1, links[at].id
@@ -184,6 +185,15 @@ def test_a_clock_has_its_pendulum_and_its_weight_in_true_size() -> None:
     behind = next(face for face in scene.dials)
     plates = [part for part in scene.parts if part.kind == "frame"]
     back = max(-np.dot(np.subtract(part.place, behind.centre), behind.normal) + part.height / 2 for part in plates)
-    bob = -np.dot(np.subtract(pendulum.point, behind.centre), behind.normal) - 0.4 * pendulum.wide
+    bob = -np.dot(np.subtract(pendulum.point, behind.centre), behind.normal) - 0.25 * pendulum.wide
     assert bob > back, "behind both plates"
+    parts = {part.name: part for part in scene.parts}
+    cock = parts["pendulum cock"]
+    low, high = cock.bands[0][0], cock.bands[-1][1]
+    at = np.subtract(pendulum.point, cock.place) @ np.array(cock.direction)
+    assert low < at < high, "it hangs on its cock"
+    assert np.subtract(pendulum.point, cock.place) - at * np.array(cock.direction) == pytest.approx([0, 0, 0], abs=1e-6)
+    barrel = parts["great barrel"]
+    assert (barrel.bands[0][2], barrel.body) == (12.7, weight.body)
+    assert "collet of g96" not in parts, "the barrel is fixed to its wheel"
     assert build_scene(shipped.train("watch-going-train")).hangers == ()

@@ -11,6 +11,7 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
+from geartrain.scene.parts.barrels import Barrel
 from geartrain.scene.parts.eccentrics import Eccentric, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
@@ -91,15 +92,17 @@ def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
 class FramePlates:
     """Plates, pillars and posts of a plan.
 
-    feet   of dials, each in one of the plates
+    feet   of dials, and the cock of a pendulum, each in one of the plates
     tabs   points that a plate reaches out to, by the name of its side: there brackets stand
     standing  pins that plates bear
+    barrel    from which a weight hangs
     """
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
     tabs: Mapping[str, Sequence[Point]] = field(default_factory=dict)
     standing: tuple[StandingPins, ...] = ()
+    barrel: Barrel | None = None
 
     @cached_property
     def pillar(self) -> float:
@@ -267,7 +270,9 @@ class FramePlates:
             seat = next(disc for disc in plan.discs if disc.name == plan.seat_of(carrier))
             faces = FramePlaces((seat.low, seat.high), (seat.low, seat.high))
             yield from column_parts(column, faces, carrier, plan.process, plan.cut)
-        yield from sleeves(plan)
+        yield from sleeves(plan, "" if self.barrel is None else self.barrel.wheel)
+        if self.barrel is not None:
+            yield self.barrel.part
         for each in plan.stack.eccentrics:
             yield from each.washers(self._disc(each.name), plan.bores[each.name])
         for cup in plan.stack.cups:

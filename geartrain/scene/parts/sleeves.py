@@ -23,14 +23,17 @@ _SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
 _FREE = 0.3  # mm between a collet and what turns before it
 
 
-def sleeves(plan: FramePlan) -> Iterator[TurnedPart]:
-    """Of all arbors and pipes of a plan; none where pins and slots work beside the wheels, or there is no room."""
+def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
+    """Of all arbors and pipes of a plan; none where pins and slots work beside the wheels, or there is no room.
+
+    held   a wheel that needs no collet, for a barrel is fixed to it
+    """
     coupled = {link for each in plan.stack.train.declaration.couplings for link in (each.pin, each.slot)}
     for column in plan.all_columns:
         around = _Around(plan, column)
         for member in column.members:
             if member.link not in coupled:
-                yield from _OnMember(around, member).all()
+                yield from _OnMember(around, member).all(held)
 
 
 def free_beside(
@@ -116,9 +119,9 @@ class _OnMember:
         """From below."""
         return sorted(self.member.discs, key=lambda disc: disc.low)
 
-    def all(self) -> Iterator[TurnedPart]:
+    def all(self, fixed: str) -> Iterator[TurnedPart]:
         """Spacers, then collets of wheels that touch none."""
-        held = set(self.around.plan.cut)
+        held = {*self.around.plan.cut, fixed}
         for below, above in pairwise(self.discs):
             band = self._ring(below.high, above.low)
             if above.low - below.high >= _SHORTEST and band is not None:

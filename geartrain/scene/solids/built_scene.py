@@ -14,7 +14,6 @@ from geartrain.scene.built_elements import ScenePart
 from geartrain.scene.construction import make_scene
 from geartrain.scene.dial_pointers import with_balls
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.solids.hangers import find_hangers
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.solid_assembly import SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
@@ -83,9 +82,7 @@ def build_scene(
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     wheels = tuple(_opened(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
-    if model.plan is None:
-        return found
-    return replace(found, hangers=find_hangers(found, train.declaration, model.plan))
+    return found if model.hanging is None else replace(found, hangers=model.hanging.found())
 
 
 def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:

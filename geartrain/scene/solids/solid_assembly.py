@@ -12,6 +12,7 @@ import numpy as np
 from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
 from geartrain.scene.layout.declared_geometry import read_geometry
+from geartrain.scene.parts.barrels import find_barrel
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.frame_plates import FramePlates
 from geartrain.scene.parts.frame_stack import FrameStack
@@ -23,6 +24,7 @@ from geartrain.scene.solids.brackets import Bracket, find_brackets
 from geartrain.scene.solids.carrier_cages import Cage, find_cages
 from geartrain.scene.solids.coupling_parts import CouplingParts
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
+from geartrain.scene.solids.hangers import HangingParts, hanging_solids
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
 from geartrain.scene.solids.pin_couplings import (
     CutCoupling,
@@ -112,9 +114,18 @@ class SolidModel:
         if self.plan is None:
             return None
         tabs = {side: [each.foot for each in self.brackets if each.side == side] for side in ("back", "front")}
-        feet = tuple(foot for dial in self.dials for foot in dial.feet)
+        feet = *(foot for dial in self.dials for foot in dial.feet), *(self.hanging.cock() if self.hanging else ())
         standing = *standing_pins(self.scene, self.plan), *side_bars(self.scene, self.plan)
-        return FramePlates(self.plan, feet, tabs, standing)
+        return FramePlates(self.plan, feet, tabs, standing, self.hanging.barrel if self.hanging else None)
+
+    @cached_property
+    def hanging(self) -> HangingParts | None:
+        """The pendulum and the weight, and what bears them; None where there is no plan."""
+        if self.plan is None:
+            return None
+        crank = self.scene.crank
+        barrel = find_barrel(self.plan, None if crank is None else self.scene.bodies[crank].id)
+        return HangingParts(self.scene, self.sized.declaration, self.plan, barrel)
 
     @cached_property
     def brackets(self) -> tuple[Bracket, ...]:
@@ -203,7 +214,7 @@ class SolidModel:
     @cached_property
     def parts(self) -> tuple[SolidPart, ...]:
         """All solids: wheels, arbors, plates of the frame and of carriers, pins and slots."""
-        return tuple(_Parts(self).wheels()) + self.structure
+        return *_Parts(self).wheels(), *self.structure, *_Parts(self).hanging()
 
     @cached_property
     def structure(self) -> tuple[SolidPart, ...]:
@@ -234,6 +245,11 @@ class _Parts:
             yield from self.dials(self.work.frame)
         work = self.work
         yield from CouplingParts(self.scene, work.cut_couplings, work.blanks.wheels, work.process).parts()
+
+    def hanging(self) -> Iterator[SolidPart]:
+        if self.work.hanging is not None and self.work.plan is not None:
+            frame = self.bodies[self.work.plan.stack.frame]
+            yield from hanging_solids(self.work.hanging.found(), frame)
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
         """By its flat shape where it has one."""

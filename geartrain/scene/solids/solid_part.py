@@ -30,7 +30,8 @@ class SolidPart:
     name : str
         Of the wheel, or what it belongs to.
     kind : str
-        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, pillar, post, foot or pin.
+        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
+        pin, pendulum or weight.
     turn, place : array of float, (3, 3) and (3,)
         Rotation and shift [mm] that put it into the zero pose.
     status : str

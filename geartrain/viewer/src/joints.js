@@ -80,16 +80,15 @@ export function crankOf(scene, index, end, side, reach, size) {
   return { body: index, at, end: onAxis(body, end + 2 * out), knob, touch: 0.06 * size, reach, parts };
 }
 
-/** A pendulum, the line of a weight, the weight, or what bears one of them: {colour, shape, matrix, at}. */
+/** A pendulum, the line of a weight, or the weight: {colour, shape, matrix, at}. */
 export function hangerParts({ kind, point, direction, down, length, wide }) {
   const at = vector(point);
   const part = (colour, shape, place, z, x) => ({ colour, shape, matrix: frameAt(place.toArray(), z, x), at });
   const end = at.clone().addScaledVector(vector(down), length);
-  if (kind === "rod") return [part(PARTS.pipe, bar(wide, 0, length, 32), at, direction, down)];
   if (kind === "line") return [part(PARTS.pin, bar(wide, 0, length), at, down, direction)];
   if (kind === "weight") return [part(PARTS.pipe, bar(wide, 0, 4 * wide, 40), end, down, direction)];
   return [
-    part(PARTS.arbor, bar(0.04 * wide, 0, length), at, down, direction),
-    part(PARTS.plate, swept(new Shape(), [[0, -0.4 * wide], [0.7 * wide, -0.3 * wide], [wide, 0], [0.7 * wide, 0.3 * wide], [0, 0.4 * wide]], 64), end, direction, down),
+    part(PARTS.arbor, bar(0.04 * wide, 2, length - wide), at, down, direction),
+    part(PARTS.plate, swept(new Shape(), band(0, wide, -0.25 * wide, 0.25 * wide), 64), end, direction, down),
   ];
 }

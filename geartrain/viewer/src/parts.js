@@ -8,7 +8,7 @@ import { Shape, swept } from "./shape.js";
 import { barOf } from "./sight.js";
 import { along, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, pin: PARTS.pin };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, pin: PARTS.pin };
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // of a cup, which goes on from a thin wheel
 const ROUND = 84; // corners of what is as wide as a train

@@ -82,7 +82,7 @@ export class World {
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
       pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });
-    scene.hangers.forEach((hanger, index) => hangerParts(hanger).forEach((part) => this.put({ ...part, body: hanger.kind === "rod" ? hanger.body : this.poses.hanger(index) })));
+    scene.hangers.forEach((hanger, index) => hangerParts(hanger).forEach((part) => this.put({ ...part, body: this.poses.hanger(index) })));
     this.crank = this.buildCrank(reach);
     this.crank?.parts.forEach((part) => this.put(part));
   }

@@ -72,7 +72,7 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
 
 def _legend(cause: str, found: TrainBudget) -> str:
     missing = found.not_declared[cause]
-    return cause if not missing else f"{cause} (unknown of {missing})"
+    return cause if not missing else f"{cause} (unknown for {missing})"
 
 
 def _below(pointers: int, shown: int, erring: int) -> str:

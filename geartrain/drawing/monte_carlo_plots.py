@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 
 
+_TICKS = 8  # counts of trials that are written, or a few more
+
+
 @dataclass(frozen=True, slots=True)
 class ConvergenceTrace:
     """An estimate after so many trials, and its 95 percent interval: arrays (n,).
@@ -68,6 +71,10 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
     if (widths > 0).any():
         below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
         below.set_yscale("log")
+    counts = sorted({float(count) for each in estimates.values() for count in each.trials})
+    below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
+    below.set_xticks([], minor=True)
+    below.xaxis.set_major_formatter(lambda count, _: f"{count:,.0f}")
     below.set_xlabel("trials", fontsize=TEXT)
     figure.legend(*above.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False)
     return figure

@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from geartrain.drawing.backend import Figure, Polygon
-from geartrain.drawing.style import BLACK, GREY, PALE, SMALL
+from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, headed
+from geartrain.numerics.decimal_text import plural
 from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 _SIZE = 7.5  # inches
 _VIEW = (0.32, -0.43, 0.84)  # towards the reader
 _TOOTH = np.array([-0.30, -0.17, 0.17, 0.30])  # foot, tip, tip, foot, in pitches from the middle of a tooth
+_STRONG = 0.55  # of a kind's colour that a face has
 _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 
 
@@ -63,13 +66,21 @@ def sphere_figure(
     _draw_sphere(axes)
     for i in np.argsort(towards * np.cos(cones)):
         near = towards[i] > 0
-        colour = series_colour(kinds.index(configuration.kinds[i])) if near else PALE
+        face = _face(kinds.index(configuration.kinds[i])) if near else (*to_rgb(PALE), 0.5)
         ring = _outline(configuration, int(i), float(cones[i]), float(phases[i])) @ screen.T
-        axes.add_patch(Polygon(ring[:, :2], facecolor=colour, edgecolor=BLACK, linewidth=0.5, alpha=1 if near else 0.5))
+        if near:
+            axes.add_patch(Polygon(ring[:, :2], facecolor=WHITE, edgecolor="none"))
+        edge = (*to_rgb(BLACK), 1.0 if near else 0.5)
+        axes.add_patch(Polygon(ring[:, :2], facecolor=face, edgecolor=edge, linewidth=0.5))
         if near:
             _draw_axle(axes, configuration.axes[i] @ screen.T)
     _legend(axes, configuration, kinds)
-    return figure
+    return headed(figure, configuration.title)
+
+
+def _face(kind: int) -> tuple[float, ...]:
+    """Of its colour so much that the outlines of teeth are seen, which overlap those of their mates."""
+    return (*to_rgb(series_colour(kind)), _STRONG)
 
 
 def _screen(view: Floats) -> Floats:
@@ -106,7 +117,6 @@ def _draw_axle(axes: Any, point: Floats) -> None:
 def _legend(axes: Any, configuration: Configuration, kinds: list[str]) -> None:
     for at, kind in enumerate(kinds):
         number = configuration.kinds.count(kind)
-        text = f"{kind}: {number} of {configuration.teeth[kind]} teeth"
-        axes.plot([], [], marker="o", linestyle="", color=series_colour(at), label=text)
+        text = f"{kind}: {plural(number, 'gear')} of {configuration.teeth[kind]} teeth"
+        axes.plot([], [], marker="o", linestyle="", markerfacecolor=_face(at), markeredgecolor=BLACK, label=text)
     axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
-    axes.set_title(configuration.title)

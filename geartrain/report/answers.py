@@ -72,11 +72,21 @@ def _targets(answer: Answer, head: str) -> Iterator[Section]:
     ]
     if not targets:
         return
-    header = ("output", "target", "error ppm", "days a century", "degrees a unit", "target speed", "by", "within")
+    each = answer.unit.removeprefix("turns per ") if answer.unit.startswith("turns per ") else "unit"
+    header = (
+        "output",
+        "target",
+        "error ppm",
+        "days a century",
+        f"degrees per {each}",
+        "target speed",
+        "compared",
+        "within",
+    )
     table = filled_table(header, targets, len(header) - 1)
     said = ["A positive error is fast."]
     if any(row[6] == _COMPARED["magnitude"] for row in targets):
-        said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
+        said.append("Compared by magnitude: the target has no `sense`, so that either sense of rotation meets it.")
     yield Section(_title(head, "against the targets"), tuple(said), (table,))
 
 
@@ -92,7 +102,7 @@ def _speed_section(train: GearTrain, answer: Answer, head: str) -> Section:
     return Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
 
 
-_COMPARED = {"speed": "sense too", "magnitude": "magnitude", "difference": "difference"}
+_COMPARED = {"speed": "with sense", "magnitude": "magnitude", "difference": "difference"}
 
 
 def _title(head: str, words: str) -> str:

@@ -200,8 +200,8 @@ def test_reports_say_where_only_a_magnitude_was_compared() -> None:
     text = to_markdown([describe_train(collect_report(train))])
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if "| carrier" in line]
     assert [row[6] for row in rows if row[1].startswith(("speed", "period"))] == [
-        "sense too",
-        "sense too",
+        "with sense",
+        "with sense",
         "magnitude",
         "difference",
     ]

@@ -79,7 +79,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     title = f"{_title(pitch)}; curves that leave a panel go on beyond it"
     headed(figure, title)
     handles = [
-        Line2D([], [], color=color, linestyle=dashes, linewidth=1.8, label=name)
+        Line2D([], [], color=color, linestyle=dashes, linewidth=1.8, label=name.replace("_", " "))
         for name, (color, dashes) in styles.items()
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False, handlelength=4)
@@ -151,8 +151,8 @@ def _along(
         low, high = min(low, float(away.min(initial=inf))), max(high, float(away.max(initial=0.0)))
         tops.append(float(away.max(initial=0.0)))
     high = min(high, _MOST * float(np.median(tops)))
-    rim = 0.1 * (high - low)
-    axes.set_ylim(low - rim if low > _FLAT * high else 0.0, high + max(rim, 0.02 * high) or 1.0)
+    rim = max(0.1 * (high - low), 0.02 * high)
+    axes.set_ylim(low - rim if low > _FLAT * high else 0.0, high + rim or 1.0)
     axes.axvline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     axes.set_title(label, fontsize=TEXT, loc="left", color=BLACK)
     axes.set_xlabel("contact at X (pitches): approach, recess", fontsize=SMALL)

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection
-from matplotlib.colors import to_hex, to_rgba
+from matplotlib.colors import ListedColormap, to_hex, to_rgba
 from matplotlib.figure import Figure
 
 from geartrain.scene.palette import THEMES, Theme, ThemeName
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Rgba = tuple[float, float, float, float]
+_SHADES = 256  # of a scale of colours
 _ROUNDED = 0.5 / 255  # what a colour written with two digits a channel may be off by
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 # linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
@@ -39,13 +40,13 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
         yield
         return
     figure.draw_without_rendering()  # ticks and their words are made when they are first drawn
-    undo: list[tuple[Callable[[Any], object], Any]] = []
+    painter = _Painter(name)
     try:
         for artist in _all(figure):
-            _paint(artist, name, undo)
+            painter.paint(artist)
         yield
     finally:
-        for put, old in reversed(undo):
+        for put, old in reversed(painter.undo):
             put(old)
 
 
@@ -55,22 +56,44 @@ def _all(artist: Artist) -> Iterator[Artist]:
         yield from _all(child)
 
 
-def _paint(artist: Artist, name: ThemeName, undo: list[tuple[Callable[[Any], object], Any]]) -> None:
-    """Every colour of one artist but for those that a scale gives to values."""
-    if isinstance(artist, (Figure, Axes)) or (isinstance(artist, Collection) and artist.get_array() is not None):
-        kinds: Sequence[str] = ()  # theirs are those of their patches
-    else:
+class _Painter:
+    """What gives artists the colours of a theme, and what must be done to take them away."""
+
+    def __init__(self, name: ThemeName) -> None:
+        self.name = name
+        self.undo: list[tuple[Callable[[Any], object], Any]] = []
+        self._halos: list[object] = []  # many words share one
+
+    def paint(self, artist: Artist) -> None:
+        """Every colour of one artist; of values with a scale the scale's."""
+        if isinstance(artist, Collection) and artist.get_array() is not None:
+            self._scale(artist)
+        elif not isinstance(artist, (Figure, Axes)):  # theirs are those of their patches
+            self._colours(artist)
+        for effect in artist.get_path_effects() or ():
+            self._halo(effect)
+
+    def _put(self, put: Callable[[Any], object], old: Any, new: Any) -> None:
+        self.undo.append((put, old))
+        put(new)
+
+    def _scale(self, artist: Collection) -> None:
+        scale: Any = artist.get_cmap()
+        colours = [themed_colour(tuple(map(float, row)), self.name) for row in scale(np.linspace(0, 1, _SHADES))]  # type: ignore[arg-type]
+        self._put(artist.set_cmap, scale, ListedColormap(colours))
+
+    def _colours(self, artist: Artist) -> None:
         kinds = [kind for kind in _COLOURS if hasattr(artist, f"get_{kind}") and hasattr(artist, f"set_{kind}")]
-    olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # before any is set: a marker follows its line
-    for kind, old in zip(kinds, olds, strict=True):
-        put = getattr(artist, f"set_{kind}")
-        undo.append((put, old))
-        put(_themed_all(old, name))
-    for effect in artist.get_path_effects() or ():
+        olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # before any is set: a marker follows its line
+        for kind, old in zip(kinds, olds, strict=True):
+            self._put(getattr(artist, f"set_{kind}"), old, _themed_all(old, self.name))
+
+    def _halo(self, effect: object) -> None:
         gc = getattr(effect, "_gc", {})  # matplotlib has no public way to ask a stroke for its colour
-        if "foreground" in gc:
-            undo.append((partial(gc.__setitem__, "foreground"), gc["foreground"]))
-            gc["foreground"] = to_hex(themed_colour(to_rgba(gc["foreground"]), name))
+        if "foreground" in gc and not any(gc is known for known in self._halos):
+            self._halos.append(gc)
+            old = gc["foreground"]
+            self._put(partial(gc.__setitem__, "foreground"), old, to_hex(themed_colour(to_rgba(old), self.name)))
 
 
 def _themed_all(colours: Any, name: ThemeName) -> Any:

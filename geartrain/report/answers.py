@@ -32,7 +32,7 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
     header = ("state", *clutches, "verdict", *names)
     return Section(
         "States",
-        (f"x marks an engaged clutch or brake; {', '.join(names)} as speed and input/output.",),
+        (("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input over output.",),
         (Table(header, rows),),
     )
 
@@ -131,9 +131,11 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
 
 def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:
     rows = [_output(train, result) for result in answer.outputs.values()]
-    header = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
+    header: tuple[str, ...] = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
+    own = all(row[1] == row[0] for row in rows)  # every output is named after its link
+    header, rows = (header[:1] + header[2:], [row[:1] + row[2:] for row in rows]) if own else (header, rows)
     notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
-    return Section(_title(head, "outputs"), notes, (filled_table(header, rows, 4),))
+    return Section(_title(head, "outputs"), notes, (filled_table(header, rows, len(header) - 4),))
 
 
 def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:

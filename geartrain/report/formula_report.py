@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.kinematics.formulas.closed_forms import ClosedForm
 
-_HEAD = "A wheel's tooth count is z_ and its name, a link's name stands for its speed, · goes between ratio and speed."
+_HEAD = "z_NAME stands for the tooth count of the wheel NAME, and the name of a link for its speed."
 
 
 @dataclass(frozen=True)
@@ -130,11 +130,15 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
     return Document(f"Formulas of {found.name}", (), tuple(sections))
 
 
-def formula_section(train: GearTrain, state: str | None) -> Iterator[Section]:
-    """What a report tells: the formulas of one state, without outputs that are inputs themselves."""
+def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
+    """What a report tells: the formulas of one state, without outputs that are inputs themselves.
+
+    explained   with the words that say how a formula is read
+    """
     told = [each for each in train.formulas(state) if any(share.ratio.formula.wheels for share in each.shares)]
     if told:
-        yield Section(_title(state), (_HEAD, *(text for each in told for text in _lines(each, False))))
+        lines = (text for each in told for text in _lines(each, False))
+        yield Section(_title(state), ((_HEAD,) if explained else ()) + tuple(lines))
 
 
 def _state(found: FormulaReport, state: str | None, latex: bool, inverse: bool) -> Iterator[Section]:

@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 _DIGITS = 5
 _MOST = 12  # ways to close elements that are named
 _RATIOS = (
-    "Ratio: input over output; step: over the ratio of the next state. Recirculating: power that runs round between "
+    "Ratio: input over output; step: that ratio over the next state's. Recirculating: power that runs round between "
     "gear sets over power in; inside: within one set."
 )
 _TORQUES = (
     "Over the input's torque, driven from the input: of a brake on what it holds, of a clutch on the first of the two "
-    "links that it locks. `open`: statics does not tell."
+    "links that it locks. `open`: statics alone does not give it."
 )
 _ELEMENTS = "Greatest of all states, in sizes over the input's torque and speed."
 
@@ -60,7 +60,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
     links = [link for link in known if _moves(found, link)]
-    yield Section("Speeds", ("Over the input's, exactly.",), (_speeds(found.states, links),))
+    yield Section("Speeds", ("Over the input's speed, exact.",), (_speeds(found.states, links),))
     slips = _by_state(found.states, names, lambda each: each.slips)
     yield Section("Slip of open elements", ("Over the input's speed.",), (slips,))
     torques = _by_state(found.states, names, lambda each: each.torques)

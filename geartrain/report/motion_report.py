@@ -105,7 +105,7 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
     if not forms:
         return ""
     words = "; ".join(f"{', '.join(names)} ({form})" for form, names in forms.items())
-    return f"Keep their ratio at every instant and add nothing to any motion: {words}."
+    return f"These keep their ratio at every instant and add nothing to any motion: {words}."
 
 
 def _rippling(run: MotionRun) -> list[RunningStatistics]:

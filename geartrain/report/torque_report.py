@@ -48,7 +48,7 @@ def describe_torques(found: TorqueReport) -> Document:
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
     >>> page = describe_torques(collect_torque_report(train, [train.torques()]))
     >>> page.sections[0].tables[0].rows[1]
-    ('a (asked)', '1.5', '1', '1.5')
+    ('a (solved for)', '1.5', '1', '1.5')
     """
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
@@ -89,7 +89,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
         kept = f"efficiency {figure(efficiency, 6)}{uncounted_words(found)}" if efficiency else "nothing is taken out"
         lines.append(
             f"Power in {amounts.text(found.power_in, 6)}, lost {amounts.text(found.loss, 6)}, {kept}; "
-            f"the greatest power through a pair is {figure(circulating, 5)} of it."
+            f"the greatest power through a pair is {figure(circulating, 5)} times that."
         )
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)
@@ -123,7 +123,7 @@ def _units(found: Sequence[TorqueFigures]) -> str:
 def _links(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
-            link + (" (asked)" if link in found.asked else ""),
+            link + (" (solved for)" if link in found.asked else ""),
             figure(torque, 6),
             figure(found.speeds[link], 6) if link in found.speeds else "free",
             amounts.text(found.powers[link], 6) if link in found.speeds else "open",

@@ -88,17 +88,20 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
         yield from gearbox_sections(box)
     elif train.states:
         yield shift_table(train, answers)
+    read = False  # how to read a formula is said once
     for answer in answers:
         told = list(answer_sections(train, answer))
         # a gearbox has all speeds in one table
         yield from told if box is None or not answer.verdict else told[:-1]
-        yield from formula_section(train, answer.state)
+        formulas = tuple(formula_section(train, answer.state, explained=not read))
+        read = read or bool(formulas)
+        yield from formulas
 
 
 def _findings(train: GearTrain) -> Iterator[Section]:
     """What of it cannot be built, and what is odd."""
     if train.build_findings:
-        head = "Told by the declaration alone; an error cannot be built so, a note is unwise or open."
+        head = "From the declaration alone. An error cannot be built as it is declared; a note is unwise, or left open."
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
         yield Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
     if train.remarks:
@@ -167,12 +170,14 @@ def source_line(key: str, source: Source) -> str:
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
     wheels = sum(len(link.wheels) for link in declared.links.values())
-    counts = (
-        f"{len(declared.links)} links (the frame is '{declared.frame}'), "
-        f"{plural(len(declared.revolutes), 'turning pair')}, "
-        f"{plural(len(declared.gears), 'gear pair')}, {plural(len(declared.couplings), 'coupling')}, "
-        f"{plural(wheels, 'wheel')}."
+    parts = (
+        (len(declared.revolutes), "turning pair"),
+        (len(declared.gears), "gear pair"),
+        (len(declared.couplings), "coupling"),
+        (wheels, "wheel"),
     )
+    told = ", ".join(plural(count, noun) for count, noun in parts if count)
+    counts = f"{len(declared.links)} links (the frame is '{declared.frame}'), {told}."
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
     yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
@@ -181,7 +186,8 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 def _adjacency(train: GearTrain) -> Iterator[Section]:
     """The matrix, where it is not too large to be read."""
     if len(train.declaration.links) <= MOST_SQUARE:
-        text = "R(axis) is a turning pair, the others are gear pairs and couplings by id."
+        others = "gear pairs and couplings" if train.declaration.couplings else "gear pairs"
+        text = f"R(axis) is a turning pair; the other entries are {others} by name."
         yield Section("Adjacency matrix", (text,), (adjacency_table(train),))
 
 
@@ -219,7 +225,8 @@ def _circuits(train: GearTrain) -> Section:
         _abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST])
         for at in range(0, len(shown), _CIRCUITS_ABREAST)
     ]
-    text = "One circuit for each gear pair and coupling, k its carrier: tau = (w_i - w_k)/(w_j - w_k)."
+    pairs = "gear pair and coupling" if train.declaration.couplings else "gear pair"
+    text = f"One circuit for each {pairs}, of bodies i and j with carrier k: tau = (w_i - w_k)/(w_j - w_k)."
     more = (
         (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
     )
@@ -258,9 +265,10 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
 
 def _mobility(train: GearTrain) -> Section:
     found = train.mobility
-    minus = f" - {found.couplings}" if found.couplings else ""
+    minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
+    pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
     lines = [
-        f"By count: j_R - j_G = {found.turning_pairs} - {found.gear_pairs}{minus} = {found.by_count}.",
+        f"By count: {pairs} = {found.by_count}.",
         f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}"
         + (" (exact)." if found.certain else " (rank modulo two primes)."),
     ]

@@ -21,6 +21,7 @@ _DASHES: tuple[Dash, ...] = (
     (0, (6, 1.6, 1.2, 1.6)),
     (0, (3, 1.2)),
     (0, (6, 1.6, 1.2, 1.6, 1.2, 1.6)),
+    (0, (11, 3)),
 )
 
 
@@ -111,7 +112,7 @@ THEMES: dict[ThemeName, Theme] = {
         fill="#f2f2f2",
         shade="#b8b8b8",
         band="#d8d8d8",
-        series=(*("#000000", "#737373") * 3, *("#737373", "#000000") * 2),  # the other grey where dashes come again
+        series=("#000000", "#737373") * 5,  # the other grey where dashes come again
     ),
 }  # fmt: skip
 
@@ -123,5 +124,5 @@ def series_colour(at: int, theme: ThemeName = "light") -> str:
 
 
 def series_dash(at: int) -> Dash:
-    """Its dashes [line widths]: with the colour they repeat after sixty; in print, of two greys, after ten."""
+    """Its dashes [line widths]: with the colour they repeat after seventy; in print, of two greys, after ten."""
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

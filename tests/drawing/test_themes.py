@@ -17,6 +17,8 @@ pytest.importorskip("matplotlib")
 from PIL import Image
 
 from geartrain.drawing import picture, render
+from geartrain.drawing.backend import Figure
+from geartrain.drawing.style import HALO
 from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene.palette import THEMES
 
@@ -38,6 +40,24 @@ def test_a_picture_for_print_is_grey(kind: str) -> None:
     for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
         red, green, blue = (int(found[at : at + 2], 16) for at in (1, 3, 5))
         assert max(red, green, blue) - min(red, green, blue) <= 2, found
+
+
+def test_words_that_share_a_halo_are_all_on_paper() -> None:
+    figure = Figure()
+    for at in range(3):
+        figure.text(0.2, 0.2 + 0.2 * at, "words", path_effects=HALO)
+    found = _COLOUR.findall(render(figure, ".svg", theme="dark"))
+    assert THEMES["light"].paper.encode() not in found
+    assert found.count(THEMES["dark"].paper.encode()) >= 3
+
+
+def test_values_with_a_scale_of_colours_are_grey_in_print_and_as_before_after_it() -> None:
+    figure = Figure()
+    figure.subplots().pcolormesh([[0.0, 0.5], [0.7, 1.0]], cmap="Blues")
+    before = render(figure, ".svg")
+    for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
+        assert max(bytes.fromhex(found[1:].decode())) - min(bytes.fromhex(found[1:].decode())) <= 2, found
+    assert render(figure, ".svg") == before
 
 
 def test_a_figure_is_as_it_was_after_a_theme() -> None:

@@ -202,7 +202,7 @@ def test_the_report_carries_every_erratum_of_the_declaration_with_what_is_right(
 
 
 def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> None:
-    assert "19 - 18 = 1" in paper
+    assert "19 turning pairs - 18 gear pairs = 1" in paper
     assert "20 links - 1 - rank 18 = 1" in paper
 
 

@@ -111,7 +111,7 @@ def test_every_colour_of_words_can_be_read_on_its_paper(name: str) -> None:
 
 
 def test_colour_and_dashes_never_repeat_together() -> None:
-    assert len({(series_colour(at), series_dash(at)) for at in range(60)}) == 60
+    assert len({(series_colour(at), series_dash(at)) for at in range(70)}) == 70
     assert len({(series_colour(at, "print"), series_dash(at)) for at in range(10)}) == 10
 
 

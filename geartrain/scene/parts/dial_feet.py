@@ -35,8 +35,9 @@ def dial_feet(
     spots = _apart(free)
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
         across = [circle for wheel in plan.stack.across if wheel.is_between(*faces) for circle in wheel.circles]
+        even = len({column.at for column in plan.columns}) == 1  # as its pillars are
         spots = pillar_places(
-            [at for at, _ in circles], turning, RADIUS, lambda spot: _reaches(spot, circles, across) > 0
+            [at for at, _ in circles], turning, RADIUS, lambda spot: _reaches(spot, circles, across) > 0, even
         )
     ends = (plate, faces) if above else (faces, plate)
     return [_foot(plan, f"{name} foot {number}", spot, ends) for number, spot in enumerate(spots, 1)]

@@ -135,10 +135,10 @@ class FramePlates:
         across = self._across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
         axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate is round its pins too
-        found = pillar_places(axes, self.circles, self.pillar)
+        found = pillar_places(axes, self.circles, self.pillar, even=True)
         if all(clear_of(at, across) > self.pillar for at in found):  # plates are the smaller the nearer pillars are
             return found
-        return pillar_places(axes, [*self.circles, *across], self.pillar)
+        return pillar_places(axes, [*self.circles, *across], self.pillar, even=True)
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:

@@ -29,11 +29,13 @@ def pillar_places(
     circles: Sequence[tuple[Point, float]],
     radius: float,
     suits: Callable[[Point], bool] = lambda _: True,
+    even: bool = False,
 ) -> list[Point]:
-    """Four places, three or more if four do not do, whose polygon holds all axes, is short round, and lies evenly (mm).
+    """Four places, three or more if four do not do, whose polygon holds all axes and has the least outline (mm).
 
     In each direction from the middle of the axes the nearest place that is free from there on outwards is taken, if it
-    `suits`; where too few do, any.
+    `suits`; where too few do, any. About one axis many polygons are as short, and three places at one end with one at
+    the other do: with `even` they lie about it, wide and not high.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -42,8 +44,9 @@ def pillar_places(
     tried = np.array([_free(middle, 2 * pi * (k + 0.5) / _WAYS, blocked) for k in range(_WAYS)])
     suiting = [suits((float(x), float(y))) for x, y in tried]
     tried = tried[suiting] if sum(suiting) >= _FEWEST else tried
+    even = even and not np.ptp(points, axis=0).any()
     for count in (4, _FEWEST, _MOST):
-        if (found := _around(tried - middle, points - middle, count, _SPREAD * radius)) is not None:
+        if (found := _around(tried - middle, points - middle, count, _SPREAD * radius, even)) is not None:
             return [(float(x), float(y)) for x, y in middle + found]
     return [(float(x), float(y)) for x, y in _far_apart(tried, middle)]
 
@@ -69,12 +72,8 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
     return np.asarray(middle + (far + _STEP) * along)
 
 
-def _around(tried: Floats, axes: Floats, count: int, least_edge: float) -> Floats | None:
-    """Of so many of the places, counted from the middle of the axes, those whose polygon has all axes inside.
-
-    Of these the shortest round that stands evenly about the middle, as three pillars at one end and one at the other
-    make a plate no smaller than two at either end do; of such the one that is wide and not high.
-    """
+def _around(tried: Floats, axes: Floats, count: int, least_edge: float, even: bool) -> Floats | None:
+    """The shortest polygon of so many of the places, counted from the middle of the axes, that has all axes inside."""
     best, least = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
@@ -87,7 +86,8 @@ def _around(tried: Floats, axes: Floats, count: int, least_edge: float) -> Float
         if all(left[a, b] for a, b in edges):
             places = tried[[*chosen]]
             whole = sum(float(length[a, b]) for a, b in edges)
-            whole += _UNEVEN * float(np.hypot(*places.mean(axis=0))) + _UPWARDS * float(abs(places[:, 1]).mean())
+            if even:
+                whole += _UNEVEN * float(np.hypot(*places.mean(axis=0))) + _UPWARDS * float(abs(places[:, 1]).mean())
             if whole < least:
                 best, least = places, whole
     return best

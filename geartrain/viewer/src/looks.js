@@ -7,11 +7,11 @@ import { vector } from "./space.js";
 
 const GHOST = 0.14; // opacity of what is not highlighted
 const GLASS = 0.07; // of a plate or a pillar before the wheels
-const HIDDEN = 0.25; // of the wheels, behind a plate that then is of glass
+const HIDDEN = 0.15; // of the wheels, behind a plate that then is of glass
 const GLOSS = 0.75;
 
 export class Looks {
-  /** wheels   `WheelPart`s; `parts`, all else: {slot, body, at, dial, plate, cover, frame, bar} */
+  /** wheels   `WheelPart`s; `parts`, all else: {slot, body, at, dial, plate, cover, pane, bar} */
   constructor(scene, palette, wheels, parts, sight) {
     Object.assign(this, { scene, palette, wheels, parts, sight });
     this.chosen = null;
@@ -69,17 +69,11 @@ export class Looks {
     if (this.eye?.equals(eye)) return;
     this.eye = eye.clone();
     const towards = eye.clone().sub(middle);
-    const before = ({ cover, at, frame }) => (frame ? this.hides(at, cover, towards) : towards.dot(cover) * at.clone().sub(middle).dot(cover) > 0);
+    const before = ({ cover, at, pane }) => (pane ? this.sight.hidden(pane, eye) > HIDDEN : towards.dot(cover) * at.clone().sub(middle).dot(cover) > 0);
     const glass = this.parts.filter((part) => (part.cover && before(part)) || (part.bar && this.sight.isCovering(part.bar, eye)));
     if (this.glass?.length === glass.length && glass.every((part, n) => part === this.glass[n])) return;
     this.glass = glass;
     this.recolour();
-  }
-
-  hides(at, cover, towards) {
-    const { wheels } = this.scene;
-    const behind = wheels.filter(({ centre }) => towards.dot(cover) * vector(centre).sub(at).dot(cover) < 0);
-    return behind.length > HIDDEN * wheels.length;
   }
 
   isGlass(part) {

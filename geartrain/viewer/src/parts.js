@@ -5,7 +5,7 @@ import { ShapeUtils, Vector2 } from "three";
 import { PARTS } from "./colours.js";
 import { isOpened } from "./cutaway.js";
 import { Shape, swept } from "./shape.js";
-import { barOf } from "./sight.js";
+import { barOf, paneOf } from "./sight.js";
 import { along, frameAt, isParallel, offAxis, vector } from "./space.js";
 
 const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, pin: PARTS.pin };
@@ -14,7 +14,7 @@ const WALL = "wall"; // of a cup, which goes on from a thin wheel
 const ROUND = 84; // corners of what is as wide as a train
 const COVERS = ["frame", "carrier", "dial"];
 
-/** All of them: {body, colour, gloss, shape, matrix, at, kind, cover, bar}; `cover`, the way across of what stands before wheels or behind them, else null; `bar`, of pillars. */
+/** All of them: {body, colour, gloss, shape, matrix, at, kind, cover, pane, bar}; `cover`, the way across of what stands before wheels or behind them, else null; `pane`, of plates of the frame, `bar`, of pillars. */
 export function builtParts(scene, main) {
   return scene.parts.map((part) => {
     const { body, kind, place, direction, across } = part;
@@ -24,7 +24,7 @@ export function builtParts(scene, main) {
     const shape = flat ? flatShape(part) : turnedShape(part.bands, kind === WALL ? ROUND : 40);
     // what stands along the way layers move is stretched when they do
     const at = upright && !flat ? null : vector(place);
-    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, frame: kind === "frame", bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
+    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
   });
 }
 

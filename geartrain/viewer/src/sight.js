@@ -3,7 +3,7 @@
 import { Ray } from "three";
 
 import { discsOf, rimOf } from "./extent.js";
-import { across, vector } from "./space.js";
+import { across, frameAt, vector } from "./space.js";
 
 const ROUND = 8; // points of each circle
 const CIRCLES = [0.25, 0.6, 0.95]; // of a wheel from its middle, or the inside of a ring, to its rim
@@ -28,12 +28,26 @@ export function barOf({ place, direction, bands }) {
   return { from, to, radius: Math.max(...bands.map(([, , radius]) => radius)) };
 }
 
+/** A flat part as it is seen: its edge, as x and y by turns, in its own frame. */
+export const paneOf = ({ place, direction, across: x, outlines }) => ({ inverse: frameAt(place, direction, x).invert(), outline: outlines[0] });
+
+/** Whether an edge of x and y by turns goes round a point. */
+function isInside(outline, x, y) {
+  let inside = false;
+  for (let n = 0, before = outline.length - 2; n < outline.length; before = n, n += 2) {
+    const [x0, y0, x1, y1] = [outline[before], outline[before + 1], outline[n], outline[n + 1]];
+    if (y0 > y !== y1 > y && x < x0 + ((y - y0) / (y1 - y0)) * (x1 - x0)) inside = !inside;
+  }
+  return inside;
+}
+
 export class Sight {
   constructor(scene) {
     this.wheels = scene.wheels.map((wheel) => {
       const disc = { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), inner: wheel.kind === "ring" ? wheel.radius : 0 };
       return { ...disc, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
     });
+    this.points = this.wheels.flatMap(({ points }) => points);
     this.swept = scene.wheels.flatMap((wheel, n) => discsOf(scene, wheel).map((disc) => pointsOver({ ...disc, inner: this.wheels[n].inner })));
   }
 
@@ -46,6 +60,18 @@ export class Sight {
       return ray.distanceSqToSegment(from, to, on) < radius * radius && on.distanceToSquared(eye) < point.distanceToSquared(eye);
     };
     return this.swept.some((points) => points.filter(isBehind).length > COVERED * points.length);
+  }
+
+  /** The share of wheels, as they stand at the beginning, before which a flat part stands. */
+  hidden({ inverse, outline }, eye) {
+    const from = eye.clone().applyMatrix4(inverse);
+    const to = eye.clone();
+    const isBehind = (point) => {
+      to.copy(point).applyMatrix4(inverse);
+      const share = from.z / (from.z - to.z);
+      return share > 0 && share < 1 && isInside(outline, from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
+    };
+    return this.points.filter(isBehind).length / this.points.length;
   }
 
   /**

@@ -128,10 +128,10 @@ export class World {
     return crank;
   }
 
-  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, frame, bar, wall, opened }) {
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate, cover, pane, bar, wall, opened }) {
     const slot = this.palette.slot(colour, gloss, opened);
     this.castings[cover || bar ? 2 : 0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
-    this.parts.push({ slot, body, at, dial, plate, cover, frame, bar, wall, colour });
+    this.parts.push({ slot, body, at, dial, plate, cover, pane, bar, wall, colour });
   }
 
   adder(casting, { wheel: { body }, at }) {

@@ -41,7 +41,7 @@ def main() -> None:
 
 
 def turning() -> None:
-    """A worm and its wheel, whose four spokes stand as before after half its turn, as the crank does; left as it is without a browser."""
+    """A worm, whose wheel and crank stand as before after half a turn of the wheel; left as it is without a browser."""
     asked = ["--turns", "15", "--seconds", "10", "--fps", "10", "--size", "360x270", "--background", "white", "--force"]
     command = [sys.executable, "-m", "geartrain", "view", "worm", "-o", str(IMAGES / "turning.gif"), *asked]
     subprocess.run(command, check=False)

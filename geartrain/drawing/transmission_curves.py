@@ -28,6 +28,7 @@ _LABELS = (
     "sliding efficiency\n$\\eta$",
     "arms of the force\n$b_i$ over pitch radius",
 )
+_EFFICIENCY = 2  # its row
 _CURVES: tuple[tuple[str, Any], ...] = (("", "-"), ("driven ", (0, (1.5, 0.7))))  # the driven wheel's curve: dashed
 _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
 
@@ -49,7 +50,7 @@ def law_figure(law: TriangularTransmission, friction: PairFriction | None = None
     Returns
     -------
     matplotlib.figure.Figure
-        Four panels; angles in degrees.
+        Four panels, without friction three: nothing is lost then; angles in degrees.
 
     Raises
     ------
@@ -64,9 +65,11 @@ def law_figure(law: TriangularTransmission, friction: PairFriction | None = None
     ['driven angle', 'speed ratio', 'sliding efficiency', 'arms of the force']
     """
     require_contact(law)
-    figure = Figure(figsize=(WIDTH, 11.5), layout="constrained")
-    panels = figure.subplots(4, 1, sharex=True)
-    for row, axes in enumerate(panels):
+    rubs = law.friction > 0 if friction is None else True
+    rows = [row for row in range(len(_LABELS)) if rubs or row != _EFFICIENCY]
+    figure = Figure(figsize=(WIDTH, 1.5 + 2.5 * len(rows)), layout="constrained")
+    panels = figure.subplots(len(rows), 1, sharex=True)
+    for row, axes in zip(rows, panels, strict=True):
         _panel(axes, law, row, friction)
     _matching(panels, law)
     _jumps(panels[1], law)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ from geartrain.drawing.style import BLUE, GREY, RED, SMALL, WIDTH, headed
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics import MotionRun
+    from geartrain.dynamics import ErrorSamples, MotionRun
     from geartrain.numerics.arrays import Floats
 
 
@@ -76,13 +76,16 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     most = {trace.name for trace in sorted(erring, key=lambda trace: -float(np.ptp(trace.error)))[:_OUTPUTS]}
     traces = [trace for trace in erring if trace.name in most]
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
-    less, exact = len(erring) - len(traces), len(found) - len(erring)
-    rest = [
-        f"{less} outputs that err less are left out: name them with --output" if less else "",
-        f"{exact} without error {'is' if exact == 1 else 'are'} not drawn" if exact else "",
-    ]
-    headed(figure, "; ".join(filter(None, (title, *rest))))
-    return figure
+    left_out = _left_out(len(erring) - len(traces), len(found) - len(erring))
+    return headed(figure, "; ".join(filter(None, (title, *left_out))))
+
+
+def _left_out(less: int, exact: int) -> Iterator[str]:
+    """Words on outputs that are not drawn: so many err less than others, so many not at all."""
+    if less:
+        yield f"{less} outputs that err less are left out: name them with --output"
+    if exact:
+        yield f"{exact} without error {'is' if exact == 1 else 'are'} not drawn"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:
@@ -125,12 +128,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
     means = [tally.mean for tally in motion.tallies()]
     for passage in motion.passages(run.turns, run.samples):
         share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
-        if not firsts:
-            columns = zip(passage.error, passage.rate, means, strict=True)
-            firsts = [
-                (passage.turns[:_MOST], error[:_MOST], (mean + rate[:_MOST]) / (mean or 1.0))
-                for error, rate, mean in columns
-            ]
+        firsts = firsts or _first(passage, means)
         for at, part in enumerate(parts):
             kept = _kept(passage.error[at], means[at] + passage.rate[at], share)
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
@@ -142,6 +140,12 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
         angle = mean + error / (2 * np.pi)
         found.append(_Trace(tally.name, turns, angle, mean, error, (tally.mean + rate) / (tally.mean or 1.0), first))
     return found
+
+
+def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, Floats, Floats]]:
+    """Turns, error and speed of each output at the first positions, all of them."""
+    columns = zip(passage.error[:, :_MOST], passage.rate[:, :_MOST], means, strict=True)
+    return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
 
 def _kept(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:

@@ -49,16 +49,19 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
 
     best, least = wheel.at, -wheel.root
     away = wheel.root - _RADIUS - _EDGE
-    while away > 0:
-        for way in range(_WAYS):
-            turn = 2 * pi * way / _WAYS
-            at = wheel.at[0] + away * cos(turn), wheel.at[1] + away * sin(turn)
-            if (free := room(at)) > least:
-                best, least = at, free
-        if least >= _ENOUGH - APART:
-            break
+    while away > 0 and least < _ENOUGH - APART:
+        at = max(_round(wheel.at, away), key=room)
+        if room(at) > least:
+            best, least = at, room(at)
         away -= _STEP
     return best
+
+
+def _round(centre: Point, radius: float) -> Iterator[Point]:
+    """Points on a circle."""
+    for way in range(_WAYS):
+        turn = 2 * pi * way / _WAYS
+        yield centre[0] + radius * cos(turn), centre[1] + radius * sin(turn)
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:

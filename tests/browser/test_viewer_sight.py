@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import io
 from base64 import b64decode
+from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 from PIL import Image
+from viewing import Opening, tab
 
 if TYPE_CHECKING:
     from conftest import Asked
@@ -86,3 +88,24 @@ def test_others_open_slantwise_from_the_front(asked: Asked, name: str) -> None:
     x, y, z = (each / hypot(*USUAL) for each in USUAL)
     front = asked(name).run("geartrain.scenes[0].front")
     assert asked(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
+
+
+def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on_one_line(show: Opening) -> None:
+    shown = show("prague-orloj", viewport={"width": 390, "height": 844})
+    shown.page.get_by_role("button", name="Open panels").click()
+    tab(shown, "Sky")
+    top = shown.run("document.querySelector('canvas').getBoundingClientRect().top")
+    panel = shown.run("document.querySelector('.panel').getBoundingClientRect().top")
+    assert -2 <= top <= 2
+    assert panel > 200
+    # where the text of each cell of a row stands: [top, bottom], and left and right
+    cells = shown.run("""[...document.querySelectorAll('.sky tbody tr')].map((row) => [...row.cells].map((cell) => {
+      const range = document.createRange();
+      range.selectNodeContents(document.createTreeWalker(cell, NodeFilter.SHOW_TEXT).nextNode());
+      const {top, left, right} = range.getClientRects()[0];
+      return [top, left, right];
+    }))""")
+    assert len(cells) == 4
+    for row in cells:
+        assert max(top for top, _, _ in row) - min(top for top, _, _ in row) < 1.5
+        assert all(after[1] - before[2] > 2 for before, after in pairwise(row[1:]))

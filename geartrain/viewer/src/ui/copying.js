@@ -23,7 +23,7 @@ export function copyable(text, say) {
   const button = el(
     "button",
     { type: "button", class: "copy", title: `Copy ${text}`, "aria-label": `${text}, copy` },
-    shown(text),
+    shown(text).split(/(?<=\/)/).flatMap((part) => [part, el("wbr")]), // a fraction breaks at its line
   );
   button.addEventListener("click", async (event) => {
     event.stopPropagation();

@@ -45,9 +45,11 @@ export class Panel {
     );
   }
 
-  /** Opens or closes the sheet; where there is room the panels always stand open. */
+  /** Opens or closes the sheet, above which the picture then stands; where there is room the panels always stand open. */
   open(on) {
+    const opened = on && this.grip.offsetParent && !this.node.classList.contains("open");
     this.node.classList.toggle("open", on);
+    if (opened) document.querySelector(".views")?.scrollIntoView();
     this.grip.setAttribute("aria-expanded", String(on));
     this.grip.textContent = on ? "Close panels" : "Open panels";
     if (on && this.outputs) this.set(true);

@@ -25,7 +25,7 @@ export function signed(turns) {
   const value = Number(turns) * 360;
   if (!value) return "0\u00b0";
   const size = Math.abs(value);
-  const text = size < 0.0005 || size >= 1e6 ? size.toExponential(2) : size < 100 ? size.toFixed(3) : size < 1000 ? size.toFixed(2) : size.toFixed(0);
+  const text = size < 5e-5 || size >= 1e6 ? size.toExponential(1) : size < 5e-4 ? size.toFixed(4) : size < 100 ? size.toFixed(3) : size < 1000 ? size.toFixed(2) : size.toFixed(0);
   return `${value < 0 ? "\u2212" : "+"}${text}\u00b0`;
 }
 

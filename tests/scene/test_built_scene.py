@@ -197,3 +197,13 @@ def test_a_clock_has_its_pendulum_and_its_weight_in_true_size() -> None:
     assert (barrel.bands[0][2], barrel.body) == (12.7, weight.body)
     assert "collet of g96" not in parts, "the barrel is fixed to its wheel"
     assert build_scene(shipped.train("watch-going-train")).hangers == ()
+
+
+def test_the_cage_of_a_ball_does_not_go_round_through_plates_of_the_frame() -> None:
+    """The Moon's own wheel is behind both plates, and the pinion of its phase before them."""
+    scene = build_scene(shipped.train("freeth-2021"))
+    (post,) = (part for part in scene.parts if part.name == "ph1 cage post")
+    assert {round(part.direction[2]) for part in (post, *of_kind(scene, "frame"))} == {1}
+    low, high = (post.place[2] + end for end in (post.bands[0][0], post.bands[-1][1]))
+    for plate in of_kind(scene, "frame"):
+        assert high < plate.place[2] - plate.height / 2 or plate.place[2] + plate.height / 2 < low

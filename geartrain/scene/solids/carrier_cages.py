@@ -1,7 +1,8 @@
 """Cages: what a carrier holds axes with that lie at an angle to its own, as those of the pinions of a differential.
 
 An eye bears the outer end of the pinion's arbor. A post leads from it along the carrier's axis: to a wheel of the
-carrier that reaches so far out, else to an arm beyond all wheels, which reaches in to the carrier's axis.
+carrier that reaches so far out, else to an arm beyond all wheels which reaches in to the carrier's axis; to one beside
+the pinion where a plate of the frame stands before the wheel.
 """
 
 from __future__ import annotations
@@ -88,7 +89,10 @@ class _Holder:
         aside = eye.place - on_axis(self.carrier, height)
         away = float(np.hypot(*self._flat(aside)))
         seat = self._own_wheel(height, away)
-        level = self._level(height, away - post) if seat is None else seat
+        if seat is not None and self._is_behind_a_plate(height, seat):
+            seat, level = None, self._beside(height)
+        else:
+            level = self._level(height, away - post) if seat is None else seat
         start = height + (radius + LAND / 2) * (1 if level > height else -1)
         low, high = sorted((start, level))
         parts = [eye, self._post(eye.place - height * self.along, low, high, post)]
@@ -130,6 +134,25 @@ class _Holder:
         """The nearest middle plane of the carrier's wheels that reach out to a post."""
         own = [self.height(wheel.centre) for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away]
         return min(own, key=lambda each: abs(each - height), default=None)
+
+    def _is_behind_a_plate(self, height: float, seat: float) -> bool:
+        """True if a plate of the frame stands between two heights."""
+        stack, places = self.plan.stack, self.plan.places
+        if stack.normal is None or abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
+            return False
+        low, high = sorted((height, seat))
+        plates = (self.height(stack.in_space((0.0, 0.0), sum(faces) / 2)) for faces in (places.back, places.front))
+        return any(low < each < high for each in plates)
+
+    def _beside(self, height: float) -> float:
+        """The middle of an arm next to the pinion, where the fewest wheels of the carrier's axis are in its way."""
+        reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
+
+        def hit(level: float) -> int:
+            wheels = list(self._coaxial())
+            return sum(abs(self.height(each.centre) - level) < (each.thickness + _ARM) / 2 for each in wheels)
+
+        return min((height + reach, height - reach), key=hit)
 
     def _coaxial(self) -> Iterator[SceneWheel]:
         """Wheels about the carrier's axis."""

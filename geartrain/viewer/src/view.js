@@ -161,15 +161,21 @@ export class Stage {
     return vector([x * front, y, z * front]).normalize();
   }
 
-  /** From where a reader sees a train first: slantwise from the front, or from where wheels are seen better. */
+  /** From where a reader sees a train first: slantwise from the front, or from where wheels are seen better. Found once for a picture of one shape. */
   opening() {
-    const usual = this.towards(LOOKS.free);
+    const { aspect } = this.camera;
+    if (this.found?.aspect !== aspect) this.found = { aspect, towards: this.bestOf(OTHERS.map((way) => this.towards(way)), this.towards(LOOKS.free)) };
+    return this.found.towards;
+  }
+
+  /** The usual way to look, unless from another wheels are seen much better. */
+  bestOf(others, usual) {
     if (this.machine.scene.dials.length) return usual; // they are read from there
     const seen = (towards) => {
       const { target, distance } = this.framed(towards);
       return this.world.sight.seen(target.addScaledVector(towards, distance));
     };
-    const ways = OTHERS.map((way) => this.towards(way)).map((towards) => ({ towards, share: seen(towards) }));
+    const ways = others.map((towards) => ({ towards, share: seen(towards) }));
     const best = Math.max(...ways.map(({ share }) => share));
     return best > BETTER * seen(usual) ? ways.find(({ share }) => share > NEARLY * best).towards : usual;
   }

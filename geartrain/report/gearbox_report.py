@@ -53,6 +53,8 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     names = [each.name for each in found.elements]
     header = ("state", *names, "verdict", "ratio", "step", "efficiency", "recirculating", "inside")
     lines = [f"From '{found.input}' to '{found.output}'. x marks a closed clutch or brake.", _RATIOS]
+    if all(each.efficiency in (None, 1) for each in found.states):
+        lines.append("No losses are declared: every efficiency is 1.")
     if found.spread is not None:
         lines.append(f"Overall spread of the forward states: {figure(found.spread, _DIGITS)}.")
     double = [f"{each.before} to {each.after}" for each in found.shifts if each.is_double]

@@ -160,6 +160,11 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
     if declared.note:
         yield declared.note
+    if train.bookkeeping:
+        yield (
+            "A sum of joint speeds is of a link whose axis is carried round at an angle: its speeds about all of its "
+            "joints added up, no rotation about one axis."
+        )
 
 
 def source_line(key: str, source: Source) -> str:

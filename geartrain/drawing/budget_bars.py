@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
 MOST = 8
 """Pointers in a picture: the worst, by the sum of their causes."""
-_ROOM = 0.055  # share of a bar below which its size is not written in it
+_ROOM, _NAMED = 0.055, 0.2  # shares of a bar from which on its size, and its cause too, are written in it
 
 
 def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
@@ -99,7 +99,8 @@ def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
             at, share, left=left, height=0.66, color=COLOURS[cause.name], hatch=hatch, edgecolor="white", gid=cause.name
         )
         if share > _ROOM:
-            write(axes, left + share / 2, at, f"{_size(cause.degrees or 0.0, 2)}°")
+            name = f"{cause.name} " if share > _NAMED else ""  # in print two causes share a grey
+            write(axes, left + share / 2, at, f"{name}{_size(cause.degrees or 0.0, 2)}°")
         left += share
     missing = ", ".join(cause.name for cause in pointer.undeclared)
     beside = f"sum {_size(pointer.total, 3)}°" + (f"\nnot declared: {missing}" if missing else "")

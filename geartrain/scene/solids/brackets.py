@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import dist
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -80,10 +81,32 @@ def _brackets(
     middle = np.mean([plan.stack.in_space(column.at) for column in plan.columns], axis=0)
     centre = float((middle - np.array(body.point)) @ np.array(body.direction))
     low, high = ends
-    if high > centre - _FLAT:
-        yield _bracket(scene, plan, sides, at, high + GAP, 1, radius)
-    if low < centre + _FLAT:
-        yield _bracket(scene, plan, sides, at, low - GAP, -1, radius)
+    faces = {1: high + GAP, -1: low - GAP}
+    ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
+    if len(ways) == 1:  # on the inner side, unless wheels are in its way there
+        ways = [min(ways[0], -ways[0], key=lambda way: _in_the_way(plan, body, faces[way], way, sides)[0])]
+    for way in ways:
+        yield _bracket(scene, plan, sides, at, faces[way], way, radius)
+
+
+def _in_the_way(
+    plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
+) -> tuple[int, float, str]:
+    """How many wheels stand before the plate to which a bracket goes best, how far it is (mm), and which it is."""
+    place, stack = _middle(plan, body, face, way), plan.stack
+    height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
+
+    def cost(side: str) -> tuple[int, float, str]:
+        low, high = sorted((height, sum(sides[side]) / 2))
+        wheels = [swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high]
+        return sum(dist(foot, middle) < reach for middle, reach in wheels), high - low, side
+
+    return min(map(cost, sides), key=lambda each: each[:2])
+
+
+def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
+    """Of a bracket, on the axis that it bears."""
+    return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
 
 
 def _bracket(
@@ -97,18 +120,9 @@ def _bracket(
 ) -> Bracket:
     """At one end of an arbor, on the plate that is nearest of those with the fewest wheels before them."""
     body, stack = scene.bodies[at], plan.stack
-    place = np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
-    normal = np.array(stack.normal)
+    place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
-
-    def cost(side: str) -> tuple[int, float]:
-        middle = sum(sides[side]) / 2
-        low, high = sorted((height, middle))
-        wheels = [disc for disc in plan.discs if disc.low < high and low < disc.high]
-        hit = sum(float(np.hypot(*np.subtract(foot, swept_circle(disc)[0]))) < swept_circle(disc)[1] for disc in wheels)
-        return hit, high - low
-
-    side = min(sides, key=cost)
+    _, _, side = _in_the_way(plan, body, face, way, sides)
     away = max(sides[side], key=lambda each: abs(each - height)) - height
     down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
     hole = Contour.circle(radius + plan.process.running / 2)

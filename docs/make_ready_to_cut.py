@@ -33,10 +33,6 @@ Seen in the pictures of its steps: one spur wheel stands between two lanterns of
 right for the one is not for the other. Millwrights gave both stones the same lantern. The bracket of the
 water wheel's shaft, beside the pit wheel, comes too near to the wallower.
 """,
-    "voulgaris-2024-a": """
-The front plate reaches out to the bracket of 't', and the wheel t1 stands just before that bracket: the plate needs a
-window there, which is not cut.
-""",
     "freeth-2021": """
 Seen in the pictures of its steps: the fixed wheels 49, 51 and 56 stand on a fixed pipe round the Moon's arbor, from a
 plate of the frame through the tube of b; before them b goes out to its dial by an arm, which a bar beside the axis

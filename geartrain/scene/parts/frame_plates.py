@@ -16,6 +16,7 @@ from geartrain.scene.parts.eccentrics import Eccentric, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.pin_circles import StandingPins
+from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
 from geartrain.scene.parts.ring_posts import TENON, blocked_posts, nearer_plate, ring_posts
 from geartrain.scene.parts.sleeves import sleeves
 from geartrain.scene.parts.stack_discs import Point, StackDisc, swept_circle
@@ -55,6 +56,8 @@ class FlatPlate:
         Its faces along the normal [mm].
     at : tuple of float
         What its own coordinates are counted from [mm].
+    windows : tuple of Contour
+        For wheels across that go through it [mm].
     """
 
     link: str
@@ -64,6 +67,7 @@ class FlatPlate:
     low: float
     high: float
     at: Point = (0.0, 0.0)
+    windows: tuple[Contour, ...] = ()
 
     @property
     def contours(self) -> tuple[Contour, ...]:
@@ -71,7 +75,8 @@ class FlatPlate:
         x, y = self.at
         edge = Contour(self.outline.points - np.array(self.at), self.outline.bulges)
         circles = (Contour.circle(each.diameter / 2, (each.at[0] - x, each.at[1] - y)) for each in self.holes)
-        return edge, *circles
+        windows = (Contour(each.points - np.array(self.at), each.bulges) for each in self.windows)
+        return edge, *circles, *windows
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
@@ -128,6 +133,12 @@ class FramePlates:
         stack = replace(self.plan.stack, layout=self.plan.layout)
         return [circle for wheel in stack.across if wheel.is_between(low, high) for circle in wheel.circles]
 
+    def _passages(self, faces: tuple[float, float]) -> Iterator[Passage]:
+        """Ways of wheels across through a plate."""
+        for wheel in replace(self.plan.stack, layout=self.plan.layout).across:
+            if (passage := wheel.passage(faces)) is not None:
+                yield passage
+
     @cached_property
     def pillars(self) -> list[Point]:
         """Middles of the pillars."""
@@ -157,8 +168,11 @@ class FramePlates:
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
             points = [*self.pillars, *(hole.at for hole in holes), *self.tabs.get(side, ())]
-            edge = around(points, self.pillar + _LAND)
-            yield FlatPlate(self.plan.stack.frame, f"{self.plan.stack.frame} {side} plate", edge, holes, *faces)
+            circles = [(hole.at, hole.diameter / 2) for hole in holes]
+            passages = clear_passages(self._passages(faces), circles)
+            edge, windows = with_passages(around(points, self.pillar + _LAND), passages)
+            name = f"{self.plan.stack.frame} {side} plate"
+            yield FlatPlate(self.plan.stack.frame, name, edge, holes, *faces, windows=windows)
         if self.plan.bridge is not None:
             holes = tuple(self._frame_holes(self.plan.bridge))
             edge = around([hole.at for hole in holes], self.pillar + _LAND)

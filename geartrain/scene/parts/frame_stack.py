@@ -20,6 +20,7 @@ from geartrain.scene.parts.carried_axes import CarriedAxis
 from geartrain.scene.parts.eccentrics import ROOM, Eccentric, on_eccentrics
 from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.pin_circles import PinCircle
+from geartrain.scene.parts.plate_passages import Passage
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
 from geartrain.scene.parts.stack_eccentrics import StackEccentrics, find_cups, find_pin_circles
 from geartrain.scene.solids.bearing_plates import basis
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 _SAME = 1e-6  # mm
+_UPRIGHT = 1e-9  # of a cosine: of an axis at right angles to the normal
+_PASS = 0.4  # mm of air round a wheel that goes through a plate
 _PARALLEL = 1e-9  # of a cosine
 _STANDARD = 1.25  # modules: depth of teeth that are not cut flat
 _RIM = 2.0  # modules round the teeth of a ring that is not
@@ -38,12 +41,27 @@ _RIM = 2.0  # modules round the teeth of a ring that is not
 
 @dataclass(frozen=True, slots=True)
 class AcrossWheel:
-    """A wheel about an axis that does not stand upright: between which heights it reaches, and circles that hold it."""
+    """A wheel about an axis that does not stand upright: between which heights it reaches, and circles that hold it.
+
+    section   of one that the frame bears at right angles to the normal: its middle across the stack, the way of its
+              axis there, its height, how far it reaches, and half its thickness (mm)
+    """
 
     name: str
     low: float
     high: float
     circles: tuple[tuple[Point, float], ...]
+    section: tuple[Point, Point, float, float, float] | None = None
+
+    def passage(self, faces: tuple[float, float]) -> Passage | None:
+        """Its way through a plate, if it goes into one."""
+        if self.section is None:
+            return None
+        (x, y), (u, v), height, reach, half = self.section
+        near = max(faces[0] - height, height - faces[1], 0.0)
+        if near >= reach:
+            return None
+        return Passage((x, y), (-v, u), sqrt((reach + _PASS) ** 2 - near**2), half + _PASS)
 
     def is_between(self, low: float, high: float) -> bool:
         """True if some of it stands between two heights."""
@@ -233,7 +251,10 @@ class FrameStack:
             return AcrossWheel(place.wheel, low, high, (((x, y), outer),))
         count = max(1, ceil(outer / thick))
         steps = [outer * k / count / flat for k in range(-count, count + 1)]
-        return AcrossWheel(place.wheel, low, high, tuple(((x - v * step, y + u * step), thick) for step in steps))
+        circles = tuple(((x - v * step, y + u * step), thick) for step in steps)
+        upright = abs(along) < _UPRIGHT and self.train.declaration.wheels[place.wheel][1].kind != "worm"
+        section = ((x, y), (u, v), height, outer, place.thickness / 2) if upright else None
+        return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
         """The layout with what stands at each height moved along the normal, wheels of axes across with their mates."""

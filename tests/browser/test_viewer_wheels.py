@@ -129,9 +129,9 @@ def test_a_disc_has_holes_for_its_pins_in_place_of_arms(show: Opening) -> None:
 # of a train with one wave, after some turns: corners of the wheel's teeth, and of the wall of its cup, about its axis
 BENT = """((turns) => {
   const { world } = geartrain.stages[0];
+  if (turns !== null) geartrain.setTurns(turns);
   if (!world.cut) world.castTeeth();
-  geartrain.setTurns(turns);
-  world.turn();
+  if (turns !== null) world.turn();
   const corners = (casting, slot) => {
     const { first, last } = casting.parts.find((part) => part.slot === slot);
     return [...casting.geometry.attributes.position.array.slice(3 * first, 3 * last)];
@@ -145,6 +145,9 @@ BENT = """((turns) => {
 def test_a_thin_wheel_is_bent_where_its_wave_stands_and_its_cup_is_round_at_the_bottom(show: Opening) -> None:
     """After an eighth of a turn the lobes are at 45 degrees, and the wheel itself has gone back by 0.45 degrees."""
     shown = show("strain-wave")
+    standing = np.array(shown.run(f"{BENT}(null)")[0]).reshape(-1, 3)
+    assert np.abs(standing[:, 0]).max() == pytest.approx(101.7, abs=0.01), "before it has been turned"
+    assert np.abs(standing[:, 1]).max() == pytest.approx(99.7, abs=0.01)
     teeth, wall = (np.array(each).reshape(-1, 3) for each in shown.run(f"{BENT}('1/8')"))
     tips = np.hypot(*teeth[:, :2].T)
     at = np.degrees(np.arctan2(teeth[:, 1], teeth[:, 0])) % 180

@@ -143,6 +143,7 @@ export class World {
     const many = this.scene.wheels.reduce((sum, { teeth }) => sum + teeth, 0);
     for (const part of this.wheels) part.castTeeth(this.adder(this.castings[1], part), many);
     this.root.add(...this.castings[1].cast(this.materials));
+    this.bend();
     this.cut = true;
   }
 
@@ -151,8 +152,13 @@ export class World {
     const { value } = this.uniforms.poses;
     this.poses.turn(value.image.data);
     value.needsUpdate = true;
-    for (const bend of this.bends) bend.turn(this.castings);
+    this.bend();
     this.sparks?.set(this.machine.time());
+  }
+
+  /** Thin wheels as their waves stand now. */
+  bend() {
+    for (const bend of this.bends) bend.turn(this.castings);
   }
 
   /** With a quarter of rings, drums and plates cut out, or whole. */

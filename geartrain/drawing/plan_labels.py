@@ -76,7 +76,8 @@ class PlanNames:
         found = []
         for wheel, box in written:
             moved = room.place(self._on_face(order[wheel.id]))
-            room.take(box) if moved is None else None
+            if moved is None:
+                room.take(box)
             found.append((wheel, moved or box))
         return found
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from geartrain.export.assembly_steps import AssemblyStep, assembly_steps
 from geartrain.scene.palette import THEMES, series_colour
-from geartrain.scene.solids.hangers import HUNG
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -36,7 +35,7 @@ def picture_path(number: int) -> str:
 def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
     """Path, title and maker of the picture of every step by which parts come in."""
     steps = assembly_steps(work)
-    pictures = AssemblyPictures(work) if steps else None
+    pictures = AssemblyPictures(work, steps) if steps else None
     before: dict[str, None] = {}
     for number, step in enumerate(steps, 1):
         if pictures is not None and step.parts and step.shown:
@@ -48,10 +47,11 @@ def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byt
 class AssemblyPictures:
     """Pictures of one train in the coordinates of its stack (mm)."""
 
-    def __init__(self, work: SolidModel) -> None:
+    def __init__(self, work: SolidModel, steps: Sequence[AssemblyStep]) -> None:
         assert work.frame is not None
         self.stack = work.frame.plan.stack
-        self.parts = {part.name: part for part in work.parts if part.kind not in HUNG}
+        shown = {name for step in steps if step.shown for name in step.parts}
+        self.parts = {part.name: part for part in work.parts if part.name in shown}
 
     @cached_property
     def boxes(self) -> dict[str, Floats]:

@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_part import SolidPart
     from geartrain.train import Wheel
 
-_STEEL = ("arbor", "stud", "pin", "eccentric", "cock")
-_HANGING = {"pendulum rod": "steel", "weight": "lead"}
+_STEEL = ("arbor", "stud", "pin", "eccentric", "cock", "rod")
 _STOCK = {"laser": "acrylic", "fdm": "PLA"}  # of flat parts; brass for any other process
 _SAME = 4  # decimals of a mm to which parts are alike
 
@@ -32,7 +31,7 @@ class ListedPart:
         Of all of them.
     kind : str
         wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock, pin,
-        pendulum or weight.
+        rod, bob or weight.
     material : str
         What its mass is reckoned with.
     size : str
@@ -81,8 +80,8 @@ def _material(work: SolidModel, part: SolidPart) -> str:
         return own
     if part.kind in _STEEL:
         return "steel"
-    if part.name in _HANGING:
-        return _HANGING[part.name]
+    if part.kind == "weight":
+        return "lead"
     return _STOCK.get(work.process.name, "brass") if part.turned is None else "brass"
 
 

@@ -67,6 +67,8 @@ class SceneHanger:
         Of a pendulum swings to and fro in a turn of its body; else how far a weight falls for each radian [mm].
     wide : float
         Radius of the bob, the weight or the line [mm].
+    parts : sequence of ScenePart
+        What is turned for it, where it hangs in the zero pose: rod and bob, or the weight.
 
     See Also
     --------
@@ -81,3 +83,4 @@ class SceneHanger:
     length: float
     rate: float
     wide: float
+    parts: Sequence[ScenePart] = ()

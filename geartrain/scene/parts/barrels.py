@@ -45,7 +45,7 @@ def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None
-    own = [(column, each) for column in plan.columns for each in column.members if each.link == link]
+    own = plan.members_of(link)
     if link is None or not own or not own[0][1].discs:
         return None
     column, member = own[0]

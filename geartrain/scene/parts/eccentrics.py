@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import cos, dist, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,9 +19,6 @@ from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.wave_tooth import bent_line
-
-if TYPE_CHECKING:
-    pass
 
 WALL = 1.5  # mm of an eccentric beside its arbor at least, and of a wheel beside a hole
 USUAL_ARBOR = 6.0

@@ -206,6 +206,10 @@ class FramePlan:
         bridged = (axis.bridged(self.bridge) for axis in self._built_axes(self.bridge))
         return tuple(other if one.hit and not other.hit else one for one, other in zip(found, bridged, strict=True))
 
+    def members_of(self, link: str | None) -> list[tuple[AxisColumn, ColumnMember]]:
+        """Arbors and pipes of a link on axes of the frame, each with its axis."""
+        return [(column, each) for column in self.columns for each in column.members if each.link == link]
+
     @cached_property
     def bridge(self) -> tuple[float, float] | None:
         """Faces of a plate beyond all wheels on one side, if it bears an axis that the plates of the frame cannot."""

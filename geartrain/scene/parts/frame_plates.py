@@ -14,6 +14,7 @@ from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnM
 from geartrain.scene.parts.barrels import Barrel
 from geartrain.scene.parts.eccentrics import Eccentric, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
+from geartrain.scene.parts.frame_stack import AcrossWheel
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.pin_circles import StandingPins
 from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
@@ -72,11 +73,9 @@ class FlatPlate:
     @property
     def contours(self) -> tuple[Contour, ...]:
         """Its edge and its holes, counted from `at`."""
-        x, y = self.at
-        edge = Contour(self.outline.points - np.array(self.at), self.outline.bulges)
-        circles = (Contour.circle(each.diameter / 2, (each.at[0] - x, each.at[1] - y)) for each in self.holes)
-        windows = (Contour(each.points - np.array(self.at), each.bulges) for each in self.windows)
-        return edge, *circles, *windows
+        circles = (Contour.circle(each.diameter / 2, each.at) for each in self.holes)
+        every = (self.outline, *circles, *self.windows)
+        return tuple(Contour(each.points - np.array(self.at), each.bulges) for each in every)
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
@@ -128,16 +127,18 @@ class FramePlates:
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
+    @cached_property
+    def _wheels_across(self) -> tuple[AcrossWheel, ...]:
+        """Wheels that do not stand upright, where they are once there are plates."""
+        return replace(self.plan.stack, layout=self.plan.layout).across
+
     def _across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """The same of wheels that do not stand upright."""
-        stack = replace(self.plan.stack, layout=self.plan.layout)
-        return [circle for wheel in stack.across if wheel.is_between(low, high) for circle in wheel.circles]
+        """Circles that hold those of them that stand between two heights."""
+        return [circle for wheel in self._wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     def _passages(self, faces: tuple[float, float]) -> Iterator[Passage]:
-        """Ways of wheels across through a plate."""
-        for wheel in replace(self.plan.stack, layout=self.plan.layout).across:
-            if (passage := wheel.passage(faces)) is not None:
-                yield passage
+        """Their ways through a plate."""
+        return filter(None, (wheel.passage(faces) for wheel in self._wheels_across))
 
     @cached_property
     def pillars(self) -> list[Point]:

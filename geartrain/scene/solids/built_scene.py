@@ -10,10 +10,11 @@ import numpy as np
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.vectors import Vector, dot, minus
-from geartrain.scene.built_elements import ScenePart
+from geartrain.scene.built_elements import SceneHanger, ScenePart
 from geartrain.scene.construction import make_scene
 from geartrain.scene.dial_pointers import with_balls
 from geartrain.scene.parts.frame_plan import FramePlan
+from geartrain.scene.solids.hangers import HangingParts, hanging_solids
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.solid_assembly import SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
@@ -82,7 +83,13 @@ def build_scene(
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     wheels = tuple(_opened(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
-    return found if model.hanging is None else replace(found, hangers=model.hanging.found())
+    return found if model.hanging is None else replace(found, hangers=tuple(_hanging(model, model.hanging)))
+
+
+def _hanging(model: SolidModel, hanging: HangingParts) -> Iterator[SceneHanger]:
+    """What hangs, with its parts."""
+    for each in hanging.found():
+        yield replace(each, parts=tuple(_told(part, model) for part in hanging_solids(each, hanging.frame)))
 
 
 def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
@@ -167,9 +174,7 @@ def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: F
     face = None if pointer.dial is None else dials[pointer.dial]
     if face is None or not face.plate:
         return pointer
-    link = scene.bodies[pointer.body].id
-    own = [(column, each) for column in plan.columns for each in column.members if each.link == link]
-    for column, member in own:
+    for column, member in plan.members_of(scene.bodies[pointer.body].id):
         ends = [
             dot(minus(plan.stack.in_space(column.at, end), face.centre), face.normal)
             for end in (member.low, member.high)

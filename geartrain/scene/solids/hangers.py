@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -24,11 +24,9 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import Scene
     from geartrain.train import Train
 
-HUNG = "pendulum", "weight"
-"""Kinds of parts that hang below all others."""
-_BOB, THICK = 0.05, 0.25  # a bob's radius over the pendulum's length, and half its thickness over its radius
-ROD = 0.04  # a pendulum's rod: its radius over the bob's
-TALL = 4.0  # height of a weight over its radius
+_BOB, _THICK = 0.05, 0.25  # a bob's radius over the pendulum's length, and half its thickness over its radius
+_ROD = 0.04  # a pendulum's rod: its radius over the bob's
+_TALL = 4.0  # height of a weight over its radius
 _ANCHOR = sqrt(2)  # of the escape wheel's radius: where an anchor over a quarter of it turns
 _COCK = 2.0  # mm: radius of what bears a pendulum
 _AWAY = 2.0  # mm between the frame and a bob
@@ -47,6 +45,11 @@ class HangingParts:
     def found(self) -> tuple[SceneHanger, ...]:
         """The pendulum, then the line and the weight."""
         return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
+
+    @property
+    def frame(self) -> int:
+        """Index of the body of the frame."""
+        return next(at for at, body in enumerate(self.scene.bodies) if body.id == self.plan.stack.frame)
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
@@ -72,7 +75,7 @@ class HangingParts:
             return None
         length, down = 1000 * escapement.pendulum.si, self.front[1]
         bob = _BOB * length
-        behind = self._side * (_AWAY + THICK * bob) + self._last
+        behind = self._side * (_AWAY + _THICK * bob) + self._last
         above = plus(body.point, down, -_ANCHOR * wheel.radius)
         point = plus(above, normal, behind - dot(above, normal))
         return SceneHanger("pendulum", index, point, body.direction, down, length, escapement.teeth, bob)
@@ -119,26 +122,26 @@ class HangingParts:
         side = plus(middle, cross(down, body.direction), rate)
         lead = material_named(self.declared, "lead").density
         assert lead is not None
-        radius = 1000 * (drive.weight.si / lead.si / (pi * TALL)) ** (1 / 3)
+        radius = 1000 * (drive.weight.si / lead.si / (pi * _TALL)) ** (1 / 3)
         yield SceneHanger("line", crank, side, body.direction, down, _START, rate, _LINE)
         yield SceneHanger("weight", crank, side, body.direction, down, _START, rate, radius)
 
 
-def hanging_solids(hangers: Sequence[SceneHanger], frame: int) -> Iterator[SolidPart]:
-    """The same as turned parts that hang still, with the frame (its index); lines are bought."""
-    for each in hangers:
-        end = plus(each.point, each.down, each.length)
-        if each.kind == "pendulum":
-            rod, thick = Band(_COCK, each.length - each.wide, ROD * each.wide), THICK * each.wide
-            yield _turned(frame, "pendulum rod", (each.point, each.down, each.direction), rod)
-            yield _turned(frame, "pendulum bob", (end, each.direction, each.down), Band(-thick, thick, each.wide))
-        elif each.kind == "weight":
-            yield _turned(frame, "weight", (end, each.down, each.direction), Band(0.0, TALL * each.wide, each.wide))
+def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
+    """The turned parts of what hangs, which hang still with the frame (its index); a line is bought."""
+    end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
+    if hanger.kind == "pendulum":
+        rod = Band(_COCK, hanger.length - wide, _ROD * wide)
+        yield _turned(frame, "pendulum rod", (hanger.point, hanger.down, hanger.direction), rod)
+        bob = Band(-_THICK * wide, _THICK * wide, wide)
+        yield _turned(frame, "pendulum bob", (end, hanger.direction, hanger.down), bob)
+    elif hanger.kind == "weight":
+        yield _turned(frame, "weight", (end, hanger.down, hanger.direction), Band(0.0, _TALL * wide, wide))
 
 
 def _turned(frame: int, name: str, place: tuple[Vector, Vector, Vector], band: Band) -> SolidPart:
     at, z, x = place
     turn = np.column_stack([x, cross(z, x), z])
-    kind = name.split()[0]
+    kind = name.split()[-1]
     part = TurnedPart("", name, kind, (0.0, 0.0), (band,))
     return SolidPart(frame, name, kind, turn, np.array(at), turned=part)

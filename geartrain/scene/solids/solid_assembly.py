@@ -247,9 +247,9 @@ class _Parts:
         yield from CouplingParts(self.scene, work.cut_couplings, work.blanks.wheels, work.process).parts()
 
     def hanging(self) -> Iterator[SolidPart]:
-        if self.work.hanging is not None and self.work.plan is not None:
-            frame = self.bodies[self.work.plan.stack.frame]
-            yield from hanging_solids(self.work.hanging.found(), frame)
+        if (hanging := self.work.hanging) is not None:
+            for each in hanging.found():
+                yield from hanging_solids(each, hanging.frame)
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
         """By its flat shape where it has one."""

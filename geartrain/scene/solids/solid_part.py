@@ -31,7 +31,7 @@ class SolidPart:
         Of the wheel, or what it belongs to.
     kind : str
         wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
-        pin, pendulum or weight.
+        pin, rod, bob or weight.
     turn, place : array of float, (3, 3) and (3,)
         Rotation and shift [mm] that put it into the zero pose.
     status : str

@@ -4,6 +4,7 @@ import { Matrix4 } from "three";
 
 import { armBetween } from "./arbors.js";
 import { HANDLE, PARTS } from "./colours.js";
+import { colourOf, ROUND, turnedShape } from "./parts.js";
 import { ball, band, bar, plate, roundEnded, Shape, swept } from "./shape.js";
 import { along, across, frameAt, onAxis, vector } from "./space.js";
 
@@ -80,15 +81,9 @@ export function crankOf(scene, index, end, side, reach, size) {
   return { body: index, at, end: onAxis(body, end + 2 * out), knob, touch: 0.06 * size, reach, parts };
 }
 
-/** A pendulum, the line of a weight, or the weight: {colour, shape, matrix, at}. */
-export function hangerParts({ kind, point, direction, down, length, wide }) {
+/** The turned parts of what hangs, or a line: {colour, shape, matrix, at}. */
+export function hangerParts({ point, direction, down, length, wide, parts }) {
   const at = vector(point);
-  const part = (colour, shape, place, z, x) => ({ colour, shape, matrix: frameAt(place.toArray(), z, x), at });
-  const end = at.clone().addScaledVector(vector(down), length);
-  if (kind === "line") return [part(PARTS.pin, bar(wide, 0, length), at, down, direction)];
-  if (kind === "weight") return [part(PARTS.pipe, bar(wide, 0, 4 * wide, 40), end, down, direction)];
-  return [
-    part(PARTS.arbor, bar(0.04 * wide, 2, length - wide), at, down, direction),
-    part(PARTS.plate, swept(new Shape(), band(0, wide, -0.25 * wide, 0.25 * wide), 64), end, direction, down),
-  ];
+  if (!parts.length) return [{ colour: PARTS.pin, shape: bar(wide, 0, length), matrix: frameAt(point, down, direction), at }];
+  return parts.map((part) => ({ colour: colourOf(part), shape: turnedShape(part.bands, ROUND), matrix: frameAt(part.place, part.direction, part.across), at }));
 }

@@ -6,13 +6,16 @@ import { PARTS } from "./colours.js";
 import { isOpened } from "./cutaway.js";
 import { Shape, swept } from "./shape.js";
 import { barOf, paneOf } from "./sight.js";
-import { along, frameAt, isParallel, offAxis, vector } from "./space.js";
+import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js";
 
-const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, pin: PARTS.pin };
+const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin };
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // of a cup, which goes on from a thin wheel
-const ROUND = 84; // corners of what is as wide as a train
+export const ROUND = 84; // corners of what is as wide as a train
 const COVERS = ["frame", "carrier", "dial"];
+
+/** Of a part by its kind. */
+export const colourOf = ({ kind }) => COLOURS[kind] ?? PARTS.arbor;
 
 /** All of them: {body, colour, gloss, shape, matrix, at, kind, cover, pane, bar}; `cover`, the way across of what stands before wheels or behind them, else null; `pane`, of plates of the frame, `bar`, of pillars. */
 export function builtParts(scene, main) {
@@ -24,15 +27,12 @@ export function builtParts(scene, main) {
     const shape = flat ? flatShape(part) : turnedShape(part.bands, kind === WALL ? ROUND : 40);
     // what stands along the way layers move is stretched when they do
     const at = upright && !flat ? null : vector(place);
-    return { body, kind, cover, colour: COLOURS[kind] ?? PARTS.arbor, gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
+    return { body, kind, cover, colour: colourOf(part), gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
   });
 }
 
-/** Points of its axis at both ends of a turned part. */
-const endsOf = ({ place, direction, bands }) => [bands[0][0], bands.at(-1)[1]].map((end) => vector(place).addScaledVector(vector(direction), end));
-
 /** Half a section from its bands, counter-clockwise; bands that do not meet make several. */
-function turnedShape(bands, most) {
+export function turnedShape(bands, most) {
   const shape = new Shape();
   let run = [];
   bands.forEach((band, n) => {

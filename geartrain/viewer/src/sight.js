@@ -3,7 +3,7 @@
 import { Ray } from "three";
 
 import { discsOf, rimOf } from "./extent.js";
-import { across, frameAt, vector } from "./space.js";
+import { across, endsOf, frameAt, vector } from "./space.js";
 
 const ROUND = 8; // points of each circle
 const CIRCLES = [0.25, 0.6, 0.95]; // of a wheel from its middle, or the inside of a ring, to its rim
@@ -23,9 +23,9 @@ function pointsOver({ at, direction, radius, inner = 0 }) {
 }
 
 /** The line of a turned part from end to end, and its radius: {from, to, radius}. */
-export function barOf({ place, direction, bands }) {
-  const [from, to] = [bands[0][0], bands.at(-1)[1]].map((height) => vector(place).addScaledVector(vector(direction), height));
-  return { from, to, radius: Math.max(...bands.map(([, , radius]) => radius)) };
+export function barOf(part) {
+  const [from, to] = endsOf(part);
+  return { from, to, radius: Math.max(...part.bands.map(([, , radius]) => radius)) };
 }
 
 /** A flat part as it is seen: its edge, as x and y by turns, in its own frame. */

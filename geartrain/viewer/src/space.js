@@ -13,6 +13,9 @@ export function frameAt(centre, direction, across, turn = 0) {
   return matrix.setPosition(vector(centre));
 }
 
+/** Points of its axis at both ends of a turned part. */
+export const endsOf = ({ place, direction, bands }) => [bands[0][0], bands.at(-1)[1]].map((end) => vector(place).addScaledVector(vector(direction), end));
+
 /** Some unit vector across a direction. */
 export function across(direction) {
   const z = vector(direction);

@@ -207,3 +207,12 @@ def test_the_cage_of_a_ball_does_not_go_round_through_plates_of_the_frame() -> N
     low, high = (post.place[2] + end for end in (post.bands[0][0], post.bands[-1][1]))
     for plate in of_kind(scene, "frame"):
         assert high < plate.place[2] - plate.height / 2 or plate.place[2] + plate.height / 2 < low
+
+
+def test_a_bracket_stands_on_the_side_of_its_wheels_where_no_other_is_in_its_way() -> None:
+    """The wallower of a mill stands before its pit wheel, on the side of all other axes."""
+    scene = build_scene(shipped.train("lantern-mill"))
+    wheels = {wheel.id: wheel for wheel in scene.wheels}
+    (bracket,) = (part for part in scene.parts if part.name.startswith("water bracket"))
+    pit, wallower = wheels["pit72"].centre[0], wheels["wallower18"].centre[0]
+    assert wallower < pit < bracket.place[0]

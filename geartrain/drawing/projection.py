@@ -12,6 +12,7 @@ import numpy as np
 from geartrain.drawing.backend import Axes
 from geartrain.numerics.polylines import simplified
 from geartrain.scene import Scene, SceneWave, SceneWheel
+from geartrain.scene.layout.wheel_reach import height_on_cone, taper
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.wave_tooth import bent_line
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 
 _OBLIQUE = (0.52, -0.62, 0.59)  # towards the reader, of trains that do not lie in one plane
 _MOST = 0.7  # of the wheels that must face the reader in a plan; the others are then seen from the side
-_NARROW = 0.72  # of the pitch radius of a bevel wheel at its wide end, at its narrow end
 _ROUND = 73  # points of a circle
 _FINE = 5000  # teeth beyond which nobody sees them on paper: such a wheel is drawn as a circle
 
@@ -132,8 +132,8 @@ class ProjectedScene:
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > np.pi / 2 - 1e-6:  # a crown's apex lies in its own plane: no narrow end
             return (half, 1.0), (-half, 1.0)
-        apex = -wheel.facing * wheel.radius / np.tan(wheel.cone)
-        return (0.0, 1.0), ((1 - _NARROW) * float(apex), _NARROW)
+        narrow = taper(wheel.cone, wheel.radius, wheel.thickness)
+        return (0.0, 1.0), (-wheel.facing * height_on_cone(wheel.cone, wheel.radius, 0.0, narrow), narrow)
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from geartrain.numerics.vectors import Vector
+from geartrain.scene.layout.wheel_reach import reach, span
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +168,12 @@ class SceneWheel:
     loss: float | None = None
     helix: float = 0.0
     holes: Sequence[Sequence[float]] = ()
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Between which places its body stands, from its centre along its direction [mm]."""
+        depths = self.root - self.radius, self.tip - self.radius
+        return span(self.facing, *reach(self.cone, self.radius, self.thickness, *depths))
 
 
 @dataclass(frozen=True, slots=True)

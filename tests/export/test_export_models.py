@@ -151,18 +151,30 @@ def test_pins_in_bars_where_wheels_are_too_small() -> None:
     assert hole.contains(shapely.MultiPoint(own[:, :2]).convex_hull)
 
 
-def test_likenesses_stand_where_their_cones_say() -> None:
-    """A bevel wheel narrows to the side its cone opens from; a crown wheel's teeth point along its axis."""
-    work = workpiece("bevel-differential", "straight")
-    for wheel in work.scene.wheels:
-        if wheel.cone and wheel.kind == "bevel":
-            points = likeness_solid(wheel, work.scene.profiles[wheel.profile]).vertices
-            r = np.hypot(points[:, 0], points[:, 1])
-            wide = points[r > 0.99 * r.max(), 2]
-            assert abs(wide).max() < 1e-9, "the widest end lies in the plane of the pitch circle"
-            assert np.sign(points[abs(points[:, 2]) > 1e-9, 2]).tolist() == [wheel.facing] * int(
-                (abs(points[:, 2]) > 1e-9).sum()
-            )
+@pytest.mark.parametrize("name", ["bevel-differential", "humpage"])
+def test_likenesses_narrow_to_where_their_axes_meet(name: str) -> None:
+    """The teeth of a bevel wheel run from tips at the wide end straight towards the point that both axes share."""
+    scene = workpiece(name, "straight" if name == "bevel-differential" else None).scene
+    for pair in scene.pairs:
+        one, other = (scene.wheels[at] for at in pair.wheels)
+        n = np.cross(one.direction, other.direction)
+        gap = np.array(other.centre) - np.array(one.centre)
+        along = float(np.cross(gap, other.direction) @ n / (n @ n))
+        assert abs(gap @ n) < 1e-6, "the axes meet"
+        solid = likeness_solid(one, scene.profiles[one.profile], 2.0)
+        apex = np.array([0.0, 0.0, along])
+        far = solid.vertices - apex
+        ways, sizes = far / np.linalg.norm(far, axis=1)[:, None], np.linalg.norm(far, axis=1)
+        out = np.hypot(*solid.vertices[:, :2].T)
+        tip = int(np.argmax(out))
+        lengths = sizes[ways @ ways[tip] > 1 - 1e-9] / sizes[tip]
+        assert lengths.min() < 0.98
+        assert lengths.max() < 1 + 1e-9
+        assert one.span == pytest.approx((solid.vertices[:, 2].min(), solid.vertices[:, 2].max()), abs=1e-9)
+        edges = np.sort(
+            np.concatenate([solid.faces[:, [0, 1]], solid.faces[:, [1, 2]], solid.faces[:, [2, 0]]]), axis=1
+        )
+        assert set(np.unique(edges, axis=0, return_counts=True)[1].tolist()) == {2}, "it is closed"
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])

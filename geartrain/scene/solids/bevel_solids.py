@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.scene.layout.wheel_reach import LAND, back_of_cone, height_on_cone, taper
 from geartrain.scene.solids.triangle_solids import Solid, between, joined, raised
 from geartrain.scene.solids.triangulation import fill
 from geartrain.teeth.standard_teeth import MOST_TEETH
@@ -17,21 +18,20 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneWheel, ToothProfile
     from geartrain.scene.solids.triangulation import Integers
 
-_WEB = 0.75  # of the pitch radius: where the teeth of a crown wheel end inwards
-_FACE = 0.7  # a bevel tooth ends at this part of its cone's length, or where its thickness does
-_FLAT = 0.45 * pi  # rad: the height of a wider cone is next to nothing, so it is drawn as a crown
+_CROWN = pi / 2 - 1e-6  # rad: cones that are planes
 _SLICES = 48  # of a worm
 _SIDES = 720  # of a wheel without teeth
 
 
-def likeness_solid(wheel: SceneWheel, profile: ToothProfile) -> Solid:
-    """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z."""
+def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
+    """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z.
+
+    bore   diameter of the hole in a bevel or crown wheel (mm)
+    """
     if wheel.kind == "worm":
         return _worm(wheel, profile)
-    if wheel.kind == "contrate" or wheel.cone > _FLAT:
-        return _crown(wheel, profile)
     if wheel.cone:
-        return _bevel(wheel, profile)
+        return _coned(wheel, profile, bore)
     points, triangles = _section(wheel, profile)
     return raised(points, triangles, wheel.thickness)
 
@@ -63,38 +63,71 @@ def _section(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Integers
     return np.concatenate([outline, [[0.0, 0.0]]]), fan
 
 
-def _bevel(wheel: SceneWheel, profile: ToothProfile) -> Solid:
-    """The wide end in the plane of the pitch circle, the narrow one nearer the point where the axes meet."""
-    points, triangles = _section(wheel, profile)
-    height = wheel.radius / tan(wheel.cone)
-    step = min((1 - _FACE) * height, max(wheel.thickness, wheel.module))
-    wide = np.column_stack([points, np.zeros(len(points))])
-    narrow = np.column_stack([points * (1 - step / height), np.full(len(points), wheel.facing * step)])
-    return between(wide, narrow, triangles) if wheel.facing > 0 else between(narrow, wide, triangles)
+def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
+    """A bevel or crown wheel: its back, teeth from the wide end to the narrow one, and what is within them.
 
-
-def _crown(wheel: SceneWheel, profile: ToothProfile) -> Solid:
-    """A disc with a rim whose teeth stand along the axis as those of the profile stand outwards."""
+    Rows of points, from the bore at the back round the outside to the bore before it.
+    """
+    radius, cone, thickness = wheel.radius, wheel.cone, wheel.thickness
     r, turn = _polar(wheel, profile)
-    count, side = len(r), wheel.facing or 1
-    rise = side * (r - wheel.radius)
-    back = max(wheel.thickness, 2 * wheel.module)
-    base, web = -side * back, -side * max(0.5 * back, 1.3 * wheel.module)
-    rows = []
-    for radius, height in ((1.0, base), (1.0, rise), (_WEB, rise), (_WEB, web)):
-        edge = wheel.radius * radius
-        rows.append(np.column_stack([edge * np.cos(turn), edge * np.sin(turn), np.broadcast_to(height, count)]))
+    rho = r / radius
+    roots = np.full(len(rho), rho.min() - LAND)
+    behind = back_of_cone(cone, radius, thickness, wheel.root - radius)
+    wide, narrow = 1.0, taper(cone, radius, thickness)
+    rows = [
+        _cone_points(wheel, r, turn, scale) for r, scale in ((roots, wide), (rho, wide), (rho, narrow), (roots, narrow))
+    ]
+    back = rows[0].copy()
+    back[:, 2] = behind
+    rows = [_at_bore(back, bore), back, *rows, _at_bore(rows[-1], bore)]
+    toothed = _revolved(rows, closed=bore > 0)
+    if wheel.facing < 0:  # the apex lies up its axis
+        return toothed
+    return Solid(toothed.vertices * (1.0, 1.0, -1.0), toothed.faces[:, ::-1])
+
+
+def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
+    """Points (n, 3) of its outline on its back cone, or as much nearer the apex as `scale` says, the apex upwards."""
+    depth = (rho - 1) * wheel.radius
+    r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
+    if wheel.cone > _CROWN:
+        turn = _aslant(wheel, turn, scale)
+    z = height_on_cone(wheel.cone, wheel.radius, 0.0, scale) + depth * np.sin(wheel.cone) * scale
+    return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
+
+
+def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
+    """Angles at which a crown's flanks stand: what runs in its spaces is as wide further in, and comes aslant."""
+    pitch = 2 * pi / wheel.teeth
+    middle = np.round(turn / pitch) * pitch
+    angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
+    space = pitch / 2 - abs(angle) + off - np.sin(off) + (1 - scale) * off / 2
+    return np.asarray(middle + np.sign(angle) * np.maximum(0.0, pitch / 2 - space / scale))
+
+
+def _at_bore(row: Floats, bore: float) -> Floats:
+    """A row drawn in to the bore, or to one point where there is none."""
+    angle = np.arctan2(row[:, 1], row[:, 0])
+    if not bore:
+        return np.array([[0.0, 0.0, row[:, 2].mean()]])
+    r = bore / 2 / np.cos(pi / len(row))  # round it, as other holes
+    return np.column_stack([r * np.cos(angle), r * np.sin(angle), row[:, 2]])
+
+
+def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
+    """The surface through rows of points, each counter-clockwise; through the bore too, or with a point at each end."""
+    count, starts = len(rows[1]), np.cumsum([0, *map(len, rows)])
     here, after = np.arange(count), (np.arange(count) + 1) % count
     faces = []
-    for low, high in pairwise(range(0, 4 * count, count)):
+    rings = [(low, high) for low, high in pairwise(starts[:-1])] + ([(starts[-2], starts[0])] if closed else [])
+    for low, high in rings if closed else rings[1:-1]:
         faces.append(np.stack([low + here, low + after, high + after], axis=1))
         faces.append(np.stack([low + here, high + after, high + here], axis=1))
-    outer, inner = 4 * count, 4 * count + 1  # middles of the back and of the web
-    faces.append(np.stack([after, here, np.full(count, outer)], axis=1))
-    faces.append(np.stack([3 * count + here, 3 * count + after, np.full(count, inner)], axis=1))
-    found = np.concatenate(faces)
-    vertices = np.concatenate([*rows, [[0.0, 0.0, base], [0.0, 0.0, web]]])
-    return Solid(vertices, found if side > 0 else found[:, ::-1])
+    if not closed:
+        first, last = starts[1], starts[-3]
+        faces.append(np.stack([first + after, first + here, np.zeros(count, dtype=int)], axis=1))
+        faces.append(np.stack([last + here, last + after, np.full(count, starts[-2])], axis=1))
+    return Solid(np.concatenate(rows), np.concatenate(faces))
 
 
 def _worm(wheel: SceneWheel, profile: ToothProfile) -> Solid:

@@ -64,11 +64,8 @@ def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
-    ends = [
-        float((np.array(wheel.centre) - np.array(body.point)) @ along) + side * wheel.thickness / 2
-        for wheel in own
-        for side in (-1, 1)
-    ]
+    centres = [float((np.array(wheel.centre) - np.array(body.point)) @ along) for wheel in own]
+    ends = [centre + end for wheel, centre in zip(own, centres, strict=True) for end in wheel.span]
     return (min(ends), max(ends)) if ends else None
 
 

@@ -150,7 +150,8 @@ class _Holder:
 
         def hit(level: float) -> int:
             wheels = list(self._coaxial())
-            return sum(abs(self.height(each.centre) - level) < (each.thickness + _ARM) / 2 for each in wheels)
+            faces = map(self._faces, wheels)
+            return sum(low - _ARM / 2 < level < high + _ARM / 2 for low, high in faces)
 
         return min((height + reach, height - reach), key=hit)
 
@@ -162,6 +163,12 @@ class _Holder:
             if upright and float(np.abs(aside).max()) < _SAME:
                 yield wheel
 
+    def _faces(self, wheel: SceneWheel) -> tuple[float, float]:
+        """Between which heights a wheel about the carrier's axis stands."""
+        up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
+        low, high = sorted(self.height(wheel.centre) + up * end for end in wheel.span)
+        return low, high
+
     def _level(self, height: float, inner: float) -> float:
         """The middle of an arm beyond all wheels on the side where the fewest are in the post's way."""
         wheels = list(self._coaxial())
@@ -172,7 +179,7 @@ class _Holder:
             return hit, side * beyond(side)
 
         def beyond(side: int) -> float:
-            own = [side * self.height(wheel.centre) + wheel.thickness / 2 for wheel in wheels]
+            own = [max(side * face for face in self._faces(wheel)) for wheel in wheels]
             reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at)
             return side * (max([each for each in own if each > side * height] or [side * height + reach]))
 

@@ -140,7 +140,7 @@ class SolidModel:
     @cached_property
     def blanks(self) -> Blanks:
         """Flat shapes of the wheels, with holes for arbors, and for what else they bear."""
-        holes = self._bores
+        holes = self.bores_of_wheels
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
             others = self._own_holes(name)
@@ -152,7 +152,7 @@ class SolidModel:
         return replace(self._toothed, wheels=wheels, notices=tuple(notices))
 
     @cached_property
-    def _bores(self) -> dict[str, float]:
+    def bores_of_wheels(self) -> dict[str, float]:
         """Diameter of the hole of each wheel (mm)."""
         rods = bores(self._spread, self.making)
         found = {name: rods[place.axis] for name, place in self._spread.wheels.items()}
@@ -176,7 +176,7 @@ class SolidModel:
     @cached_property
     def cut_couplings(self) -> dict[str, CutCoupling]:
         """Pins and slots that are cut into wheels."""
-        return cut_couplings(self.scene, self._toothed.wheels, self._bores)
+        return cut_couplings(self.scene, self._toothed.wheels, self.bores_of_wheels)
 
     @cached_property
     def couplings(self) -> Plates:
@@ -187,7 +187,7 @@ class SolidModel:
             whole |= {each.coupling for each in self.plan.stack.eccentrics}
             whole |= {each.name for each in self.plan.stack.cups}
         loose = [each for each in self.sized.declaration.couplings if each.name not in whole]
-        own = {place.link: self._bores[wheel] for wheel, place in self.layout.wheels.items()}
+        own = {place.link: self.bores_of_wheels[wheel] for wheel, place in self.layout.wheels.items()}
         return coupling_discs(loose, own, frozenset(self.cut_couplings))
 
     @cached_property
@@ -256,7 +256,9 @@ class _Parts:
         turn, place = wheel_frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
-            drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile])
+            drawn = likeness_solid(
+                wheel, self.scene.profiles[wheel.profile], self.work.bores_of_wheels.get(wheel.id, 0.0)
+            )
             return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)
         flat = SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, blank.contours, blank.thickness)
         return replace(flat, drawn=wheel_solid(blank))
@@ -275,20 +277,16 @@ class _Parts:
             if body.parent is None or body.axis in borne or not own or not radius:
                 continue
             point, along = np.array(body.point), np.array(body.direction)
-            ends = [
-                float((np.array(wheel.centre) - point) @ along) + side * self._thick(wheel) / 2
-                for wheel in own
-                for side in (-1, 1)
-            ]
+            ends = [float((np.array(wheel.centre) - point) @ along) + end for wheel in own for end in self._span(wheel)]
             ends = [min(ends) - _GAP, max(ends) + _GAP, *(end for bearer, end in reach if bearer == at)]
             bands = (Band(min(ends), max(ends), radius),)
             part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), bands)
             turn = np.column_stack([*basis(body.direction), body.direction])
             yield SolidPart(at, part.name, "arbor", turn, point, turned=part)
 
-    def _thick(self, wheel: SceneWheel) -> float:
+    def _span(self, wheel: SceneWheel) -> tuple[float, float]:
         blank = self.work.blanks.wheels.get(wheel.id)
-        return wheel.thickness if blank is None else blank.thickness
+        return wheel.span if blank is None else (-blank.thickness / 2, blank.thickness / 2)
 
     def turned(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Arbors, pipes, studs, collars, pillars and posts."""

@@ -2,7 +2,7 @@
 
 import { coneShape, discShape, lanternShape, plainRimShape, rimShape, wormShape } from "./blanks.js";
 import { flatShape } from "./parts.js";
-import { frameAt, isParallel, vector } from "./space.js";
+import { frameAt, vector } from "./space.js";
 import { blankOf, pinShape, toothShape } from "./tooth.js";
 
 const MOST_TEETH = 2000; // of a wheel: more cannot be told apart
@@ -22,7 +22,7 @@ export class WheelPart {
     this.matrix = frameAt(wheel.centre, wheel.direction, wheel.reference, wheel.turn);
     [this.own, this.toothed, this.smooth] = [0, 1, 2].map(() => palette.slot("#ffffff", GLOSS, wheel.kind === "ring"));
     this.profile = scene.profiles[wheel.profile];
-    this.apex = apexSide(scene, index);
+    this.apex = -wheel.facing || 1;
     this.surface = blankOf(alongThread(scene, index), this.apex);
     const radii = this.profile.points.map(([radius]) => radius);
     const ring = wheel.kind === "ring";
@@ -99,24 +99,6 @@ const circle = (radius) => Array.from({ length: 168 }, (_, n) => (Math.PI * n) /
 
 const mates = (scene, index) =>
   scene.pairs.filter(({ wheels }) => wheels.includes(index)).map(({ wheels: [one, other] }) => (one === index ? other : one));
-
-/** On which side of a tapered wheel, along its direction, its apex lies, or a crown's teeth stand: where its mate is. */
-function apexSide(scene, index) {
-  const wheel = scene.wheels[index];
-  if (!wheel.cone) return 1;
-  const mate = mates(scene, index).map((at) => scene.wheels[at]).find((other) => !isParallel(other.direction, wheel.direction));
-  if (!mate) return wheel.facing || 1;
-  const height = wheel.radius / Math.tan(Math.min(wheel.cone, Math.PI / 2 - 1e-9));
-  const gap = (side) => {
-    const apex = vector(wheel.centre).addScaledVector(vector(wheel.direction), side * height);
-    const line = vector(mate.direction);
-    const off = apex.sub(vector(mate.centre));
-    return off.addScaledVector(line, -off.dot(line)).length();
-  };
-  const [up, down] = [gap(1), gap(-1)];
-  if (Math.abs(up - down) > 1e-6 * wheel.radius) return up < down ? 1 : -1;
-  return vector(mate.centre).sub(vector(wheel.centre)).dot(vector(wheel.direction)) >= 0 ? 1 : -1;
-}
 
 /** A wheel that runs on a worm has teeth that go along its thread. */
 function alongThread(scene, index) {

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geartrain.drawing.backend import Axes, Figure, Patch
-from geartrain.drawing.style import BLACK, SMALL, TEXT, plain, short, write
+from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, plain, short
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
 
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
 MOST = 8
 """Pointers in a picture: the worst, by the sum of their causes."""
+_HIGH, _LOW = 0.7, 0.42  # of the step from bar to bar: what is declared whole, and what is in part
+_ON_A_BAR: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": SMALL, "color": BLACK, "zorder": 8,
+                             "bbox": {"boxstyle": "round,pad=0.15", "facecolor": WHITE, "linewidth": 0}}  # fmt: skip
 _ROOM, _NAMED = 0.055, 0.2  # shares of a bar from which on its size, and its cause too, are written in it
 
 
@@ -76,7 +79,7 @@ def _legend(cause: str, found: TrainBudget) -> str:
 
 
 def _below(pointers: int, shown: int, erring: int) -> str:
-    words = "share of the sum of what is declared; hatched: declared in part"
+    words = "share of the sum of what is declared; low bars: declared in part"
     still = pointers - erring
     left = [f"pointers that err less, not drawn: {erring - shown}"] if erring > shown else []
     left += [f"pointers of which no error is known: {still} of {pointers}"] if still else []
@@ -94,13 +97,12 @@ def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
         share = (cause.degrees or 0.0) / pointer.total
         if not share:
             continue
-        hatch = "//" if cause.declared == "part" else None
-        axes.barh(
-            at, share, left=left, height=0.66, color=COLOURS[cause.name], hatch=hatch, edgecolor="white", gid=cause.name
-        )
+        high = _LOW if cause.declared == "part" else _HIGH
+        axes.barh(at, share, left=left, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name,
+                  clip_on=False)  # fmt: skip
         if share > _ROOM:
-            name = f"{cause.name} " if share > _NAMED else ""  # in print two causes share a grey
-            write(axes, left + share / 2, at, f"{name}{_size(cause.degrees or 0.0, 2)}°")
+            name = f"{cause.name} " if share > _NAMED else ""
+            axes.text(left + share / 2, at, f"{name}{_size(cause.degrees or 0.0, 2)}°", **_ON_A_BAR)
         left += share
     missing = ", ".join(cause.name for cause in pointer.undeclared)
     beside = f"sum {_size(pointer.total, 3)}°" + (f"\nnot declared: {missing}" if missing else "")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from geartrain.drawing.backend import Figure, Polygon
+from geartrain.drawing.backend import Figure, Patch, Polygon
 from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, headed
 from geartrain.numerics.decimal_text import plural
 from geartrain.scene.palette import series_colour
@@ -78,7 +78,7 @@ def sphere_figure(
     return headed(figure, configuration.title)
 
 
-def _face(kind: int) -> tuple[float, ...]:
+def _face(kind: int) -> tuple[float, float, float, float]:
     """Of its colour so much that the outlines of teeth are seen, which overlap those of their mates."""
     return (*to_rgb(series_colour(kind)), _STRONG)
 
@@ -115,8 +115,9 @@ def _draw_axle(axes: Any, point: Floats) -> None:
 
 
 def _legend(axes: Any, configuration: Configuration, kinds: list[str]) -> None:
+    handles = []
     for at, kind in enumerate(kinds):
         number = configuration.kinds.count(kind)
         text = f"{kind}: {plural(number, 'gear')} of {configuration.teeth[kind]} teeth"
-        axes.plot([], [], marker="o", linestyle="", markerfacecolor=_face(at), markeredgecolor=BLACK, label=text)
-    axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
+        handles.append(Patch(facecolor=_face(at), edgecolor=BLACK, linewidth=0.5, label=text))
+    axes.legend(handles=handles, loc="lower left", frameon=False, fontsize=SMALL)

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import Collection
+from matplotlib.collections import Collection, PolyCollection
 from matplotlib.colors import ListedColormap, to_hex, to_rgba
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle, FancyArrowPatch, Patch
+from matplotlib.text import Text
 
 from geartrain.scene.palette import THEMES, Theme, ThemeName
 
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 Rgba = tuple[float, float, float, float]
 _SHADES = 256  # of a scale of colours
 _ROUNDED = 0.5 / 255  # what a colour written with two digits a channel may be off by
+_AREA = 0.5  # opacity above which a face of a series is an area that is told apart, not a veil behind lines
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 # linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
 # space for image processing (Oklab)
@@ -52,6 +55,9 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
 
 def _all(artist: Artist) -> Iterator[Artist]:
     yield artist
+    box = artist.get_bbox_patch() if isinstance(artist, Text) else None  # which is no child of its words
+    if box is not None:
+        yield box
     for child in artist.get_children():
         yield from _all(child)
 
@@ -83,10 +89,21 @@ class _Painter:
         self._put(artist.set_cmap, scale, ListedColormap(colours))
 
     def _colours(self, artist: Artist) -> None:
+        area = _area_of(artist, self.name)
         kinds = [kind for kind in _COLOURS if hasattr(artist, f"get_{kind}") and hasattr(artist, f"set_{kind}")]
         olds = [getattr(artist, f"get_{kind}")() for kind in kinds]  # before any is set: a marker follows its line
         for kind, old in zip(kinds, olds, strict=True):
             self._put(getattr(artist, f"set_{kind}"), old, _themed_all(old, self.name))
+        if area is not None:
+            self._fill(artist, *area)
+
+    def _fill(self, artist: Any, colour: Rgba, hatch: str) -> None:
+        """An area's own colour and hatch, lined with ink, in which it is hatched too."""
+        self._put(artist.set_facecolor, artist.get_facecolor(), colour)
+        self._put(artist.set_edgecolor, artist.get_edgecolor(), THEMES[self.name].ink)
+        if hasattr(artist, "set_hatchcolor"):  # from matplotlib 3.11 on a hatch need not have the colour of the edge
+            self._put(artist.set_hatchcolor, artist.get_hatchcolor(), THEMES[self.name].ink)
+        self._put(artist.set_hatch, artist.get_hatch(), hatch or artist.get_hatch())
 
     def _halo(self, effect: object) -> None:
         gc = getattr(effect, "_gc", {})  # matplotlib has no public way to ask a stroke for its colour
@@ -94,6 +111,22 @@ class _Painter:
             self._halos.append(gc)
             old = gc["foreground"]
             self._put(partial(gc.__setitem__, "foreground"), old, to_hex(themed_colour(to_rgba(old), self.name)))
+
+
+def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
+    """What fills an area of a series in a theme that has fillings of its own; None of all else, and of small marks."""
+    areas = THEMES[name].areas
+    if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
+        return None
+    faces = np.asarray(artist.get_facecolor()).reshape(-1, 4)
+    if len(faces) != 1 or faces[0, 3] <= _AREA:
+        return None
+    own, series = to_hex(tuple(map(float, faces[0, :3]))), THEMES["light"].series  # type: ignore[arg-type]
+    if own not in series:
+        return None
+    colour, hatch = areas[series.index(own)]
+    red, green, blue = map(float, _rgb_of(colour))
+    return (red, green, blue, float(faces[0, 3])), hatch
 
 
 def _themed_all(colours: Any, name: ThemeName) -> Any:

@@ -1,6 +1,7 @@
 """The one palette: of drawings and plots, of reports, and of the page that turns; light, dark and for print.
 
-Series are told apart by colour, and by dashes too, so that the two never repeat together. Any two of the ten colours,
+Series are told apart by colour, and by dashes too, so that the two never repeat together; areas in print by greys and
+hatches. Any two of the ten colours,
 and each from the ink, stay apart for readers who see no red or no green (tests/scene/test_palette.py measures it by
 CIEDE2000 under the simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for simulation of
 color vision deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291); all can be read as words on their paper.
@@ -38,6 +39,7 @@ class Theme:
     fault    what is wrong
     fill     faces of what a picture is of; `shade` where they turn away; `band`, of what flows or is marked
     series   ten, in order
+    areas    colour and matplotlib's hatch of areas of the series, where that is not plainly their colour
     """
 
     desk: str
@@ -51,6 +53,7 @@ class Theme:
     shade: str
     band: str
     series: tuple[str, ...]
+    areas: tuple[tuple[str, str], ...] = ()
 
     @property
     def css(self) -> str:
@@ -113,6 +116,11 @@ THEMES: dict[ThemeName, Theme] = {
         shade="#b8b8b8",
         band="#d8d8d8",
         series=("#000000", "#737373") * 5,  # the other grey where dashes come again
+        areas=(
+            ("#555555", ""), ("#bbbbbb", ""), ("#ffffff", "/////"), ("#e4e4e4", ""), ("#ffffff", "xxxxx"),
+            ("#ffffff", "-----"), ("#bbbbbb", "....."), ("#ffffff", "|||||"), ("#bbbbbb", "\\\\\\\\\\"),
+            ("#ffffff", "....."),
+        ),
     ),
 }  # fmt: skip
 

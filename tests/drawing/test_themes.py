@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from fractions import Fraction
+from io import BytesIO
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -14,13 +16,16 @@ from shipped import train as load
 
 pytest.importorskip("matplotlib")
 
+from matplotlib.colors import to_hex
+from matplotlib.patches import Patch, Rectangle
 from PIL import Image
 
 from geartrain.drawing import picture, render
 from geartrain.drawing.backend import Figure
 from geartrain.drawing.style import HALO
+from geartrain.drawing.theme_colours import themed
 from geartrain.drawing.train_pictures import KINDS
-from geartrain.scene.palette import THEMES
+from geartrain.scene.palette import THEMES, series_colour
 
 _COLOUR = re.compile(rb"#[0-9a-f]{6}")
 
@@ -58,6 +63,61 @@ def test_values_with_a_scale_of_colours_are_grey_in_print_and_as_before_after_it
     for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
         assert max(bytes.fromhex(found[1:].decode())) - min(bytes.fromhex(found[1:].decode())) <= 2, found
     assert render(figure, ".svg") == before
+
+
+def bars(width: int) -> Figure:
+    """A bar of each series, 40 pixels high, with a step of 50 pixels."""
+    figure = Figure(figsize=(5, 1), dpi=100)
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, 500), ylim=(0, 100))
+    axes.set_axis_off()
+    for at in range(10):
+        axes.add_patch(Rectangle((50 * at + 20, 30), width, 40, color=series_colour(at), linewidth=0))
+    return figure
+
+
+def look(crop: np.ndarray) -> np.ndarray:
+    """Grey of a piece of a picture, and how much it changes to the side, upwards and along both diagonals."""
+    ways = (
+        crop[:, 1:] - crop[:, :-1],
+        crop[1:] - crop[:-1],
+        crop[1:, 1:] - crop[:-1, :-1],
+        crop[1:, :-1] - crop[:-1, 1:],
+    )
+    return np.array([crop.mean(), *(abs(way).mean() for way in ways)])
+
+
+@pytest.mark.parametrize("width", [10, 24])
+def test_areas_of_any_two_series_are_told_apart_in_print_however_short(width: int) -> None:
+    """Of 255: two areas look alike where neither grey nor texture differ by a tenth."""
+    data = render(bars(width), ".png", theme="print")
+    grey = np.asarray(Image.open(BytesIO(data)).convert("L"), dtype=float)
+    looks = [look(grey[34:66, 50 * at + 22 : 50 * at + 18 + width]) for at in range(10)]
+    apart = {pair: float(abs(looks[pair[0]] - looks[pair[1]]).max()) for pair in combinations(range(10), 2)}
+    assert min(apart.values()) > 25.5, min(apart, key=lambda pair: apart[pair])
+
+
+def test_areas_and_their_legend_have_one_filling_in_print_and_a_veil_has_none() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    (bar,) = axes.bar([0], [1], color=series_colour(2))
+    veil = axes.axhspan(0, 1, color=series_colour(2), alpha=0.2)
+    (entry,) = axes.legend(handles=[Patch(color=series_colour(2), label="third")]).get_patches()
+    before = render(figure, ".svg")
+    with themed(figure, "print"):
+        colour, hatch = THEMES["print"].areas[2]
+        assert [(to_hex(each.get_facecolor()), each.get_hatch()) for each in (bar, entry)] == [(colour, hatch)] * 2
+        assert {to_hex(each.get_edgecolor()) for each in (bar, entry)} == {THEMES["print"].ink}
+        assert veil.get_hatch() is None
+    for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
+        assert max(bytes.fromhex(found[1:].decode())) == min(bytes.fromhex(found[1:].decode())), found
+    assert render(figure, ".svg") == before
+
+
+def test_a_box_behind_words_is_of_the_paper_of_its_theme() -> None:
+    figure = Figure()
+    figure.text(0.5, 0.5, "words", bbox={"facecolor": THEMES["light"].paper, "linewidth": 0})
+    found = render(figure, ".svg", theme="dark")
+    assert THEMES["light"].paper.encode() not in found
 
 
 def test_a_figure_is_as_it_was_after_a_theme() -> None:

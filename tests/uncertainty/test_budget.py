@@ -338,6 +338,8 @@ def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
         assert [each[0] for each in drawn] == [each[0] for each in known]
         assert [each[1] for each in drawn] == pytest.approx([each[1] for each in known])
         assert bars[-1].get_x() + bars[-1].get_width() == pytest.approx(1.0)
+        part = {cause.name for cause in budget[name].ranked if cause.declared == "part"}
+        assert {bar.get_gid() for bar in bars if bar.get_height() < 0.5} == part & {each[0] for each in known}
 
 
 def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:

@@ -16,8 +16,14 @@ COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory
 MOST = 8
 """Pointers in a picture: the worst, by the sum of their causes."""
 _HIGH, _LOW = 0.7, 0.42  # of the step from bar to bar: what is declared whole, and what is in part
-_ON_A_BAR: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": SMALL, "color": BLACK, "zorder": 8,
-                             "bbox": {"boxstyle": "round,pad=0.15", "facecolor": WHITE, "linewidth": 0}}  # fmt: skip
+_ON_A_BAR: dict[str, Any] = {
+    "ha": "center",
+    "va": "center",
+    "fontsize": SMALL,
+    "color": BLACK,
+    "zorder": 8,
+    "bbox": {"boxstyle": "round,pad=0.15", "facecolor": WHITE, "linewidth": 0},
+}
 _ROOM, _NAMED = 0.055, 0.2  # shares of a bar from which on its size, and its cause too, are written in it
 
 
@@ -98,8 +104,9 @@ def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
         if not share:
             continue
         high = _LOW if cause.declared == "part" else _HIGH
-        axes.barh(at, share, left=left, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name,
-                  clip_on=False)  # fmt: skip
+        axes.barh(
+            at, share, left=left, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name, clip_on=False
+        )
         if share > _ROOM:
             name = f"{cause.name} " if share > _NAMED else ""
             axes.text(left + share / 2, at, f"{name}{_size(cause.degrees or 0.0, 2)}°", **_ON_A_BAR)

@@ -12,7 +12,7 @@ import numpy as np
 from geartrain.drawing.backend import Axes
 from geartrain.numerics.polylines import simplified
 from geartrain.scene import Scene, SceneWave, SceneWheel
-from geartrain.scene.layout.wheel_reach import height_on_cone, taper
+from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.wave_tooth import bent_line
 
@@ -130,7 +130,7 @@ class ProjectedScene:
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
         """Height along the axis (mm) and scale of the two ends of a wheel; of a bevel wheel the wide end first."""
         half = wheel.thickness / 2
-        if wheel.cone <= 0 or wheel.cone > np.pi / 2 - 1e-6:  # a crown's apex lies in its own plane: no narrow end
+        if wheel.cone <= 0 or wheel.cone > CROWN:  # which has no narrow end
             return (half, 1.0), (-half, 1.0)
         narrow = taper(wheel.cone, wheel.radius, wheel.thickness)
         return (0.0, 1.0), (-wheel.facing * height_on_cone(wheel.cone, wheel.radius, 0.0, narrow), narrow)

@@ -155,8 +155,8 @@ def test_pins_in_bars_where_wheels_are_too_small() -> None:
 def test_likenesses_narrow_to_where_their_axes_meet(name: str) -> None:
     """The teeth of a bevel wheel run from tips at the wide end straight towards the point that both axes share."""
     scene = workpiece(name, "straight" if name == "bevel-differential" else None).scene
-    for pair in scene.pairs:
-        one, other = (scene.wheels[at] for at in pair.wheels)
+    for at, mate in [way for pair in scene.pairs for way in (pair.wheels, pair.wheels[::-1])]:
+        one, other = scene.wheels[at], scene.wheels[mate]
         n = np.cross(one.direction, other.direction)
         gap = np.array(other.centre) - np.array(one.centre)
         along = float(np.cross(gap, other.direction) @ n / (n @ n))

@@ -7,9 +7,11 @@ the same bodies (`tooth.js`, `blanks.js`).
 
 from __future__ import annotations
 
-from math import sin, tan
+from math import pi, sin, tan
 
 LAND = 0.01  # of the pitch radius: metal under the roots
+CROWN = pi / 2 - 1e-6
+"""rad: a wider cone is taken for a plane, that of a crown wheel, whose apex lies in it."""
 _BACK = 0.35  # of the thickness: metal behind the teeth
 _MOST_FACE = 0.45  # of the cone's length, whatever the thickness
 

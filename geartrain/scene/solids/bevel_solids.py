@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.layout.wheel_reach import LAND, back_of_cone, height_on_cone, taper
+from geartrain.scene.layout.wheel_reach import CROWN, LAND, back_of_cone, height_on_cone, taper
 from geartrain.scene.solids.triangle_solids import Solid, between, joined, raised
 from geartrain.scene.solids.triangulation import fill
 from geartrain.teeth.standard_teeth import MOST_TEETH
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneWheel, ToothProfile
     from geartrain.scene.solids.triangulation import Integers
 
-_CROWN = pi / 2 - 1e-6  # rad: cones that are planes
 _SLICES = 48  # of a worm
 _SIDES = 720  # of a wheel without teeth
 
@@ -90,7 +89,7 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
     """Points (n, 3) of its outline on its back cone, or as much nearer the apex as `scale` says, the apex upwards."""
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
-    if wheel.cone > _CROWN:
+    if wheel.cone > CROWN:
         turn = _aslant(wheel, turn, scale)
     z = height_on_cone(wheel.cone, wheel.radius, 0.0, scale) + depth * np.sin(wheel.cone) * scale
     return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])

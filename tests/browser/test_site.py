@@ -159,6 +159,24 @@ def test_pictures_of_the_gallery_turn_under_the_pointer_and_open_the_train(
     assert wrong == []
 
 
+def test_formulas_fit_their_column_and_pages_their_window(site: Path, sheet: tuple[Page, list[str]]) -> None:
+    """A formula of several statements goes on in a further line; on a phone it may be moved, the page may not."""
+    page, _ = sheet
+    told = "[...document.querySelectorAll('.formula')].filter((each) => each.scrollWidth > each.clientWidth + 1)"
+    seen = 0
+    for path in pages(site):
+        if 'class="formula"' not in path.read_text(encoding="utf-8"):
+            continue
+        page.goto(path.as_uri(), wait_until="domcontentloaded")
+        page.set_viewport_size({"width": 1280, "height": 800})
+        assert page.evaluate(f"{told}.map((each) => each.innerText)") == [], path.name
+        seen += page.locator(".formula").count()
+        page.set_viewport_size({"width": 390, "height": 844})
+        assert page.evaluate("document.documentElement.scrollWidth") == 390, path.name
+    page.set_viewport_size({"width": 1100, "height": 800})
+    assert seen > 100
+
+
 def test_the_home_page_has_a_machine_that_turns(site: Path, sheet: tuple[Page, list[str]]) -> None:
     page, wrong = sheet
     page.goto((site / "index.html").as_uri())

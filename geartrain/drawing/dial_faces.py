@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
 
@@ -125,8 +125,6 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         if dial is not None:
             on.setdefault(dial, []).append(at)
     faces = [_dialled(scene, dial, pointers) for dial, pointers in on.items()]
-    names = [face.name for face in faces]
-    faces = [replace(face, title=_told_apart(scene, face)) if names.count(face.name) > 1 else face for face in faces]
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
@@ -142,11 +140,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
 
 def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
     face = scene.dials[dial]
-    return DialPicture(face.id, face.scale, tuple(pointers))
-
-
-def _told_apart(scene: Scene, face: DialPicture) -> str:
-    return f"{face.name} ({', '.join(scene.pointers[at].output for at in face.pointers)})"
+    return DialPicture(face.id, face.scale, tuple(pointers), face.title)
 
 
 # -------------------------------------------------------------------------------------------------------------- drawing

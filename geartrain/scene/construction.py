@@ -12,7 +12,7 @@ from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
-from geartrain.scene.dial_pointers import find_dials, find_pointers, with_balls
+from geartrain.scene.dial_pointers import find_dials, find_pointers, with_balls, with_titles
 from geartrain.scene.formula_table import find_count_formulas
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
@@ -105,7 +105,7 @@ def make_scene(
         profiles=profiles,
         pairs=pairs,
         couplings=couplings,
-        dials=with_balls(tuple(dials.values()), pointers),
+        dials=with_titles(with_balls(tuple(dials.values()), pointers), pointers),
         pointers=pointers,
         movement=moved.movement,
         sources=_sources(train),

@@ -101,6 +101,16 @@ def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Po
     return face
 
 
+def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
+    """The dials, those that stand about several axes told apart by what is read on them."""
+    often = Counter(face.id for face in dials)
+    read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
+    return tuple(
+        replace(face, title=f"{face.id} ({outputs})" if often[face.id] > 1 else face.id)
+        for face, outputs in zip(dials, read, strict=True)
+    )
+
+
 def dial_key(stage: SceneContext, name: str) -> Key | None:
     """The dial of an output; None where it names none."""
     output = stage.outputs[name]

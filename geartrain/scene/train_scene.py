@@ -63,6 +63,8 @@ class DialFace:
         As declared.
     plate : float
         Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made.
+    title : str
+        What stands over it: its name, and in brackets the outputs read on it where the dial stands about several axes.
     engraving : sequence of (str, float, sequence of sequence of int)
         What is engraved: rim, fine, bold or letters, the width of lines over the radius, and lines in 4,000ths of it:
         x to the reader's right and y to the zero mark, first from the middle, then from point to point.
@@ -83,6 +85,7 @@ class DialFace:
     look: Literal["scale", "ball"] = "scale"
     note: str = ""
     plate: float = 0.0
+    title: str = ""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
 
 

@@ -89,6 +89,18 @@ def test_pointers_of_ideal_trains_stand_where_fractions_say(asked: Asked, name: 
     stand_as_fractions_say(asked(name), name, texts)
 
 
+def test_a_dial_about_two_axes_has_a_face_for_each(asked: Asked) -> None:
+    """They are told apart by what is read on them; on each, the one hand is in the first colour."""
+    shown = asked("price-1974")
+    faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
+    assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
+    hands = shown.run(
+        "[...document.querySelectorAll('.card')].map((card) => [...card.querySelectorAll('.hand')]"
+        ".map((hand) => [hand.dataset.output, hand.matches('.hand-0')]))"
+    )
+    assert hands[1:] == [[["synodic month", True]], [["lunar year", True]], [["four years", True]]]
+
+
 def test_a_float_of_turns_is_taken_as_exactly_what_it_is(asked: Asked) -> None:
     stand_as_fractions_say(asked("price-1974"), "price-1974", (0.1, -2.7, 1e9 + 0.1, 123456.789))
 

@@ -122,6 +122,23 @@ def test_a_phone_shows_one_column_without_scrolling_sideways(show: Opening, comp
     assert shown.errors == []
 
 
+def test_the_head_of_a_phone_leaves_the_screen_to_the_picture(show: Opening) -> None:
+    """States and clutches stand in one row; what is seldom chosen is folded away, and keys are for who has some."""
+    shown = show("ravigneaux-set", **PHONE)
+    top = "document.querySelector('.view canvas').getBoundingClientRect().top"
+    assert shown.run(top) < PHONE["viewport"]["height"] / 4
+    state = shown.page.get_by_label("State")
+    rows = [part.bounding_box() for part in (state, *shown.page.locator(".element").all())]
+    assert len({box["y"] + box["height"] / 2 for box in rows if box}) == 1
+    assert shown.page.get_by_role("button", name="Keys").is_hidden()
+    shown.page.get_by_text("Picture", exact=True).click()
+    shown.page.get_by_label("Beside").select_option(index=2)
+    shown.page.get_by_label("Theme").select_option("dark")
+    assert shown.run("document.documentElement.dataset.theme") == "dark"
+    assert shown.page.locator(".view:visible").count() == 2
+    assert shown.run("document.documentElement.scrollWidth") <= 390
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_pressed_button_can_be_read_at_once(show: Opening, scheme: str) -> None:
     shown = show(SIMPLE, color_scheme=scheme)  # with all motion a page may have

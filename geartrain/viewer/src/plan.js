@@ -186,7 +186,7 @@ class PlanFace {
   constructor(plan, dial) {
     Object.assign(this, { plan, dial, at: vector(dial.centre), frame: frameAt(dial.centre, dial.normal, dial.zero) });
     this.rim = svg("path", {});
-    this.node = svg("g", { class: "face" }, svg("title", {}, dial.id), this.rim);
+    this.node = svg("g", { class: "face" }, svg("title", {}, dial.title), this.rim);
   }
 
   draw() {

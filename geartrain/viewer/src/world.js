@@ -76,9 +76,8 @@ export class World {
     const orders = new Map();
     scene.pointers.forEach(({ dial }, index) => {
       if (dial === null) return;
-      const { id } = scene.dials[dial];
-      const order = orders.get(id) ?? 0;
-      orders.set(id, order + 1);
+      const order = orders.get(dial) ?? 0;
+      orders.set(dial, order + 1);
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
       pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });

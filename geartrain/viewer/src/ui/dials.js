@@ -11,11 +11,9 @@ const PLAIN = 12; // faces of their own, where the train declares none
 /** Dials with their hands; outputs without a dial get plain faces where the train declares no dial at all. */
 function gathered(scene, machine) {
   const all = scene.pointers.map((_, index) => new Reading(scene, machine, index));
-  const names = [...new Set(scene.dials.map((dial) => dial.id))];
-  const declared = names
-    .map((name) => ({ name, hands: all.filter((each) => each.dial?.id === name) }))
-    .filter(({ hands }) => hands.length)
-    .map(({ name, hands }) => ({ name, hands, dial: hands[0].dial }));
+  const declared = scene.dials
+    .map((dial) => ({ name: dial.title, dial, hands: all.filter((each) => each.dial === dial) }))
+    .filter(({ hands }) => hands.length);
   if (declared.length) return declared;
   return all.slice(0, PLAIN).map((each) => ({ name: each.pointer.output, dial: null, hands: [each] }));
 }

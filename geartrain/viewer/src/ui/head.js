@@ -18,19 +18,19 @@ export class Head {
     const several = all.length > 1;
     const timed = all.some(({ machine }) => machine.run);
     const word = timed ? "Motion" : all.some((side) => side.scene.state) && !compare ? "State" : "Train";
+    const beside = several && field("Beside", this.second);
+    this.choices = el("div", { class: "choices" }, several && field(word, this.first), compare && beside);
     this.node = el(
       "header",
       { class: "head" },
       el("div", {}, this.title, this.names, this.verdicts),
-      el(
-        "div",
-        { class: "choices" },
-        several && field(word, this.first),
-        several && field("Beside", this.second),
-        field("Theme", theme),
-        el("button", { type: "button", onclick: onKeys, "aria-haspopup": "dialog" }, "Keys"),
-      ),
+      this.choices,
     );
+    this.rest = [
+      several && !compare && beside,
+      field("Theme", theme),
+      el("button", { type: "button", class: "for-keys", onclick: onKeys, "aria-haspopup": "dialog" }, "Keys"),
+    ].filter(Boolean);
     this.write();
   }
 

@@ -54,6 +54,7 @@ class Interface {
       onLoop: (side, loop) => this.loop(side, loop),
       onElement: (side, each) => this.element(side, each),
     });
+    this.tools.lodge(this.head.choices, this.head.rest);
     this.panel = new Panel(this);
     this.#lay();
     this.drive.listen((drive, settled) => this.#moved(drive, settled));

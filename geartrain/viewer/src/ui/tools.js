@@ -38,7 +38,7 @@ export class Tools {
     });
     this.opening = field("Cut open", this.open, { class: "field tick" });
     this.teeth.checked = options?.teeth !== false;
-    const tools = el(
+    this.row = el(
       "div",
       { class: "tools", role: "group", "aria-label": "picture" },
       el("div", { class: "group", role: "group", "aria-label": "look from" }, this.looks),
@@ -49,11 +49,19 @@ export class Tools {
       this.opening,
       el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
     );
-    this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), tools);
-    const small = matchMedia(SMALL);
-    const fold = () => (this.node.open = !small.matches); // where there is room the tools always stand open
-    small.addEventListener("change", fold);
-    fold();
+    this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), this.row);
+    this.small = matchMedia(SMALL);
+    this.#asRoomIs(() => (this.node.open = !this.small.matches)); // where there is room the tools always stand open
+  }
+
+  #asRoomIs(act) {
+    this.small.addEventListener("change", act);
+    act();
+  }
+
+  /** What is seldom chosen stands in its place where there is room, else among the tools. */
+  lodge(place, seldom) {
+    this.#asRoomIs(() => (this.small.matches ? this.row : place).append(...seldom));
   }
 
   /** The sides now shown; the picture is brought to what the controls say. */

@@ -89,6 +89,33 @@ def test_pointers_of_ideal_trains_stand_where_fractions_say(asked: Asked, name: 
     stand_as_fractions_say(asked(name), name, texts)
 
 
+# how far the end of a part stands out of what it ends in (mm): where a ray along its axis meets these, below the plates
+OUT = """([wheel, post]) => {
+  const [stage] = geartrain.stages, {world} = stage, part = world.wheels[wheel];
+  stage.cut();
+  stage.showTeeth(true);
+  const Vector = stage.camera.position.constructor, Ray = stage.hands.ray.ray.constructor;
+  const {direction, thickness, radius} = part.wheel;
+  const along = new Vector(...direction);
+  const mean = (which) => part.profile.points.reduce((sum, point) => sum + point[which], 0) / part.profile.points.length;
+  const off = new Vector(mean(0) * radius * Math.cos(mean(1)), mean(0) * radius * Math.sin(mean(1)), 0).applyMatrix4(part.matrix);
+  const from = (post ? new Vector(...post) : off).addScaledVector(along, 2 * thickness);
+  const met = world.castings.slice(0, 2).flatMap((casting) => [...casting.met(() => new Ray(from.clone(), along.clone().negate()), () => new Vector())]);
+  const [first, next] = met.map(([distance]) => distance).sort((one, other) => one - other);
+  return next - first;
+}"""
+
+
+@pytest.mark.parametrize(("name", "wheel", "end"), [("cycloidal-reducer", "ring", (31.3, 0.2, 0)), ("lantern-mill", "nut20", None)])
+def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
+    asked: Asked, name: str, wheel: str, end: tuple[float, float, float] | None
+) -> None:
+    """Two faces in one plane flicker."""
+    shown = asked(name)
+    at = [each.id for each in shipped.built(name).wheels].index(wheel)
+    assert 0.02 < shown.run(OUT, [at, end]) < 0.1
+
+
 def test_a_dial_about_two_axes_has_a_face_for_each(asked: Asked) -> None:
     """They are told apart by what is read on them; on each, the one hand is in the first colour."""
     shown = asked("price-1974")

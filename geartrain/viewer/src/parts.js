@@ -12,6 +12,8 @@ const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, 
 const FLAT_GLOSS = 0.5;
 const WALL = "wall"; // of a cup, which goes on from a thin wheel
 export const ROUND = 84; // corners of what is as wide as a train
+const ENDING = ["post", "pin"]; // in the face of what they hold
+const PROUD = 0.06; // of their radius, by which they then stand out of it: two faces in one plane flicker
 const COVERS = ["frame", "carrier", "dial"];
 
 /** Of a part by its kind. */
@@ -24,11 +26,16 @@ export function builtParts(scene, main) {
     const flat = part.outlines.length > 0;
     const upright = isParallel(direction, main.toArray());
     const cover = COVERS.includes(kind) ? vector(direction) : null;
-    const shape = flat ? flatShape(part) : turnedShape(part.bands, kind === WALL ? ROUND : 40);
+    const shape = flat ? flatShape(part) : turnedShape(ENDING.includes(kind) ? standingOut(part.bands) : part.bands, kind === WALL ? ROUND : 40);
     // what stands along the way layers move is stretched when they do
     const at = upright && !flat ? null : vector(place);
     return { body, kind, cover, colour: colourOf(part), gloss: flat ? FLAT_GLOSS : 0.8, shape, matrix: frameAt(place, direction, across), at, plate: flat, pane: kind === "frame" ? paneOf(part) : null, bar: kind === "pillar" ? barOf(part) : null, wall: kind === WALL ? endsOf(part) : null, opened: isOpened(scene, part) };
   });
+}
+
+function standingOut(bands) {
+  const [[low, , first], [, high, last]] = [bands[0], bands.at(-1)];
+  return bands.map(([from, to, radius, bore]) => [from === low ? from - PROUD * first : from, to === high ? to + PROUD * last : to, radius, bore]);
 }
 
 /** Half a section from its bands, counter-clockwise; bands that do not meet make several. */

@@ -3,6 +3,7 @@
 import { Shape } from "./shape.js";
 
 const TURN = 2 * Math.PI;
+const PROUD = 0.02; // of a lantern's thickness: ends of pins in the plane of its faces would flicker with these
 const FINE = 0.02; // of a tooth's depth: bends of the outline that are too slight to be drawn
 
 /**
@@ -54,8 +55,14 @@ export function toothShape(points, base, at, fine = FINE) {
   return shape;
 }
 
-/** A pin, or another closed curve, between two faces. */
-export const pinShape = (points, at) => flanks(new Shape(), simplify([...points, points[0]]), at);
+/** A pin, or another closed curve, through two faces, out of which its ends stand. */
+export function pinShape(points, at) {
+  const through = (rho, angle, end) => at(rho, angle, end ? 1 + PROUD : -PROUD);
+  const edge = simplify([...points, points[0]]);
+  const shape = flanks(new Shape(), edge, through);
+  for (const end of [0, 1]) shape.face(edge.slice(1).map(([rho, angle]) => through(rho, angle, end)), [0, 0, end ? 1 : -1], [1, 0, 0]);
+  return shape;
+}
 
 /** What lies between the two faces; edges slighter than a third of a right angle are rounded. */
 function flanks(shape, edge, at, side = 1) {

@@ -78,13 +78,12 @@ def _sections(points: Floats) -> list[Floats]:
     """The outlines of both faces, corner by corner, out of the corners of the triangles drawn.
 
     Of a tooth four corners of every piece of flank, then on either face four of every strip down to its base; of a pin
-    the flanks alone.
+    then the corners of both its ends.
     """
-    quads = points.reshape(-1, 4, 3)
-    pieces = len(quads) // 3
-    strips = quads[pieces : 3 * pieces].reshape(2, pieces, 4, 3)
-    whole = len(quads) == 3 * pieces and np.allclose(strips[0, :, 3], quads[:pieces, 0])
-    flanks = quads[:pieces] if whole else quads
+    pieces = len(points) // 12
+    quads, strips = points[: 4 * pieces].reshape(-1, 4, 3), points[4 * pieces : 12 * pieces].reshape(2, pieces, 4, 3)
+    whole = len(points) == 12 * pieces and np.allclose(strips[0, :, 3], quads[:, 0])
+    flanks = quads if whole else points[: 4 * (len(points) // 6)].reshape(-1, 4, 3)
     if not np.allclose(flanks[:-1, 1], flanks[1:, 0]) or not np.allclose(flanks[:-1, 2], flanks[1:, 3]):
         raise ValueError("the pieces of a flank do not hang together: the viewer builds teeth in another way")
     if not whole:

@@ -106,7 +106,9 @@ OUT = """([wheel, post]) => {
 }"""
 
 
-@pytest.mark.parametrize(("name", "wheel", "end"), [("cycloidal-reducer", "ring", (31.3, 0.2, 0)), ("lantern-mill", "nut20", None)])
+@pytest.mark.parametrize(
+    ("name", "wheel", "end"), [("cycloidal-reducer", "ring", (31.3, 0.2, 0)), ("lantern-mill", "nut20", None)]
+)
 def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
     asked: Asked, name: str, wheel: str, end: tuple[float, float, float] | None
 ) -> None:

@@ -97,10 +97,13 @@ OUT = """([wheel, post]) => {
   const Vector = stage.camera.position.constructor, Ray = stage.hands.ray.ray.constructor;
   const {direction, thickness, radius} = part.wheel;
   const along = new Vector(...direction);
-  const mean = (which) => part.profile.points.reduce((sum, point) => sum + point[which], 0) / part.profile.points.length;
-  const off = new Vector(mean(0) * radius * Math.cos(mean(1)), mean(0) * radius * Math.sin(mean(1)), 0).applyMatrix4(part.matrix);
+  const {points} = part.profile;
+  const mean = (which) => points.reduce((sum, point) => sum + point[which], 0) / points.length;
+  const [r, angle] = [mean(0) * radius, mean(1)];
+  const off = new Vector(r * Math.cos(angle), r * Math.sin(angle), 0).applyMatrix4(part.matrix);
   const from = (post ? new Vector(...post) : off).addScaledVector(along, 2 * thickness);
-  const met = world.castings.slice(0, 2).flatMap((casting) => [...casting.met(() => new Ray(from.clone(), along.clone().negate()), () => new Vector())]);
+  const [ray, still] = [() => new Ray(from.clone(), along.clone().negate()), () => new Vector()];
+  const met = world.castings.slice(0, 2).flatMap((casting) => [...casting.met(ray, still)]);
   const [first, next] = met.map(([distance]) => distance).sort((one, other) => one - other);
   return next - first;
 }"""

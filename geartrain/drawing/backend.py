@@ -25,6 +25,7 @@ try:
     from matplotlib.path import Path
     from matplotlib.patheffects import Stroke, withStroke
     from matplotlib.text import Text
+    from matplotlib.ticker import MaxNLocator
 
     from geartrain.drawing.theme_colours import themed
 except ImportError:
@@ -37,6 +38,7 @@ __all__ = [
     "FancyArrowPatch",
     "Figure",
     "Line2D",
+    "MaxNLocator",
     "Patch",
     "Path",
     "PathPatch",

@@ -1,11 +1,11 @@
-"""The budget of each pointer as a bar: its causes side by side, the greatest first."""
+"""The budget of each pointer as a bar: its causes side by side, the greatest first; of one pointer a bar a cause."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 from geartrain.drawing.backend import Axes, Figure, Patch
-from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, plain, short
+from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, WIDTH, plain, short
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
 
@@ -30,6 +30,8 @@ _ROOM, _NAMED = 0.055, 0.2  # shares of a bar from which on its size, and its ca
 def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     """A bar for each pointer, the worst on top: shares of its causes in their sum, the greatest first.
 
+    Of a single pointer there is a bar for each cause, the greatest on top, in degrees.
+
     Parameters
     ----------
     found : TrainBudget
@@ -40,7 +42,8 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Shares of the sum; sizes [deg] in the bars, sum [deg] and what is not declared beside them.
+        Shares of the sum; sizes [deg] in the bars, sum [deg] and what is not declared beside them. Of one pointer sizes
+        [deg] with their intervals of 95 %.
 
     Raises
     ------
@@ -59,6 +62,8 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     if not ranked:
         why = "no cause of any pointer's error is declared, or all are 0"
         raise QuestionError(Problem(f"no budget of '{found.name}' to draw", why, "declare targets or teeth"))
+    if len(found.pointers) == 1:
+        return _causes(found, ranked[0])
     shown = ranked[:most]
     figure = Figure(figsize=(11.0, 1.7 + 0.55 * len(shown)), dpi=100, layout="constrained")
     axes = figure.add_subplot()
@@ -70,12 +75,42 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.set_xlim(0.0, 1.0)
     axes.set_xlabel(_below(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")
-    title = found.name if found.state is None else f"{found.name}, {found.state}"
-    axes.set_title(f"{title}: what each pointer's error comes from", fontsize=TEXT, loc="left", color=BLACK)
+    axes.set_title(f"{_of(found)}: what each pointer's error comes from", fontsize=TEXT, loc="left", color=BLACK)
     handles = [Patch(color=colour, label=_legend(cause, found)) for cause, colour in COLOURS.items()]
     figure.legend(
         handles=handles, loc="outside lower center", ncols=5, fontsize=SMALL, frameon=False, columnspacing=1.2
     )
+    return figure
+
+
+def _of(found: TrainBudget) -> str:
+    return found.name if found.state is None else f"{found.name}, {found.state}"
+
+
+def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
+    """The causes of one pointer's error below each other, the greatest on top, and those that are not declared."""
+    figure = Figure(figsize=(WIDTH, 3.6), dpi=100, layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    axes.grid(False, axis="y")
+    ranked = [*pointer.ranked, *pointer.undeclared]
+    for at, cause in enumerate(ranked):
+        size = cause.degrees or 0.0
+        high = _LOW if cause.declared == "part" else _HIGH
+        axes.barh(at, size, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name)
+        low, most = cause.interval or (size, size)
+        if cause.interval:
+            axes.plot([low, most], [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=8, gid="within")
+        words = "not declared" if cause.degrees is None else f"{_size(size, 3)}°"
+        words += ", declared in part" if cause.declared == "part" else ""
+        axes.annotate(words, (max(size, most), at), xytext=(6, 0), textcoords="offset points", va="center",
+                      fontsize=SMALL, color=BLACK, annotation_clip=False, gid="size")  # fmt: skip
+    axes.set_yticks(range(len(ranked)), [cause.name for cause in ranked])
+    axes.set_ylim(len(ranked) - 0.4, -0.6)
+    axes.set_xlim(left=0.0)
+    axes.set_xlabel("size (deg)", fontsize=TEXT)
+    title = f"{_of(found)}: what the error of {short(pointer.name, 24)} comes from, {_size(pointer.total, 3)}° in sum"
+    axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
     return figure
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Line2D, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, TEXT, headed
+from geartrain.drawing.backend import Axes, Figure, Line2D, MaxNLocator, Patch
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SCALE, SMALL, TEXT, headed
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str,
         table[other - second[0], one - first[0]] = chance
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
     # a scale needs two ends, even where no two counts are likely together
-    mesh = axes.pcolormesh(*edges, table, cmap="Blues", vmin=0.0, vmax=max(float(table.max()), 1e-300))
+    mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
     mesh.set_gid(f"{a}, {b}")
     _ticks(axes.yaxis, second)
     axes.set_ylim(second[0] - 0.5, second[1] + 0.5)
@@ -156,9 +156,10 @@ def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
 
 
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
+    """Some whole numbers within it, round ones where there are many counts."""
     low, high = span
-    step = -(-(high - low + 1) // _TICKS)
-    axis.set_ticks(list(range(low, high + 1, step)))
+    found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
+    axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
 def _percent(chance: float) -> str:

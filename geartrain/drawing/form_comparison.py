@@ -76,14 +76,28 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
         _drawn(axes, text)
     for axes, (label, cost) in zip(panels.flat[3:], _costs(pitch, unit), strict=True):
         _along(axes, label, cost, paths, styles)
-    title = f"{_title(pitch)}; curves that leave a panel go on beyond it"
-    headed(figure, title)
+    beyond = "; curves that leave a panel go on beyond it" if any(map(_left, panels.flat[3:])) else ""
+    headed(figure, f"{_form_text(paths)}, {_title(pitch)}{beyond}")
+    if len(paths) == 1:
+        return figure
     handles = [
         Line2D([], [], color=color, linestyle=dashes, linewidth=1.8, label=name.replace("_", " "))
         for name, (color, dashes) in styles.items()
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False, handlelength=4)
     return figure
+
+
+def _form_text(paths: Mapping[str, PathOfContact]) -> str:
+    only = next(iter(paths)).replace("_", " ")
+    return f"{only} teeth" if len(paths) == 1 else "tooth forms side by side"
+
+
+def _left(axes: Axes) -> bool:
+    """True if a curve goes over the rim of its panel."""
+    low, high = axes.get_ylim()
+    drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
+    return any(bool(((y < low) | (y > high)).any()) for y in drawn)
 
 
 def _title(pitch: PitchSurfaces) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D
-from geartrain.drawing.style import BLACK, ORANGE, SMALL, TEXT, WIDTH
+from geartrain.drawing.style import BLACK, ORANGE, SCALE, SMALL, TEXT, WIDTH
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -45,10 +45,9 @@ def jam_map_figure(
     figure = Figure(figsize=(WIDTH, 6.4), dpi=100, layout="constrained")
     axes = figure.add_subplot()
     shown = np.ma.masked_invalid(table.T)
-    mesh = axes.pcolormesh(x, y, shown, shading="gouraud", cmap="cividis", vmin=0.0, vmax=1.0, rasterized=True)
+    mesh = axes.pcolormesh(x, y, shown, shading="gouraud", cmap=SCALE, vmin=0.0, vmax=1.0, rasterized=True)
     mesh.set_gid("map")
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02, ticks=_TICKS)
-    bar.ax.set_yticklabels([f"{tick:.0%}" for tick in _TICKS])
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, ticks=_TICKS, format=lambda tick, _: f"{tick:.0%}")
     bar.set_label("probability of a jam", fontsize=TEXT)
     bar.ax.tick_params(labelsize=SMALL)
     handles = [_line(axes, x, y, shown, *each) for each in zip(LEVELS, _DASHES, strict=True)]
@@ -65,10 +64,9 @@ def jam_map_figure(
 
 def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: Any) -> Line2D:
     # chances go from 0 to 1 in few cells: between them the arc of the root runs straighter than they do
-    contour = axes.contour(x, y, _straight(shown), levels=[_straight(level)], colors="white", linewidths=2.2)
+    contour = axes.contour(x, y, _straight(shown), levels=[_straight(level)], colors=BLACK, linewidths=2.0)
     contour.set_linestyle([dashes])
     contour.set_gid(f"{level:.0%}")
-    # white on white: the key shows the line on the shade of its own chance
     return Line2D([], [], color=BLACK, linestyle=dashes, linewidth=2.0, label=f"{level:.0%}")
 
 

@@ -91,7 +91,14 @@ def _slope(axes: Axes, estimates: list[ConvergenceTrace]) -> None:
     level = float(np.exp(np.mean(np.log(widths[seen] * np.sqrt(trials[seen])))))
     axes.plot(ends, 0.6 * level / np.sqrt(ends), color=GREY, linewidth=1.0, linestyle=":", gid="slope")
     axes.annotate(
-        "slope -1/2", (ends[1], 0.6 * level / np.sqrt(ends[1])), fontsize=SMALL, color=GREY, va="top", ha="right"
+        "slope -1/2",
+        (ends[0], 0.6 * level / np.sqrt(ends[0])),
+        xytext=(0, -6),
+        textcoords="offset points",
+        fontsize=SMALL,
+        color=GREY,
+        va="top",
+        ha="left",
     )
 
 

@@ -22,7 +22,7 @@ _MOST = 6000  # points drawn in a panel: of each stretch the first, its least an
 _OUTPUTS, _STACKED = 12, 4  # outputs drawn, those that err most, and how many of them in one column
 _WIDE = 5.0  # inches of a panel beside others
 _TICKS = 6  # at most, between numbers below a panel
-_SWINGS = 60  # turning points of a curve that can be told apart in a panel; of more the first are drawn
+_SWINGS = 60  # turning points of the beginning of a curve, which is drawn in place of one that would be a block
 _EXACT = 1e-12  # rad, below which an error is rounding
 _ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
 
@@ -40,6 +40,11 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     first: tuple[Floats, Floats, Floats]
+
+    @property
+    def errs(self) -> bool:
+        """False where the error is rounding."""
+        return bool(np.ptp(self.error) > _EXACT)
 
 
 _Drawer = Callable[[Any, _Trace], None]
@@ -72,11 +77,13 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     'turns of crank'
     """
     found = _traces(run, on_done)
-    erring = [trace for trace in found if np.ptp(trace.error) > _EXACT] or found
+    erring = [trace for trace in found if trace.errs] or found
     most = {trace.name for trace in sorted(erring, key=lambda trace: -float(np.ptp(trace.error)))[:_OUTPUTS]}
     traces = [trace for trace in erring if trace.name in most]
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
     left_out = _left_out(len(erring) - len(traces), len(found) - len(erring))
+    if not any(trace.errs for trace in found):
+        left_out = iter(["no output has an error"])
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
 
 
@@ -91,6 +98,8 @@ def _left_out(less: int, exact: int) -> Iterator[str]:
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:
     """Panels of few outputs below each other; of many, those of each in a row."""
     across = 1 if len(parts) <= _STACKED else max(len(drawers) for _, drawers in parts)
+    if across > 1:  # error and speed, which all have, in columns of their own
+        parts = [(trace, [*drawers[-2:], *drawers[:-2]]) for trace, drawers in parts]
     rows = sum(len(drawers) for _, drawers in parts) if across == 1 else len(parts)
     size = WIDTH if across == 1 else _WIDE * across, max(2, rows) * _ROW / 100 + 0.3
     figure = Figure(figsize=size, dpi=100, layout="constrained")
@@ -114,7 +123,9 @@ def _framed(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
-    """Over few rounds the pointer's whole way; over many, only where it goes back."""
+    """Over few rounds the pointer's whole way; over many, only where it goes back. Without error there is no more."""
+    if not trace.errs:
+        return [_angle] if np.ptp(trace.mean) <= _ROUNDS else [_speed]
     if np.ptp(trace.mean) <= _ROUNDS:
         return [_angle, _error, _speed]
     return [_arcs, _error, _speed] if (trace.speed < 0).any() else [_error, _speed]
@@ -191,7 +202,7 @@ def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
 def _error(panel: Any, trace: _Trace) -> None:
     middle = trace.error.mean()
     _curve(panel, trace, np.degrees(trace.error - middle), np.degrees(trace.first[1] - middle))
-    panel.set_ylabel(f"{trace.name}\nerror less its mean (deg)")
+    panel.set_ylabel(f"{trace.name}\nerror less\nits mean (deg)")
 
 
 def _speed(panel: Any, trace: _Trace) -> None:
@@ -202,9 +213,13 @@ def _speed(panel: Any, trace: _Trace) -> None:
 
 
 def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
-    """The whole course; of one that swings so often that it would be a block, its beginning between its bounds."""
+    """The whole course; of one that swings so often that it would be a block, its beginning between its bounds.
+
+    What counts is how often it goes from bound to bound, six times `_SWINGS` in a wide panel.
+    """
     turns, values = trace.turns, whole
-    if len(_turning(whole)) > 6 * _SWINGS:
+    room = 6 if panel.get_gridspec().ncols == 1 else 3
+    if np.abs(np.diff(whole)).sum() > room * _SWINGS * np.ptp(whole):
         turning = _turning(first)
         end = turning[_SWINGS] if len(turning) > _SWINGS else len(first)
         turns, values = trace.first[0][:end], first[:end]

@@ -14,6 +14,7 @@ from geartrain.drawing.style import (
     GREY,
     HALO,
     PALE,
+    SCALE,
     SMALL,
     TEXT,
     WIDTH,
@@ -46,7 +47,23 @@ _FAULTS = {  # hatches of the verdicts on pairs that do not run
     "none": "",
 }
 _STANDS = "standstill"  # a fault with which the pair still turns
-_KNOWN = ("approach", "recess", "astride", "approach+recess")  # ways of running that have a colour of their own
+_KNOWN = {  # ways of running: series and how strong its veil is, so that in print no two are like grey
+    "approach": (0, 0.08),
+    "recess": (1, 0.27),
+    "astride": (2, 0.34),
+    "approach+recess": (4, 0.24),
+}
+_VEIL = 0.2  # of other ways
+_CUT = 0.8  # points: the line between two bands
+_NAMES = {  # of parameters, and the unit of one that has none of its own
+    "z1": ("teeth of wheel 1", ""),
+    "z2": ("teeth of wheel 2", ""),
+    "clearance": ("clearance factor", ""),
+    "excess": ("clearance factor less 1", ""),
+    "backlash": ("backlash", "modules"),
+    "centre_distance": ("centre distance", "modules"),
+    "radii": ("R2/R1 over z2/z1", ""),
+}
 _FEW = 60  # samples that are marked each
 _MANY = 2500  # cells of a map from which it is drawn as pixels in a vector file
 _REGION = 0.01  # of a map: a lesser region is not named
@@ -113,6 +130,23 @@ def sweep_figure(
     return figure
 
 
+def parameter_label(name: str, unit: str = "") -> str:
+    """What stands at the axis of a parameter that is given in some unit.
+
+    Examples
+    --------
+    >>> parameter_label("half_angle", "deg"), parameter_label("backlash"), parameter_label("z2")
+    ('half angle (deg)', 'backlash (modules)', 'teeth of wheel 2')
+    """
+    unit = unit or _NAMES.get(name, ("", ""))[1]
+    return f"{parameter_name(name)} ({unit})" if unit else parameter_name(name)
+
+
+def parameter_name(name: str) -> str:
+    """A parameter of triangular teeth in words."""
+    return _NAMES[name][0] if name in _NAMES else name.replace("_", " ")
+
+
 def _running(verdicts: Texts) -> list[str]:
     """The verdicts on pairs that run, in order of appearance."""
     return [kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS]
@@ -133,6 +167,8 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
         plain(axes)
         for low, high, kind in _bands(x, verdicts):
             axes.axvspan(low, high, **styles[kind], gid=f"band {kind}")
+            if low > x[0]:
+                axes.axvline(low, color=GREY, linewidth=_CUT)
         _curves(axes, x, {label: values[order] for label, values in curves.items()}, verdicts)
         axes.set_ylabel(_SHOWN.get(stem, stem), fontsize=TEXT)
     if x[-1] > x[0]:
@@ -156,7 +192,7 @@ def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
 def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -> None:
     marker = "o" if len(x) <= _FEW else ""
     for (name, values), color in zip(curves.items(), (BLACK, BLACK), strict=False):
-        axes.plot(x, values, color=color, linewidth=1.8, marker=marker, markersize=3.5, gid=name)
+        axes.plot(x, values, color=color, linewidth=1.8, marker=marker, markersize=3.5, clip_on=False, gid=name)
     if len(curves) == 2:
         low, high = curves.values()
         axes.fill_between(x, low, high, color=GREY, alpha=0.25, linewidth=0)
@@ -169,14 +205,14 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
     """The look of each verdict's band: coloured where the pair runs, grey and hatched where not."""
-    others = count(len(_KNOWN))
+    others = count(1 + max(series for series, _ in _KNOWN.values()))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):
         if kind in _FAULTS:
             styles[kind] = {"facecolor": (PALE, 0.35), "edgecolor": (GREY, 0.6), "hatch": _FAULTS[kind], "linewidth": 0}
         else:
-            color = series_colour(_KNOWN.index(kind) if kind in _KNOWN else next(others))
-            styles[kind] = {"facecolor": (color, 0.2), "edgecolor": "none", "linewidth": 0}
+            series, veil = _KNOWN[kind] if kind in _KNOWN else (next(others), _VEIL)
+            styles[kind] = {"facecolor": (series_colour(series), veil), "edgecolor": "none", "linewidth": 0}
     return styles
 
 
@@ -199,7 +235,7 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
     shown = np.ma.masked_invalid(np.where(stuck, np.nan, values))
     figure = Figure(figsize=(WIDTH, 7.0), layout="constrained")
     axes = figure.add_subplot()
-    mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap="viridis", rasterized=shown.size > _MANY, gid="map")
+    mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap=SCALE, rasterized=shown.size > _MANY, gid="map")
     bar = figure.colorbar(mesh, ax=axes, pad=0.02)
     bar.set_label(_SHOWN.get(name, name), fontsize=TEXT)
     bar.ax.tick_params(labelsize=SMALL)
@@ -235,7 +271,7 @@ def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
     faulty = np.isin(verdicts, list(_FAULTS))
     for kind in running[1:]:
         bound = np.ma.masked_array((verdicts == kind).astype(float), faulty)
-        axes.contour(x, y, bound, levels=[0.5], colors="white", linewidths=1.8)
+        axes.contour(x, y, bound, levels=[0.5], colors=BLACK, linewidths=1.6)
     for kind in running if len(running) > 1 else []:
         _name(axes, x, y, verdicts == kind, kind)
     axes.set_xlim(x.min(), x.max())

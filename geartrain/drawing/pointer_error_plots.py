@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure
+from geartrain.drawing.backend import Axes, Figure, MaxNLocator, Patch
 from geartrain.drawing.style import BLACK, BLUE, GREY, RED, SMALL, TEXT, WIDTH, plain
 from geartrain.errors import Problem, QuestionError
 
@@ -23,6 +23,9 @@ _Given = TypeVar("_Given")
 PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)
 _ROW = 2.3  # inches of a panel
 _POINTERS = 12  # drawn: those that stray most
+_SHARES = ("every trial", "95 % of the trials", "50 %")  # of the trials in a band
+_SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which lie on each other
+_DASHES: Any = (0, (4, 1.2))
 _STILL = 90  # letters of the names of pointers that never stray
 _BINS = (12, 60)  # fewest and most of a histogram
 
@@ -65,14 +68,16 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the in
     The thin line is one trial. Raises `QuestionError` where there is none to draw.
     """
     shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
-    figure, panels = _panels(shown, sharex=True)
+    spans = {float(np.ptp(bands.turns)) for bands in shown.values()}
+    figure, panels = _panels(shown, sharex=len(spans) <= 1)  # each over a turn of its own pointer
     for axes, (name, bands) in zip(panels, shown.items(), strict=True):
         low, lower, middle, upper, high = bands.percentiles
-        _between(axes, bands.turns, bands.least, bands.greatest, 0.12, "every trial")
-        _between(axes, bands.turns, low, high, 0.25, "95 % of the trials")
-        _between(axes, bands.turns, lower, upper, 0.4, "50 %")
+        for each in zip((bands.least, low, lower), (bands.greatest, high, upper), _SHADES, _SHARES, strict=True):
+            _between(axes, bands.turns, *each)
         if bands.example is not None:
-            axes.plot(bands.turns, bands.example, color=RED, linewidth=0.9, label="one of them", gid="one")
+            axes.plot(
+                bands.turns, bands.example, color=RED, linewidth=0.9, linestyle=_DASHES, label="one of them", gid="one"
+            )
         axes.plot(bands.turns, middle, color=BLACK, linewidth=1.6, label="median", gid="median")
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
         axes.set_ylabel(f"{name}\nerror (deg)", fontsize=TEXT)
@@ -97,10 +102,10 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
         if not values.size:
             raise _nothing(f"'{name}' has no trial that runs")
         axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=(1, 2, 5, 10), integer=True))
         _percentiles(axes, values)
         axes.set_ylabel(f"{name}\ntrials of {values.size:,}", fontsize=TEXT)
     panels[-1].set_xlabel(f"error (deg){'; ' if note else ''}{note}{left}", fontsize=TEXT)
-    _legend(figure, panels[0])
     return figure
 
 
@@ -155,13 +160,21 @@ def _panels(what: Mapping[str, Any], sharex: bool = False) -> tuple[Figure, Sequ
 
 
 def _between(axes: Axes, x: Floats, low: Floats, high: Floats, alpha: float, label: str) -> None:
-    axes.fill_between(x, low, high, color=BLUE, alpha=alpha, linewidth=0, label=label, gid=label)
+    axes.fill_between(x, low, high, color=BLUE, alpha=alpha, linewidth=0, gid=label)
+
+
+def _bands_key() -> list[Patch]:
+    """Bands as they are seen: each lies on those that are wider."""
+    through = np.cumprod([1 - shade for shade in _SHADES])
+    return [
+        Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
+        for left, label in zip(through, _SHARES, strict=True)
+    ]
 
 
 def _legend(figure: Figure, axes: Axes) -> None:
-    if axes.get_legend() is None:
-        handles, labels = axes.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
+    handles = [*_bands_key(), *axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
 
 
 def _nothing(why: str) -> QuestionError:

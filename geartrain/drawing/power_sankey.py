@@ -79,7 +79,7 @@ def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Fig
         if spot.node:
             _spot(axes, placed, spot, spot.node, words)
     _loops(axes, placed, flow)
-    axes.text(0.1, placed.low - head + 0.12, title, fontsize=TEXT, color=BLACK, va="top", parse_math=False)
+    axes.text(0.1, placed.low - head + 0.12, title, fontsize=TEXT, color=BLACK, va="top", parse_math=False, gid="title")
     figure.legend(handles=list(_legend(placed)), loc="lower center", ncols=6, fontsize=SMALL, frameon=False)
     return figure
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Stroke, withStroke
+from geartrain.drawing.theme_colours import SCALES
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.scene.palette import THEMES, series_colour, series_dash
 from geartrain.teeth.triangular.real_path import STANDSTILL
@@ -28,9 +29,11 @@ BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.pa
 FILL, SHADE, SKY = _LIGHT.fill, _LIGHT.shade, _LIGHT.band
 BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
 """Of wheels, of carriers, of couplings, and of what else stands beside them."""
+SCALE = SCALES["light"]
+"""Of values on a map."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
 LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
-PHASES = {APPROACH: BLUE, RECESS: RED, STANDSTILL: BLACK}
+PHASES = {APPROACH: BLUE, RECESS: ORANGE, STANDSTILL: BLACK}
 
 
 def series_look(at: int) -> dict[str, Any]:

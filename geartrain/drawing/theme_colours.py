@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection, PolyCollection
-from matplotlib.colors import ListedColormap, to_hex, to_rgba
+from matplotlib.colors import Colormap, LinearSegmentedColormap, ListedColormap, to_hex, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch, Patch
 from matplotlib.text import Text
@@ -25,6 +25,8 @@ Rgba = tuple[float, float, float, float]
 _SHADES = 256  # of a scale of colours
 _ROUNDED = 0.5 / 255  # what a colour written with two digits a channel may be off by
 _AREA = 0.5  # opacity above which a face of a series is an area that is told apart, not a veil behind lines
+SCALES = {name: LinearSegmentedColormap.from_list(name, theme.scale, _SHADES) for name, theme in THEMES.items()}
+"""Of values, by theme."""
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 # linear sRGB to cone responses, and their roots to lightness and two opponents: Ottosson 2020, A perceptual color
 # space for image processing (Oklab)
@@ -55,9 +57,10 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
 
 def _all(artist: Artist) -> Iterator[Artist]:
     yield artist
-    box = artist.get_bbox_patch() if isinstance(artist, Text) else None  # which is no child of its words
-    if box is not None:
-        yield box
+    box = artist.get_bbox_patch() if isinstance(artist, Text) else None
+    for part in (box, getattr(artist, "arrow_patch", None)):  # which are no children of their words
+        if part is not None:
+            yield part
     for child in artist.get_children():
         yield from _all(child)
 
@@ -69,6 +72,7 @@ class _Painter:
         self.name = name
         self.undo: list[tuple[Callable[[Any], object], Any]] = []
         self._halos: list[object] = []  # many words share one
+        self._scales: list[Colormap] = []  # a bar beside a map takes its scale over as soon as the map has it
 
     def paint(self, artist: Artist) -> None:
         """Every colour of one artist; of values with a scale the scale's."""
@@ -84,9 +88,16 @@ class _Painter:
         put(new)
 
     def _scale(self, artist: Collection) -> None:
-        scale: Any = artist.get_cmap()
-        colours = [themed_colour(tuple(map(float, row)), self.name) for row in scale(np.linspace(0, 1, _SHADES))]  # type: ignore[arg-type]
-        self._put(artist.set_cmap, scale, ListedColormap(colours))
+        old: Any = artist.get_cmap()
+        if old in self._scales:
+            return
+        if old == SCALES["light"]:
+            new: Colormap = SCALES[self.name]
+        else:
+            rows = old(np.linspace(0, 1, _SHADES))
+            new = ListedColormap([themed_colour(tuple(map(float, row)), self.name) for row in rows])  # type: ignore[arg-type]
+        self._scales.append(new)
+        self._put(artist.set_cmap, old, new)
 
     def _colours(self, artist: Artist) -> None:
         area = _area_of(artist, self.name)

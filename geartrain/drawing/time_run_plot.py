@@ -43,6 +43,7 @@ _SMALL = 0.1  # of the play: lesser gaps are drawn larger
 _FLAT = 1e-3  # deg: outputs that are less ahead are not drawn
 _NAMES = 8  # lines of a spectrum that are named
 _DEEPEST = 3e-5  # of the greatest swing: less is not drawn
+_DECADES = 40.0  # ratio of the ends of an axis up to which there are numbers between powers of ten
 _CLEAR = 1.09  # least ratio of two frequencies that are both named
 
 
@@ -203,7 +204,15 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
         size = 4 + 36 * energy[near] / energy.max()
         foot = panel.get_xaxis_transform()
         panel.scatter(
-            at[near], np.full(near.sum(), 0.05), s=size, c=RED, marker="^", transform=foot, linewidths=0, zorder=4
+            at[near],
+            np.full(near.sum(), 0.05),
+            s=size,
+            c=RED,
+            marker="^",
+            transform=foot,
+            linewidths=0,
+            zorder=4,
+            clip_on=False,
         )
 
 
@@ -235,7 +244,9 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
         panel.set_yscale("log")
         panel.set_ylim(_DEEPEST * top, 60 * top)
         panel.set_xscale("log")
+        panel.xaxis.set_major_formatter(lambda at, _: f"{at:g}")
         panel.set_xlim(max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1]))
+        _minor_numbers(panel)
         for at, amplitude, source in _named(run.spectra[moving[0]]):
             over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
             if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
@@ -243,6 +254,13 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     panel.set_ylabel("swing (deg)", fontsize=SMALL)
     panel.set_xlabel("frequency (Hz)", fontsize=SMALL)
     _head(panel, f"spectrum; lines of {short(moving[0])} are named")
+
+
+def _minor_numbers(panel: Axes) -> None:
+    """Between powers of ten, where there are few of those: 20, 30 and 50, not 2 x 10^1."""
+    low, high = panel.get_xlim()
+    few = high < _DECADES * low
+    panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:

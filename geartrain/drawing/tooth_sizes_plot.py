@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WIDTH, headed, plain, short
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WHITE, WIDTH, headed, plain, short
 
 if TYPE_CHECKING:
     from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
@@ -21,6 +21,17 @@ _LABELS = {
     "radii": "R2/R1 over z2/z1",
     "window": "window",
     "half_angle": "half angle (deg)",
+}
+_OPEN: dict[str, Any] = {"markerfacecolor": WHITE, "markeredgewidth": 1.6}
+_PAIR_MARKS: tuple[tuple[str, str, dict[str, Any]], ...] = (  # one within the other where they are at one place
+    ("as declared", "declared", {"marker": "s", "markersize": 12, "color": BLACK, **_OPEN}),
+    ("best by itself", "apart", {"marker": "o", "markersize": 8.5, "color": BLUE, **_OPEN}),
+    ("best for the train", "together", {"marker": "*", "markersize": 6, "color": RED}),
+)
+_DESIGN_MARKS: dict[str, dict[str, Any]] = {
+    "equal depth": {"marker": "s", "markersize": 12, "color": BLACK, **_OPEN},
+    "pitch-true": {"marker": "D", "markersize": 8, "color": GREEN, **_OPEN},
+    "best": {"marker": "*", "markersize": 8, "color": RED},
 }
 _MARGIN = 0.08  # of what is shown
 _WORST = 4.0  # times the better of the designs by rule: worse ones are beyond the rim
@@ -60,6 +71,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
     figure = Figure(figsize=(WIDTH, 3.2 * len(names)), layout="constrained")
     for axes, name in zip(figure.subplots(len(names), 1, squeeze=False)[:, 0], names, strict=True):
         _panel(axes, found, name, found.aims[0])
+    _key(figure, figure.axes[0])
     return figure
 
 
@@ -93,18 +105,14 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     for at, pair in enumerate(pairs):
         ends = [_shown(each, found.aim) for each in (pair.declared, pair.together) if each is not None]
         axes.plot(ends, [at] * len(ends), color=GREY, linewidth=1.6, zorder=1)
-    for name, which, color, marker in (
-        ("as declared", "declared", BLACK, "s"),
-        ("best by itself", "apart", BLUE, "o"),
-        ("best for the train", "together", RED, "*"),
-    ):
+    for name, which, look in _PAIR_MARKS:
         places = [(each, at) for at, pair in enumerate(pairs) if (each := getattr(pair, which)) is not None]
         x, y = [_shown(each, found.aim) for each, _ in places], [at for _, at in places]
-        axes.plot(x, y, color=color, marker=marker, markersize=7, linewidth=0, label=name, gid=which)
+        axes.plot(x, y, linewidth=0, label=name, gid=which, zorder=3, clip_on=False, **look)
     labels = [f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}" for pair in pairs]
     axes.set_yticks(range(len(pairs)), [short(label, 30) for label in labels])
     axes.set_ylim(len(pairs) - 0.5, -0.5)
-    axes.set_xlim(left=0.0)
+    axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
     axes.set_xlabel(_LABELS[found.aim], fontsize=TEXT)
     axes.set_title(_gain(found), fontsize=TEXT, loc="left", color=BLACK)
     figure.legend(loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
@@ -133,10 +141,16 @@ def _front_figure(found: BestToothSizes) -> Figure:
     _panel(far, found, first, second)
     far.set_title("among all designs", fontsize=TEXT)
     for axes in (near, far):
-        axes.plot(x, y, color=BLUE, linewidth=1.8, marker="o", markersize=3, gid="front", label="front")
+        axes.plot(x, y, color=BLUE, linewidth=1.8, marker="o", markersize=3, gid="front", label="front", zorder=2.5)
     near.plot(x[0], y[0], color=RED, marker="*", markersize=9, linewidth=0)
-    far.legend(fontsize=SMALL, frameon=False)
+    _key(figure, far)
     return figure
+
+
+def _key(figure: Figure, axes: Axes) -> None:
+    """What the marks are, below all panels: within one there are designs everywhere."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles), fontsize=SMALL, frameon=False)
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
@@ -146,26 +160,25 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
     x, y = ([_shown(each, name) for each in order] for name in (across, up))
     single = len(found.free) == 1 and across in found.free
     axes.plot(x, y, color=GREY, linewidth=1.2 if single else 0, marker=".", markersize=3, gid="tried")
-    marks = (("best", found.best, RED, "*"), ("equal depth", found.equal_depth, BLACK, "s"))
-    for name, each, color, marker in (*marks, ("pitch-true", found.pitch_true, GREEN, "D")):
+    designs = (found.equal_depth, found.pitch_true, found.best)
+    for each, (name, look) in zip(designs, _DESIGN_MARKS.items(), strict=True):
         if each is not None:
             at = _shown(each, across), _shown(each, up)
-            axes.plot(*at, color=color, marker=marker, markersize=7, linewidth=0, label=name, gid=name)
+            axes.plot(*at, linewidth=0, label=name, gid=name, zorder=3, clip_on=False, **look)
     axes.set_xlabel(_LABELS[across], fontsize=TEXT)
     axes.set_ylabel(_LABELS[up], fontsize=TEXT)
     for name, limit in ((across, axes.set_xlim), (up, axes.set_ylim)):
         if name not in found.free and name != "jam":
             limit(*_span(found, name))
-    axes.legend(fontsize=SMALL, frameon=False)
 
 
 def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
     """What is shown of an aim: from its least to what is worth a look, the designs by rule included."""
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
-    high = max((*marked, min(values[-1], _WORST * max(values[0], 1e-12))))
-    rim = _MARGIN * (high - values[0])
-    return values[0] - rim, high + rim
+    low, high = min(values[0], *marked), max((*marked, min(values[-1], _WORST * max(values[0], 1e-12))))
+    rim = _MARGIN * (high - low)
+    return low - rim, high + rim
 
 
 def _shown(design: ToothSizes, name: str) -> float:

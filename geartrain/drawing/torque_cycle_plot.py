@@ -36,7 +36,8 @@ _BINS = 900  # pixels: stretches of the run over which losses are averaged where
 _LEAST = 1e-9  # of all that is lost: less is rounding
 _CUT = 1.5  # times the torque that is exceeded in a fiftieth of the run: near a lock it has no bound
 _MOST_LOSSES = 6
-"""Of the parts that lose most; all others are drawn as one, in grey."""
+"""Of the parts that lose most; all others are drawn as one."""
+_OTHERS = 9  # their series, whose filling in print no part that is shown has
 
 
 class _Loss(NamedTuple):
@@ -180,7 +181,9 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
     shown = ranked[:_MOST_LOSSES] if len(ranked) <= _MOST_LOSSES else ranked[: _MOST_LOSSES - 1]
     losses = [_Loss(short(name, 24), rows[name], series_colour(at)) for at, name in enumerate(shown)]
     if rest := ranked[len(shown) :]:
-        losses.append(_Loss(f"{len(rest)} others", np.sum([rows[name] for name in rest], axis=0), GREY))
+        losses.append(
+            _Loss(f"{len(rest)} others", np.sum([rows[name] for name in rest], axis=0), series_colour(_OTHERS))
+        )
     return losses
 
 

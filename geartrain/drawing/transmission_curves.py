@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import degrees
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Line2D
-from geartrain.drawing.style import BLACK, GREY, HALO, PHASES, SMALL, TEXT, WIDTH, pair_text, plain, require_contact
+from geartrain.drawing.backend import Axes, Figure, Line2D, MaxNLocator
+from geartrain.drawing.style import (
+    BLACK,
+    GREY,
+    HALO,
+    PHASES,
+    SMALL,
+    TEXT,
+    WIDTH,
+    legend_above,
+    pair_text,
+    plain,
+    require_contact,
+)
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
 from geartrain.teeth.triangular.real_path import STANDSTILL
 from geartrain.teeth.triangular.speed_jump import SpeedJump
@@ -29,7 +42,10 @@ _LABELS = (
     "arms of the force\n$b_i$ over pitch radius",
 )
 _EFFICIENCY = 2  # its row
+_STANDS: Any = (0, (0.7, 0.7))  # dashes of a standstill
+_CENTRES = 5  # at most, numbers beside the speed ratio
 _CURVES: tuple[tuple[str, Any], ...] = (("", "-"), ("driven ", (0, (1.5, 0.7))))  # the driven wheel's curve: dashed
+_NEAR_RIM = 0.7  # of the panel: from here on words have more room on the left
 _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
 
 
@@ -74,6 +90,7 @@ def law_figure(law: TriangularTransmission, friction: PairFriction | None = None
     _matching(panels, law)
     _jumps(panels[1], law)
     _instant_centre(panels[1])
+    _arms_key(panels[-1])
     _time(panels[-1])
     panels[0].set_title(_title(law, friction), fontsize=TEXT, loc="left", color=BLACK)
     figure.legend(handles=list(_legend(law)), loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
@@ -99,7 +116,8 @@ def _panel(axes: Axes, law: TriangularTransmission, row: int, friction: PairFric
         for y, (whose, style) in zip(
             _values(law, friction, interval.phase, x, interval.held)[row], _CURVES, strict=False
         ):
-            line = {"linestyle": style, "solid_capstyle": "butt", "gid": f"{whose}real {interval.phase}"}
+            line = {"linestyle": style if interval.held is None else _STANDS, "solid_capstyle": "butt"}
+            line |= {"dash_capstyle": "butt", "gid": f"{whose}real {interval.phase}"}
             axes.plot(np.degrees(x), y, color=color, linewidth=4.0, **line)
             real.append(y)
         axes.axvspan(degrees(interval.end), degrees(interval.start), color=color, alpha=0.08, linewidth=0)
@@ -158,14 +176,19 @@ def _matching(panels: list[Axes], law: TriangularTransmission) -> None:
         return
     for axes in panels:
         axes.axvline(degrees(matching), color=GREY, linewidth=1.0, linestyle="-.", gid="matching")
+    left, right = panels[0].get_xlim()
+    aside = -1 if degrees(matching) > left + _NEAR_RIM * (right - left) else 1
     panels[0].annotate(
         r"matching $\alpha_{1m}$ = " + f"{degrees(matching):.3g}°",
         (degrees(matching), 0.03),
         xycoords=("data", "axes fraction"),
-        xytext=(5, 0),
+        xytext=(5 * aside, 0),
         textcoords="offset points",
+        ha="left" if aside > 0 else "right",
         fontsize=SMALL,
         color=GREY,
+        path_effects=HALO,
+        gid="matching",
     )
 
 
@@ -197,6 +220,13 @@ def _jump_label(axes: Axes, jump: SpeedJump) -> None:
     )
 
 
+def _arms_key(axes: Axes) -> None:
+    """Whose arms are dashed, above their panel: below all of them a thin line tells a phase."""
+    for name, (_, style) in zip(("$b_1$, driver", "$b_2$, driven"), _CURVES, strict=True):
+        axes.plot([], [], color=BLACK, linewidth=1.2, linestyle=style, label=name)
+    legend_above(axes, 2)
+
+
 def _centre_at(tau: Any) -> Any:
     """O1C / D; an axis may show tau down to -1 beyond the real path, where there is none."""
     return tau / np.maximum(1 + tau, 0.1)
@@ -207,11 +237,25 @@ def _ratio_at(centre: Any) -> Any:
     return centre / np.maximum(1 - centre, 0.1)
 
 
+def _centres(low: float, high: float) -> list[float]:
+    """Places of the instant centre to write down between two speed ratios: round ones, far enough from each other."""
+    least, most = (float(_centre_at(tau)) for tau in (low, high))
+    ticks: list[float] = []
+    for bins in range(_CENTRES, 0, -1):
+        found = MaxNLocator(nbins=bins, steps=(1, 2, 2.5, 5, 10)).tick_values(least, most)
+        ticks = [float(at) for at in found if least <= at <= most]
+        if all(_ratio_at(b) - _ratio_at(a) > (high - low) / (2 * _CENTRES) for a, b in pairwise(ticks)):
+            break
+    return ticks
+
+
 def _instant_centre(axes: Axes) -> None:
     """Where the instant centre is on the line of centres, as a share of it: tau/(1 + tau)."""
     beside = axes.secondary_yaxis("right", functions=(_centre_at, _ratio_at))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
+    # on this bent scale numbers crowd where tau is near 0
+    beside.set_yticks(_centres(*axes.get_ylim()))
 
 
 def _time(axes: Axes) -> None:
@@ -245,11 +289,9 @@ def _title(law: TriangularTransmission, friction: PairFriction | None) -> str:
 
 def _legend(law: TriangularTransmission) -> Iterator[Line2D]:
     driving = {interval.phase for interval in law.intervals}
-    yield Line2D([], [], color=GREY, linewidth=1.2, label="$b_1$, driver")
-    yield Line2D([], [], color=GREY, linewidth=1.2, linestyle=_CURVES[1][1], label="$b_2$, driven")
     for phase, _, _ in _phases(law):
         if phase in driving:
             yield Line2D([], [], color=PHASES[phase], linewidth=4.0, label=f"{phase}, real path")
         yield Line2D([], [], color=PHASES[phase], linewidth=1.2, label=f"{phase}, ideal path")
     if STANDSTILL in driving:
-        yield Line2D([], [], color=PHASES[STANDSTILL], linewidth=4.0, label=STANDSTILL)
+        yield Line2D([], [], color=PHASES[STANDSTILL], linewidth=4.0, linestyle=_STANDS, label=STANDSTILL)

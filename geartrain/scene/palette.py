@@ -1,10 +1,10 @@
 """The one palette: of drawings and plots, of reports, and of the page that turns; light, dark and for print.
 
 Series are told apart by colour, and by dashes too, so that the two never repeat together; areas in print by greys and
-hatches. Any two of the ten colours,
-and each from the ink, stay apart for readers who see no red or no green (tests/scene/test_palette.py measures it by
-CIEDE2000 under the simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for simulation of
-color vision deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291); all can be read as words on their paper.
+hatches; values by a scale from what is like paper to what is not. Any two of the ten colours, and each from the ink,
+stay apart for readers who see no red or no green (tests/scene/test_palette.py measures it by CIEDE2000 under the
+simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for simulation of color vision
+deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291); all can be read as words on their paper.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ class Theme:
     accent   headings and links of a page
     fault    what is wrong
     fill     faces of what a picture is of; `shade` where they turn away; `band`, of what flows or is marked
+    scale    of values, from the least to the greatest; what lies between is mixed
     series   ten, in order
     areas    colour and matplotlib's hatch of areas of the series, where that is not plainly their colour
     """
@@ -52,6 +53,7 @@ class Theme:
     fill: str
     shade: str
     band: str
+    scale: tuple[str, str, str]
     series: tuple[str, ...]
     areas: tuple[tuple[str, str], ...] = ()
 
@@ -83,6 +85,7 @@ THEMES: dict[ThemeName, Theme] = {
         fill="#edf3f9",
         shade="#6f97bd",
         band="#7fbce6",
+        scale=("#edf3f9", "#7fbce6", "#0072b2"),
         series=(
             "#0072b2", "#a05a00", "#bb2288", "#227755", "#440088",
             "#772200", "#0000ee", "#dd2266", "#005544", "#442244",
@@ -99,6 +102,7 @@ THEMES: dict[ThemeName, Theme] = {
         fill="#43566a",
         shade="#253341",
         band="#2f6690",
+        scale=("#253341", "#2f6690", "#6ab7ff"),
         series=(
             "#6ab7ff", "#ffb000", "#dd5577", "#bbbb88", "#6677ff",
             "#998800", "#aaeeff", "#cc99aa", "#eeffaa", "#aa77aa",
@@ -115,6 +119,7 @@ THEMES: dict[ThemeName, Theme] = {
         fill="#f2f2f2",
         shade="#b8b8b8",
         band="#d8d8d8",
+        scale=("#f6f6f6", "#b4b4b4", "#6e6e6e"),
         series=("#000000", "#737373") * 5,  # the other grey where dashes come again
         areas=(
             ("#555555", ""), ("#bbbbbb", ""), ("#ffffff", "/////"), ("#e4e4e4", ""), ("#ffffff", "xxxxx"),

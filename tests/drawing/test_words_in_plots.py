@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -12,10 +13,11 @@ from shipped import train as load
 
 pytest.importorskip("matplotlib")
 
+from seen_figure import alike, hidden, untitled, without_quantity
 from test_words_in_pictures import faults_of
 from written_text import read_picture
 
-from geartrain.drawing import motion_figure
+from geartrain.drawing import motion_figure, render
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
 from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES
@@ -58,8 +60,11 @@ SLOW = [
 
 def check(arguments: list[object], folder: Path, option: str = "--plot") -> None:
     target = folder / "plot.svg"
-    result = call(*arguments, option, target)
+    with patch("geartrain.drawing.render", wraps=render) as drawn:
+        result = call(*arguments, option, target)
     assert target.exists(), result.output
+    (figure,) = drawn.call_args.args[:1]
+    assert (alike(figure), hidden(figure), untitled(figure), without_quantity(figure)) == ([], [], False, [])
     found = read_picture(target.read_bytes())
     assert found.texts
     assert (found.overlaps(), found.clipped(), found.small(8.0)) == ([], [], [])

@@ -143,4 +143,5 @@ def _figure(mesh: GearMesh) -> Figure:
 
     if mesh.path is not None:
         return shapes_figure({mesh.form: mesh.path})
-    return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {mesh.name}")
+    driver, driven = mesh.counts
+    return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {driver} drives {driven}")

@@ -1,0 +1,144 @@
+"""What a reader sees of a figure beyond its words: entries of a legend that look alike, legends over curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.text import Text
+
+from geartrain.drawing.theme_colours import themed
+from geartrain.scene.palette import ThemeName
+
+_LINE, _AREA = 70.0, 15.0  # of 255: greys nearer to each other than this are one, of lines and of areas
+_WIDTH = 1.6  # ratio of two widths of lines that are told apart
+_SIZE = 1.3  # of two sizes of marks
+
+
+def alike(figure: Figure, theme: ThemeName = "print") -> list[tuple[str, str]]:
+    """Pairs of entries of one legend that a reader could not tell apart in a theme."""
+    with themed(figure, theme):
+        return [
+            (one.get_text(), other.get_text())
+            for legend in legends(figure)
+            for (one, first), (other, second) in combinations(
+                zip(legend.get_texts(), legend.legend_handles, strict=True), 2
+            )
+            if _same(first, second)
+        ]
+
+
+def legends(figure: Figure) -> Iterator[Legend]:
+    """All legends, of the figure and of its axes."""
+    yield from figure.legends
+    for axes in figure.axes:
+        if (own := axes.get_legend()) is not None:
+            yield own
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, Line2D) and isinstance(other, Line2D):
+        return _same_lines(one, other)
+    if isinstance(one, Patch) and isinstance(other, Patch):
+        return one.get_hatch() == other.get_hatch() and _apart(_seen(one), _seen(other)) < _AREA
+    return False
+
+
+def _same_lines(one: Line2D, other: Line2D) -> bool:
+    if one.get_marker() != other.get_marker() or bool(one.get_linewidth()) != bool(other.get_linewidth()):
+        return False
+    if one.get_marker() not in ("None", None, "") and not one.get_linewidth():
+        sizes = sorted((one.get_markersize(), other.get_markersize()))
+        return sizes[1] < _SIZE * sizes[0] and _apart(one.get_color(), other.get_color()) < _LINE
+    widths = sorted((one.get_linewidth(), other.get_linewidth()))
+    dashes = [str(line._unscaled_dash_pattern) for line in (one, other)]  # type: ignore[attr-defined]
+    return (
+        widths[1] < _WIDTH * widths[0] and dashes[0] == dashes[1] and _apart(one.get_color(), other.get_color()) < _LINE
+    )
+
+
+def _apart(one: Any, other: Any) -> float:
+    """Of 255, in the channel in which two colours differ most."""
+    return 255 * float(np.abs(np.subtract(to_rgba(one)[:3], to_rgba(other)[:3])).max())
+
+
+def _seen(patch: Patch) -> tuple[float, ...]:
+    """The colour of an area as it lies on white."""
+    *rgb, alpha = to_rgba(patch.get_facecolor())
+    return tuple(1 - alpha + alpha * channel for channel in rgb)
+
+
+def hidden(figure: Figure) -> list[str]:
+    """Legends within axes that lie over a point, a mark or a bar, by their first words."""
+    figure.draw_without_rendering()
+    found = []
+    for axes in figure.axes:
+        legend = axes.get_legend()
+        if legend is None:
+            continue
+        box = legend.get_window_extent()
+        points = np.concatenate([np.empty((0, 2)), *_points(axes)])
+        inside = (points > (box.x0, box.y0)).all(1) & (points < (box.x1, box.y1)).all(1)
+        bars = any(box.overlaps(bar.get_window_extent()) for bar in axes.patches if bar.get_gid())
+        if inside.any() or bars:
+            found.append(legend.get_texts()[0].get_text())
+    return found
+
+
+def _points(axes: Axes) -> Iterator[np.ndarray]:
+    """Places of marks and lines (n, 2) that are within the axes [pixels]."""
+    for line in axes.lines:
+        if line.get_transform() == axes.transData:
+            yield axes.transData.transform(np.asarray(line.get_xydata(), dtype=float))
+    for marks in axes.collections:
+        yield axes.transData.transform(np.asarray(marks.get_offsets(), dtype=float).reshape(-1, 2))
+
+
+def untitled(figure: Figure) -> bool:
+    """True if nothing above the figure says what it is of."""
+    titles = [figure.get_suptitle(), *(axes.get_title(where) for axes in figure.axes for where in ("left", "center"))]
+    titles += [text.get_text() for text in _words(figure) if text.get_gid() == "title"]
+    return not any(titles)
+
+
+def _words(figure: Figure) -> Iterator[Text]:
+    yield from figure.texts
+    for axes in figure.axes:
+        yield from axes.texts
+
+
+def without_quantity(figure: Figure) -> list[str]:
+    """Axes of numbers without a word on what they count, below or beside; of shared ones the last is asked."""
+    found = []
+    for at, axes in enumerate(figure.axes):
+        if not axes.axison:
+            continue
+        labels = (
+            (axes.xaxis, any(text.get_text() for text in axes.get_xticklabels())),
+            (
+                axes.yaxis,
+                any(_number(text.get_text()) for text in axes.get_yticklabels()),
+            ),
+        )
+        below = [each.get_xlabel() for each in figure.axes if each.get_position().x0 - axes.get_position().x0 < 0.02]
+        for axis, numbers in labels:
+            words = axis.get_label_text() or (any(below) if axis is axes.xaxis else axes.get_title("left"))
+            if numbers and not words:
+                found.append(f"{axis.axis_name} of panel {at}")
+    return found
+
+
+def _number(text: str) -> bool:
+    try:
+        float(text.replace("−", "-"))
+    except ValueError:
+        return False
+    return True

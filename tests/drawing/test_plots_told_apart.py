@@ -1,0 +1,244 @@
+"""What plots show can be told apart in every theme: values on a map, bands, marks at one place, words beside lines."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import radians
+from typing import Any
+
+import numpy as np
+import pytest
+from seen_figure import alike, hidden, without_quantity
+from shipped import train as load
+from test_tooth_figures import law
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from geartrain.drawing import (
+    budget_figure,
+    law_figure,
+    motion_figure,
+    sweep_figure,
+    tooth_sizes_figure,
+    train_sizes_figure,
+)
+from geartrain.drawing.jam_map import jam_map_figure
+from geartrain.drawing.parameter_sweep_plot import parameter_label
+from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.drawing.theme_colours import themed
+from geartrain.dynamics import MotionRun
+from geartrain.scene.palette import THEMES, ThemeName
+from geartrain.synthesis import ToothSizes, find_tooth_sizes, find_train_sizes
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.uncertainty import BudgetQuestion, find_budget
+
+GRID = np.linspace(0.0, 1.0, 5)
+
+
+def jam_map() -> Figure:
+    return jam_map_figure(GRID, GRID, np.outer(GRID, GRID))
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_a_bar_beside_a_map_has_its_colours_and_its_numbers(theme: ThemeName) -> None:
+    figure = jam_map()
+    area, bar = figure.axes
+    (mesh,) = [each for each in area.collections if each.get_gid() == "map"]
+    with themed(figure, theme):
+        figure.draw_without_rendering()
+        (solid,) = [each for each in bar.collections if each.get_array() is not None and len(each.get_array()) > 9]  # type: ignore[arg-type]
+        scales = [each.get_cmap()(np.linspace(0, 1, 9)) for each in (mesh, solid)]
+        assert scales[0] == pytest.approx(scales[1])
+        assert [to_hex(scales[0][at]) for at in (0, -1)] == [THEMES[theme].scale[at] for at in (0, -1)]
+        assert [text.get_text() for text in bar.get_yticklabels()] == ["0%", "10%", "50%", "100%"]
+    assert to_hex(mesh.get_cmap()(0.0)) == THEMES["light"].scale[0]
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_greater_values_are_further_from_the_paper(theme: ThemeName) -> None:
+    def grey(colour: str) -> float:
+        red, green, blue = bytes.fromhex(colour[1:])
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    steps = [abs(grey(each) - grey(THEMES[theme].paper)) for each in THEMES[theme].scale]
+    assert all(later > sooner + 25 for sooner, later in pairwise(steps))
+
+
+@pytest.mark.parametrize("theme", ["dark", "print"])
+def test_the_arrow_of_an_annotation_is_of_the_ink_of_its_theme(theme: ThemeName) -> None:
+    figure = law_figure(law(60, 30, 0.05))
+    (time,) = [text for axes in figure.axes for text in axes.texts if text.get_text() == "time"]
+    with themed(figure, theme):
+        assert to_hex(time.arrow_patch.get_edgecolor()) == THEMES[theme].ink  # type: ignore[attr-defined]
+
+
+def test_words_at_a_line_stay_within_their_panel() -> None:
+    """Of unequal angles, backwards, flank lies on flank near the rim."""
+    sizes = TriangularSizes(60, 30, *equal_depth(60, 30, radians(30), radians(35)), radians(30), radians(35), 0.05)
+    for pair in (law(60, 30, 0.05), TriangularTransmission(sizes, 0.0, -1)):
+        figure = law_figure(pair)
+        figure.draw_without_rendering()
+        (words,) = [text for text in figure.axes[0].texts if text.get_gid() == "matching"]
+        panel, box = figure.axes[0].get_window_extent(), words.get_window_extent()
+        assert panel.x0 < box.x0
+        assert box.x1 < panel.x1
+
+
+def test_numbers_of_the_instant_centre_keep_their_distance_where_a_wheel_stands() -> None:
+    figure = law_figure(law(60, 40, 0.05))
+    figure.draw_without_rendering()
+    (beside,) = [each for each in figure.axes[1].child_axes if "instant centre" in each.get_ylabel()]
+    at = beside.transData.transform([(0, tick) for tick in beside.get_yticks()])[:, 1]
+    assert len(at) >= 3
+    assert min(np.diff(at)) > 14 * figure.dpi / 72  # a line of words
+
+
+def test_ways_of_running_are_told_apart_in_print() -> None:
+    kinds = ["approach", "recess", "astride", "approach+recess", "jam", "clash"]
+    x = np.arange(6.0)
+    figure = sweep_figure({"z": x}, {"efficiency_mean": x}, np.array(kinds), "a sweep")
+    assert not alike(figure)
+    assert not without_quantity(figure)
+
+
+def test_parameters_are_named_with_their_units() -> None:
+    assert parameter_label("half_angle", "deg") == "half angle (deg)"
+    assert parameter_label("centre_distance") == "centre distance (modules)"
+    assert parameter_label("z1") == "teeth of wheel 1"
+
+
+def test_marks_of_one_place_stand_one_within_the_other() -> None:
+    """The best of every pair by itself is the best for the train here."""
+    figure = train_sizes_figure(find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}))
+    marks = [line for line in figure.axes[0].lines if line.get_gid() in ("declared", "apart", "together")]
+    sizes = [line.get_markersize() for line in marks]
+    assert len(marks) == 3
+    assert all(inner < 0.8 * outer for outer, inner in pairwise(sizes))
+    assert all(line.get_markerfacecolor() == "#ffffff" for line in marks[:-1])
+
+
+def test_marks_of_best_sizes_are_in_view_and_their_key_is_below_all_designs() -> None:
+    """Pitch-true teeth are better than all that a free window finds, and far from them."""
+    start = ToothSizes((60, 30), 1.1, 0.5, (radians(30), radians(30)), 0.2)
+    figure = tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    (legend,) = figure.legends
+    assert axes.get_legend() is None
+    assert legend.get_window_extent().y1 < axes.get_tightbbox().y0  # type: ignore[union-attr]
+    marks = [line for line in axes.lines if line.get_gid() in ("best", "equal depth", "pitch-true")]
+    assert len(marks) == 3
+    for mark in marks:
+        x, y = mark.get_xydata()[0]  # type: ignore[index]
+        assert axes.get_xlim()[0] <= x <= axes.get_xlim()[1]
+        assert axes.get_ylim()[0] <= y <= axes.get_ylim()[1]
+
+
+def test_each_pointer_is_drawn_over_its_own_turn() -> None:
+    errors = np.random.default_rng(1).normal(size=(20, 30))
+    bands = {name: ErrorBands.of(np.linspace(0, span, 30), errors) for name, span in (("moon", 0.1), ("sun", 4.0))}
+    figure = pointer_error_figure(bands)
+    assert [axes.get_xlim()[1] for axes in figure.axes] == [0.1, 4.0]
+    assert not alike(figure)
+    assert not alike(figure, "light")
+
+
+def test_the_key_of_bands_is_as_dark_as_they_are_seen() -> None:
+    bands = ErrorBands.of([0.0, 1.0], np.random.default_rng(1).normal(size=(20, 2)))
+    figure = pointer_error_figure({"moon": bands})
+    through = 1.0
+    for band, key in zip(figure.axes[0].collections, figure.legends[0].get_patches(), strict=True):
+        through *= 1 - band.get_alpha()
+        assert key.get_alpha() == pytest.approx(1 - through)
+
+
+def test_trials_are_counted_in_whole_numbers() -> None:
+    figure = histogram_figure({"moon": np.random.default_rng(1).normal(size=100)})
+    figure.draw_without_rendering()
+    ticks = figure.axes[0].get_yticks()
+    assert all(tick == int(tick) for tick in ticks)
+
+
+def test_the_budget_of_one_pointer_is_a_bar_for_each_cause() -> None:
+    budget = find_budget(load("freeth-2008"), BudgetQuestion(outputs=("moon",)))
+    figure = budget_figure(budget)
+    (axes,) = figure.axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == [
+        "ratio",
+        "theory",
+        "teeth",
+        "lost motion",
+        "cutting",
+    ]
+    drawn = [bar.get_width() for bar in axes.patches]
+    assert drawn == [
+        pytest.approx(cause.degrees or 0.0) for cause in (*budget["moon"].ranked, *budget["moon"].undeclared)
+    ]
+    width, height = figure.get_size_inches()
+    assert height > 0.35 * width, "no strip"
+    assert [text.get_text() for text in axes.texts][2:] == ["not declared"] * 3
+
+
+def test_outputs_in_rows_have_their_errors_below_each_other() -> None:
+    train = load("freeth-2021")
+    figure = motion_figure(MotionRun(train.motion(outputs=("mercury", "mars", "moon", "venus", "jupiter")), 20, 2001))
+    columns = {
+        word: {round(axes.get_position().x0, 1) for axes in figure.axes if word in axes.get_ylabel()}
+        for word in ("error", "speed")
+    }
+    assert all(len(places) == 1 for places in columns.values()), columns
+
+
+def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
+    figure = motion_figure(MotionRun(load("longcase-clock-cycloidal").motion(), 2, 101), title="a clock")
+    assert "no output has an error" in figure.get_suptitle()
+    assert not any("error" in axes.get_ylabel() for axes in figure.axes)
+
+
+# ---------------------------------------------------------------------------------------------- the measure can fail
+
+
+def keyed(*entries: Any) -> Figure:
+    figure = Figure()
+    figure.legend(handles=entries)
+    return figure
+
+
+def test_two_lines_of_one_grey_are_found() -> None:
+    light = THEMES["light"]
+    one, two = (Line2D([], [], color=colour, label=colour) for colour in (light.series[0], light.fault))
+    assert alike(keyed(one, two)) == [(light.series[0], light.fault)]
+    assert not alike(keyed(one, two), "light")
+    assert not alike(keyed(one, Line2D([], [], color=light.fault, linestyle=":", label="dotted")))
+
+
+def test_two_areas_of_one_grey_are_found() -> None:
+    light = THEMES["light"]
+    areas = [Patch(color=colour, label=colour) for colour in (light.series[0], light.quiet)]
+    assert alike(keyed(*areas))
+
+
+def test_a_legend_over_a_mark_is_found() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    axes.plot([0, 1], [0, 1], "o", label="a mark")
+    axes.legend(loc="upper right")
+    assert hidden(figure) == ["a mark"]
+    axes.legend(loc="upper left")
+    assert not hidden(figure)
+
+
+def test_an_axis_of_numbers_without_words_is_found() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    axes.plot([0, 1], [0, 1])
+    figure.draw_without_rendering()
+    assert len(without_quantity(figure)) == 2
+    axes.set(xlabel="turns", ylabel="error (deg)")
+    assert not without_quantity(figure)

@@ -63,6 +63,8 @@ class DialFace:
         As declared.
     plate : float
         Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made.
+    seated : bool
+        Whether it turns on the end of an arbor or pipe, with a hand of the dial below it.
     title : str
         What stands over it: its name, and in brackets the outputs read on it where the dial stands about several axes.
     engraving : sequence of (str, float, sequence of sequence of int)
@@ -85,6 +87,7 @@ class DialFace:
     look: Literal["scale", "ball"] = "scale"
     note: str = ""
     plate: float = 0.0
+    seated: bool = False
     title: str = ""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
 

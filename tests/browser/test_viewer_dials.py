@@ -91,3 +91,17 @@ def test_the_ground_is_below_all_that_turns_and_grows_as_layers_part(show: Openi
     low, ground, deep = shown.run(script, 0)
     assert ground < low
     assert shown.run(script, 1)[2] > 1.5 * deep
+
+
+def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> None:
+    """In the picture it is there once, and on both dials beside it in the one colour that it has."""
+    shown = show("prague-orloj")
+    hands = "geartrain.stages[0].world.parts.filter(({dial, plate, colour}) => dial !== undefined && !plate)"
+    outputs = [shown.run(f"geartrain.scenes[0].bodies[{body}].id") for body in shown.run(f"{hands}.map((e) => e.body)")]
+    assert outputs == ["sun", "zodiac", "moon"]
+    classes = shown.run(
+        "Object.fromEntries([...document.querySelectorAll('.card .hand')]"
+        ".map((hand) => [hand.dataset.output, hand.getAttribute('class')]))"
+    )
+    assert classes["sun in zodiac"] == classes["sun"] != classes["zodiac"]
+    assert classes["sidereal month"] == classes["moon"] not in (classes["sun"], classes["zodiac"])

@@ -216,3 +216,20 @@ def test_a_bracket_stands_on_the_side_of_its_wheels_where_no_other_is_in_its_way
     (bracket,) = (part for part in scene.parts if part.name.startswith("water bracket"))
     pit, wallower = wheels["pit72"].centre[0], wheels["wallower18"].centre[0]
     assert wallower < pit < bracket.place[0]
+
+
+def test_hands_pass_over_a_dial_that_turns_on_a_pipe_among_them() -> None:
+    """The ecliptic of the Orloj stood before the hands of Sun and Moon, which went behind it."""
+    scene = shipped.built("prague-orloj")
+    hours, ecliptic = scene.dials
+    borne = np.dot(np.subtract(ecliptic.centre, hours.centre), hours.normal)
+    height = {
+        (each.output, each.dial): each.level + (borne if each.dial else 0)
+        for each in scene.pointers
+        if each.dial is not None
+    }
+    assert 1 < borne == pytest.approx(height["zodiac", 0])
+    assert height["sun", 0] - borne > 1
+    assert height["sun in zodiac", 1] == pytest.approx(height["sun", 0])  # they are one hand each
+    assert height["sidereal month", 1] == pytest.approx(height["moon", 0])
+    assert height["moon", 0] > height["sun", 0]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.vectors import Vector, dot, minus
+from geartrain.numerics.vectors import Vector, dot, minus, plus
 from geartrain.scene.built_elements import SceneHanger, ScenePart
 from geartrain.scene.construction import make_scene
 from geartrain.scene.dial_pointers import with_balls
@@ -80,6 +80,8 @@ def build_scene(
     scene = scene if model.plan is None else with_pins_apart(scene, model.plan)
     dials, pointers = _engraved(scene, model), scene.pointers
     if model.plan is not None:
+        pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
+        dials = _with_borne(dials, pointers)
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     wheels = tuple(_opened(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
@@ -169,10 +171,25 @@ def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
     return tuple(faces)
 
 
+def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
+    """The dials, those that turn with a hand of the dial below them put where that hand is, under the hands above it."""
+    found = list(dials)
+    for at, face in enumerate(dials):
+        for each in pointers:
+            under = None if each.dial is None else dials[each.dial]
+            if face.plate or not each.seat or under is None or each.body != face.body or each.dial == at:
+                continue
+            off = minus(face.centre, under.centre)
+            high = dot(off, under.normal)
+            if under.normal == face.normal and dot(off, off) - high * high < _SAME:
+                found[at] = replace(face, centre=plus(under.centre, face.normal, each.level), seated=True)
+    return tuple(found)
+
+
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:
     """A pointer whose hand sits on the end of its arbor or pipe."""
     face = None if pointer.dial is None else dials[pointer.dial]
-    if face is None or not face.plate:
+    if face is None or not (face.plate or face.seated):
         return pointer
     for column, member in plan.members_of(scene.bodies[pointer.body].id):
         ends = [

@@ -12,7 +12,8 @@ const ALONG = [0, 0, 0]; // ink is not brushed
 export function dialParts(scene, index) {
   const dial = scene.dials[index];
   if (dial.look === "ball") return [socket(scene, index)];
-  const thick = 0.012 * dial.radius;
+  const levels = scene.pointers.flatMap((each) => (each.dial === index ? [each.level] : []));
+  const thick = Math.min(0.012 * dial.radius, dial.seated ? 0.25 * Math.min(...levels) : Infinity); // hands pass over it
   const centre = vector(dial.centre).addScaledVector(vector(dial.normal), dial.plate ? 0.5 * thick : 0).toArray();
   const matrix = frameAt(centre, dial.normal, dial.zero);
   const hole = holeOf(dial);
@@ -81,6 +82,22 @@ export function pointerParts(scene, index, order) {
 }
 
 const SHORTER = 0.07; // of hands of one dial, the next one
+
+/** The pointer whose hand shows a pointer on its dial: of those on one end of an arbor the one that is longest. */
+export function shownBy({ pointers, dials }, index) {
+  const own = pointers[index];
+  const reach = ({ dial }) => dials[dial].radius;
+  const isAlike = ({ body, dial, seat }) => seat && own.seat && body === own.body && dial !== null && String(dials[dial].normal) === String(dials[own.dial].normal);
+  return pointers.reduce((best, each, at) => (isAlike(each) && reach(each) > reach(pointers[best]) ? at : best), index);
+}
+
+/** Which hand of its dial shows a pointer, from 0: by that it has its colour. */
+export function orderOf(scene, index) {
+  const { pointers } = scene;
+  if (pointers[index].dial === null) return 0;
+  const by = shownBy(scene, index);
+  return pointers.slice(0, by).filter(({ dial }) => dial === pointers[by].dial).length;
+}
 
 /** Stations of a hand: [x, half width], as long as its scale asks; each that stands over others a little shorter. */
 export function handOf({ outline, reach }, size, order) {

@@ -6,7 +6,7 @@ import { Casting } from "./casting.js";
 import { PARTS } from "./colours.js";
 import { holds, quarterOf } from "./cutaway.js";
 import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
-import { dialParts, pointerParts } from "./faces.js";
+import { dialParts, orderOf, pointerParts, shownBy } from "./faces.js";
 import { Ground } from "./ground.js";
 import { couplingParts, crankOf, hangerParts } from "./joints.js";
 import { Looks } from "./looks.js";
@@ -73,13 +73,10 @@ export class World {
       if (!made.has(`${coupling.id} pin`) && !made.has(`${coupling.id} pin 1`)) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
     }
     scene.dials.forEach((_, index) => dialParts(scene, index).forEach((part) => this.put(part)));
-    const orders = new Map();
     scene.pointers.forEach(({ dial }, index) => {
-      if (dial === null) return;
-      const order = orders.get(dial) ?? 0;
-      orders.set(dial, order + 1);
+      if (dial === null || shownBy(scene, index) !== index) return;
       const body = scene.dials[dial].look === "ball" ? this.poses.ball(dial) : scene.pointers[index].body;
-      pointerParts(scene, index, order).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
+      pointerParts(scene, index, orderOf(scene, index)).forEach((part) => this.put({ ...part, body: part.slides === undefined ? body : this.poses.slide(index) }));
     });
     scene.hangers.forEach((hanger, index) => hangerParts(hanger).forEach((part) => this.put({ ...part, body: this.poses.hanger(index) })));
     this.crank = this.buildCrank(reach);

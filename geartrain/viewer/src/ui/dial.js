@@ -31,7 +31,7 @@ export class Dial {
     this.scale = dial?.scale ?? PLAIN;
     this.engraving = dial?.engraving ?? [];
     this.zero = dial ? zeroOf(dial) : 0;
-    this.hands = hands.map((hand, order) => ({ reading: hand, node: this.#hand(order, hand), sky: this.#sky(order, hand) }));
+    this.hands = hands.map((hand) => ({ reading: hand, node: this.#hand(hand), sky: this.#sky(hand) }));
     this.node = svg(
       "svg",
       { viewBox: "-100 -100 200 200", class: "dial", role: "img", "aria-label": `dial ${name}` },
@@ -59,14 +59,15 @@ export class Dial {
     return [svg("g", turned, ...(drawn.length ? drawn : plain), zero)];
   }
 
-  #hand(order, reading) {
+  #hand(reading) {
+    const { order } = reading;
     const group = svg("g", { class: `hand hand-${order % NEEDLES.length}`, "data-output": reading.pointer.output });
     this.draw(group, reading, order);
     return group;
   }
 
   /** Where the first target of a pointer stands: an open circle on its scale. */
-  #sky(order, { pointer }) {
+  #sky({ order, pointer }) {
     const [target] = pointer.targets;
     if (!target) return null;
     const title = svg("title", {}, `${pointer.output} by ${target.label}, mean motion`);

@@ -23,7 +23,7 @@ class Card {
     this.hands = hands;
     this.dial = new Dial(name, dial, hands);
     this.values = hands.map(() => el("span", { class: "value" }));
-    const rows = hands.map((hand, order) =>
+    const rows = hands.map((hand, row) =>
       el(
         "li",
         {},
@@ -35,10 +35,10 @@ class Card {
             onclick: () => onChoose(hand.pointer.output),
             "aria-label": `highlight the path to ${hand.pointer.output}`,
           },
-          el("span", { class: `key hand-${order % NEEDLES.length}`, "aria-hidden": "true" }),
+          el("span", { class: `key hand-${hand.order % NEEDLES.length}`, "aria-hidden": "true" }),
           hand.pointer.output,
         ),
-        this.values[order],
+        this.values[row],
       ),
     );
     const scale =

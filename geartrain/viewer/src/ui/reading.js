@@ -1,5 +1,7 @@
 // What a pointer reads: its angle from the zero mark, the way its scale is counted, on one turn or several.
 
+import { orderOf } from "../faces.js";
+
 export const within = (value, size) => ((value % size) + size) % size;
 
 export class Reading {
@@ -7,6 +9,7 @@ export class Reading {
     this.machine = machine;
     this.index = index;
     this.pointer = scene.pointers[index];
+    this.order = orderOf(scene, index);
     this.dial = this.pointer.dial === null ? null : scene.dials[this.pointer.dial];
     this.scale = this.dial?.scale ?? { turns: 1, divisions: 0, way: 1, names: [] };
     this.turns = this.scale.turns;

@@ -172,7 +172,7 @@ def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
 
 
 def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials, those that turn with a hand of the dial below them put where that hand is, under the hands above it."""
+    """The dials; those that turn with a hand of the dial below them are where that hand is, under the others."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:

@@ -233,3 +233,12 @@ def test_hands_pass_over_a_dial_that_turns_on_a_pipe_among_them() -> None:
     assert height["sun in zodiac", 1] == pytest.approx(height["sun", 0])  # they are one hand each
     assert height["sidereal month", 1] == pytest.approx(height["moon", 0])
     assert height["moon", 0] > height["sun", 0]
+
+
+@pytest.mark.parametrize("name", ["al-biruni-box-of-the-moon", "byzantine-sundial-calendar"])
+def test_a_dial_that_names_no_side_stands_on_feet_before_the_reader(name: str) -> None:
+    """Its arbors did not come out to it, so that it hung in the air."""
+    scene = shipped.built(name)
+    assert all(face.plate > face.radius > 0 for face in scene.dials)
+    assert all(each.seat > 0 and each.level > 0 for each in scene.pointers if each.dial is not None)
+    assert sum(part.kind == "foot" for part in scene.parts) >= 3

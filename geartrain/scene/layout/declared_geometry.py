@@ -16,6 +16,7 @@ from geartrain.kinematics.circuits.axes import Axes
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
+from geartrain.train.dials import looks_away
 from geartrain.train.wheel_stock import wheel_thickness
 
 Point = tuple[float, float]
@@ -23,6 +24,7 @@ Point = tuple[float, float]
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
 _TOUCHING = 1e-12  # of a distance: nearer to it, pitch circles touch
+_ACROSS = 1e-9  # of a direction along z: below that, an axis lies across the view
 WORM = Fraction(5)  # pitch radius of a worm over its axial module: slender, but not weak
 
 
@@ -248,7 +250,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         dict(_thickness(declared)),
         tuple(strays),
         front,
-        _dial_ends(declared, front),
+        _dial_ends(declared, tree, lines, front),
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
         dict(_lantern_discs(declared)),
     )
@@ -305,15 +307,17 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
 
 
-def _dial_ends(declared: Train, front: int) -> dict[str, DialEnds]:
+def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front: int) -> dict[str, DialEnds]:
     found: dict[str, DialEnds] = {}
     for case in declared.cases:
         for name, output in case.outputs.items():
             dial = declared.dials.get(output.dial or "")
-            if dial is None or dial.face not in ("front", "back"):
-                continue
-            high = (front > 0) == (dial.face == "front")
             link = output.of or name
+            line = lines.get(tree.axis(link) or "")
+            across = line is not None and abs(line.direction[2]) < _ACROSS  # it looks neither to the reader nor away
+            if dial is None or dial.look == "ball" or across:
+                continue
+            high = (front > 0) != looks_away(dial.face, declared.view.from_)
             before = found.get(link, DialEnds())
             found[link] = DialEnds(before.low or not high, before.high or high)
     return found

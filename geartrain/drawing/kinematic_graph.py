@@ -17,6 +17,7 @@ from geartrain.drawing.arrangement import settle
 from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Path, PathPatch, Rectangle
 from geartrain.drawing.labels import Box, LabelSpace, text_box, text_width
 from geartrain.drawing.style import BLACK, BLUE, FINE, GREY, PURPLE, RED, SMALL, sheet, title_of, too_many, write
+from geartrain.scene.palette import Dash
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -31,9 +32,15 @@ _BENDS = [0.0, *(side * size for size in (0.15, 0.3, 0.5, 0.8, 1.2, 1.7) for sid
 _SHORT = 4  # letters of a name that fits into its vertex
 _TRACED = 81  # points of an edge that labels of others keep off
 _RIMS = 0.03  # inches between two labels
-_SHARES = (0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.27, 0.73)  # of an edge, where its label may stand
+_KEPT = 0.03  # inches between a label and an edge that it is not of
+_SHARES = tuple(share / 100 for share in range(14, 87, 3))  # of an edge, where its label may stand
+_LOOKS: dict[str, tuple[float, Dash, str]] = {
+    "revolute": (0.9, "-", GREY),
+    "gear": (3.2, "-", BLUE),
+    "coupling": (2.2, (0, (4, 2)), PURPLE),
+}
+"""Width [pt], dashes and colour of an edge by its kind."""
 _BESIDE = (
-    (0.0, 0.0),
     (0.0, 0.12),
     (0.0, -0.12),
     (0.2, 0.06),
@@ -97,7 +104,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     curves = _curves(edges, at)
     for edge, curve in zip(edges, curves, strict=True):
         _draw_edge(axes, edge, curve)
-    room = LabelSpace()
+    room, traces = LabelSpace(), _Traces.of(edges, curves)
     outside = [link for link in links if beside or link == declared.frame]  # no word is read over hatching
     half = {link: _SMALL if link in outside else inner for link in links}
     for link in links:
@@ -105,11 +112,11 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     for link in links:
         _draw_vertex(axes, link, at, link == declared.frame, half[link])
         if link in outside:
-            _name_vertex(axes, link, at, edges, room)
+            _name_vertex(axes, link, at, edges, traces, room)
         else:
             write(axes, *at[link], link, fontweight="bold", fontsize=_IN)
     if labels:
-        _draw_labels(axes, edges, curves, room)
+        _draw_labels(axes, edges, curves, traces, room)
     figure.legend(handles=list(_legend(edges)), loc="lower center", ncols=5, fontsize=SMALL - 1, frameon=False)
     return figure
 
@@ -133,7 +140,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
     pairs = [edge.ends for edge in edges]
     least = _EDGE + _ROOMY / len(links)
     lengths = {
-        edge.ends: max(least + _HUB * max(sum(degree[end] for end in edge.ends) - 6, 0), _width(edge.label) + 0.55)
+        edge.ends: max(least + _HUB * max(sum(degree[end] for end in edge.ends) - 6, 0), text_width(edge.label) + 0.55)
         for edge in edges
     }
     places = settle(links, pairs, lengths)
@@ -182,11 +189,7 @@ def _point(curve: Floats, share: float) -> Floats:
 
 
 def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
-    width, style, color = {
-        "revolute": (0.9, "-", GREY),
-        "gear": (3.2, "-", BLUE),
-        "coupling": (2.2, (0, (4, 2)), PURPLE),
-    }[edge.kind]
+    width, style, color = _LOOKS[edge.kind]
     color = RED if edge.broken else color
     path = Path(curve, [Path.MOVETO, Path.CURVE3, Path.CURVE3])
     axes.add_patch(
@@ -203,36 +206,53 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
     )
 
 
-def _width(text: str) -> float:
-    return text_width(text)
+@dataclass(frozen=True, slots=True)
+class _Traces:
+    """Edges as points (edge, point, 2), and how much ink a point of each stands for [inches by points of width]."""
+
+    points: Floats
+    ink: Floats
+
+    @classmethod
+    def of(cls, edges: Sequence[GraphEdge], curves: Sequence[Floats]) -> _Traces:
+        points = np.array([[_point(curve, share) for share in np.linspace(0, 1, _TRACED)] for curve in curves])
+        steps = np.sqrt((np.diff(points, axis=1) ** 2).sum(2)).mean(1)
+        return cls(points, steps * [_LOOKS[edge.kind][0] for edge in edges])
+
+    def hidden(self, box: Box, own: int | None = None) -> float:
+        """Ink of edges under a box with a rim, `own` left out."""
+        inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _KEPT).all(2).sum(1)
+        ink = inside * self.ink
+        return float(ink.sum() - (0.0 if own is None else ink[own]))
 
 
-def _draw_labels(axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], room: LabelSpace) -> None:
-    """Every edge's label on it, near its middle, or beside it, where it hides no other label, and no other edge if it
-    can; the longest first.
+def _draw_labels(
+    axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
+) -> None:
+    """Every edge's label on it, as near to its middle as it hides no other edge there, else where it hides least.
+
+    What has fewest places is placed first; only where none on the edge is free a label stands beside it.
     """
-    order = sorted(range(len(edges)), key=lambda at: (-len(edges[at].label), at))
-    lines = np.array([[_point(curve, share) for share in np.linspace(0, 1, _TRACED)] for curve in curves])
+    spots = [_spots(edge, curve, at, traces) for at, (edge, curve) in enumerate(zip(edges, curves, strict=True))]
+    order = sorted(range(len(edges)), key=lambda at: (sum(not ink for ink, _ in spots[at]), at))
     for at in order:
-        edge, others = edges[at], np.delete(lines, at, axis=0).reshape(-1, 2)
-        spots = [(*map(float, _point(curves[at], share)),) for share in _SHARES]
-        moved = [(x + dx, y + dy) for dx, dy in _BESIDE for x, y in spots]
-        boxes = [(x, y, wide + _RIMS, high + _RIMS) for x, y, wide, high in _boxes(edge.label, moved)]
-        clear = [box for box in boxes[: len(spots)] if not _hit(box, others)]
-        x, y, _, _ = room.place([*clear, *boxes]) or boxes[0]
-        turning = edge.kind == "revolute"
-        color = RED if edge.broken else {"revolute": GREY, "gear": BLUE}.get(edge.kind, PURPLE)
-        style = "italic" if turning else "normal"
-        write(axes, x, y, edge.label, color, 6.0, fontsize=FINE, fontstyle=style)
+        edge, boxes = edges[at], [box for _, box in sorted(spots[at], key=lambda spot: spot[0])]
+        beside = [(x + dx, y + dy, wide, high) for dx, dy in _BESIDE for x, y, wide, high in boxes]
+        x, y, _, _ = room.place([*boxes, *beside]) or boxes[0]
+        color = RED if edge.broken else _LOOKS[edge.kind][2]
+        style = "italic" if edge.kind == "revolute" else "normal"
+        write(axes, x, y, edge.label, color, 6.0, fontsize=FINE, fontstyle=style, gid=f"label {edge.label}")
 
 
-def _boxes(label: str, spots: Sequence[tuple[float, float]]) -> Iterator[Box]:
-    return (text_box([label], FINE, x, y) for x, y in spots)
-
-
-def _hit(box: Box, points: Floats) -> bool:
-    """True if one of the points (n, 2) lies in the box."""
-    return bool((np.abs(points - box[:2]) < np.array(box[2:]) / 2).all(1).any())
+def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
+    """Places of a label along its edge, from the middle outwards, each with the ink of others that it hides."""
+    found = []
+    for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
+        x, y = map(float, _point(curve, share))
+        _, _, wide, high = text_box([edge.label], FINE, x, y)
+        box = (x, y, wide + _RIMS, high + _RIMS)
+        found.append((traces.hidden(box, at), box))
+    return found
 
 
 def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], frame: bool, size: float) -> None:
@@ -252,9 +272,14 @@ def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], f
 
 
 def _name_vertex(
-    axes: Axes, link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge], room: LabelSpace
+    axes: Axes,
+    link: str,
+    at: Mapping[str, tuple[float, float]],
+    edges: Sequence[GraphEdge],
+    traces: _Traces,
+    room: LabelSpace,
 ) -> None:
-    """A link's name beside its vertex, on the side on which fewest edges leave it and no other name stands."""
+    """A link's name beside its vertex, where it hides least of edges, on the side on which fewest edges leave it."""
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
         for dx, dy in _free_sides(link, at, edges):
@@ -262,6 +287,7 @@ def _name_vertex(
             lean = 1 if dx > 0.35 else -1 if dx < -0.35 else 0
             x = at[link][0] + reach * dx + lean * wide / 2
             boxes.append((x, at[link][1] + (reach + 0.05) * dy, wide, high))
+    boxes.sort(key=lambda box: round(traces.hidden(box), 6))
     x, y, _, _ = room.place(boxes) or boxes[0]
     write(axes, x, y, link, fontweight="bold", fontsize=_NAME, zorder=9)
 
@@ -286,11 +312,16 @@ def _free_sides(
 def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:
     kinds = {edge.kind for edge in edges}
     if "revolute" in kinds:
-        yield Line2D([], [], color=GREY, linewidth=0.9, label="turning pair, with its axis")
+        yield _key("revolute", "turning pair, with its axis")
     if "gear" in kinds:
-        yield Line2D([], [], color=BLUE, linewidth=3.2, label="gear pair")
+        yield _key("gear", "gear pair")
     if "coupling" in kinds:
-        yield Line2D([], [], color=PURPLE, linewidth=2.2, linestyle=(0, (4, 2)), label="pin in a slot")
+        yield _key("coupling", "pin in a slot")
     yield Line2D([], [], marker="s", color=BLACK, markerfacecolor="white", linestyle="", label="frame")
     if any(edge.broken for edge in edges):
         yield Line2D([], [], color=RED, linewidth=3.2, label="loop that does not close")
+
+
+def _key(kind: str, words: str) -> Line2D:
+    width, dashes, color = _LOOKS[kind]
+    return Line2D([], [], color=color, linewidth=width, linestyle=dashes, label=words)

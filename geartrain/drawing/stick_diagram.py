@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Rectangle
-from geartrain.drawing.stick_elements import draw_elements, width_of
+from geartrain.drawing.stick_elements import PLATE, STEM, draw_elements, width_of
 from geartrain.drawing.stick_grid import StickCrank, StickShaft
 from geartrain.drawing.stick_skeleton import StickMesh, StickSkeleton, find_skeleton
 from geartrain.drawing.stick_words import StickWords
@@ -30,6 +30,8 @@ from geartrain.drawing.style import (
 _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _NAME = 8.5  # points
+_LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: what a line is, is seen without its colour
+_TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
 _LONE = 0.55  # inches of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
 
@@ -101,8 +103,8 @@ class _Drawing:
     def draw_shaft(self, shaft: StickShaft) -> None:
         """A link's shaft with its name, in a bearing if the frame bears it."""
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
-        self._line([left, right], [shaft.y, shaft.y], "white", 4.5, zorder=5)
-        self._line([left, right], [shaft.y, shaft.y], BLACK, 1.8, zorder=6, gid=f"link {shaft.link}")
+        self._line([left, right], [shaft.y, shaft.y], "white", _LINK + 3.0, zorder=5)
+        self._line([left, right], [shaft.y, shaft.y], BLACK, _LINK, zorder=6, gid=f"link {shaft.link}")
         if self.train.tree.top[shaft.link] == self.train.declaration.frame:
             self._ground(left + 0.04, shaft.y - 0.075)
         self.words.keep_off((left, right), (shaft.y, shaft.y))
@@ -117,7 +119,7 @@ class _Drawing:
             self._draw_coupling(mesh, low, high)
         else:
             for wheel, link, foot, side in zip(mesh.wheels, mesh.ends, (low, high), (-1, 1), strict=True):
-                end = mesh.meet + 0.022 * side
+                end = mesh.meet + _TOUCH * side
                 self._upright(mesh.x, foot, end, wheel, link)
                 self._tick(mesh.x, end, mesh.kind)
 
@@ -133,11 +135,11 @@ class _Drawing:
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
-        end = mesh.meet - 0.022 * side
+        end = mesh.meet - _TOUCH * side
         self._upright(mesh.x, foot[planet], end, mesh.wheels[planet], mesh.ends[planet])
         self._tick(mesh.x, end, "spur")
-        over, beside = mesh.meet + 0.022 * side, mesh.x + _COLUMN
-        self._line([mesh.x - _TICK, beside], [over, over], BLUE, 2.0, zorder=4)
+        over, beside = mesh.meet + _TOUCH * side, mesh.x + _COLUMN
+        self._line([mesh.x - _TICK, beside], [over, over], BLUE, _WHEEL, zorder=4)
         self._upright(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
@@ -146,9 +148,9 @@ class _Drawing:
         parallel = coupling.kind == "parallel"
         for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
             end = mesh.meet + 0.03 * side * parallel
-            self._line([mesh.x, mesh.x], [foot, end], PURPLE, 2.0, zorder=3, gid=f"coupling {mesh.name}")
+            self._line([mesh.x, mesh.x], [foot, end], PURPLE, _COUPLING, zorder=3, gid=f"coupling {mesh.name}")
             if parallel:
-                self._line([mesh.x - _TICK, mesh.x + _TICK], [end, end], PURPLE, 2.0, zorder=5)
+                self._line([mesh.x - _TICK, mesh.x + _TICK], [end, end], PURPLE, _COUPLING, zorder=5)
             elif link == coupling.pin:
                 self.axes.plot([mesh.x], [mesh.meet], "o", color=PURPLE, markersize=5, zorder=5)
             else:
@@ -160,13 +162,13 @@ class _Drawing:
 
     def _upright(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
         """A wheel from its shaft to where it touches; the second time, joined to the first."""
-        self._line([x, x], [foot, end], BLUE, 2.0, zorder=3, gid=f"wheel {wheel}")
+        self._line([x, x], [foot, end], BLUE, _WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
         known = self.feet.get(wheel)
         if known is not None and abs(known[0] - x) > 1e-9:  # more than rounding beside where it stood
             level = foot + (0.09 if end > foot else -0.09)
-            self._line([known[0], x], [level, level], BLUE, 2.0, zorder=3)
+            self._line([known[0], x], [level, level], BLUE, _WHEEL, zorder=3)
         if known is None:
             count = self.train.declaration.wheels[wheel][1].count
             self.words.name_upright(f"{wheel} {count}", x, (foot, end), BLUE)
@@ -183,10 +185,10 @@ class _Drawing:
         """A carrier's arm, ending in a bearing about the axis it bears."""
         y = self.skeleton.shafts[crank.carrier].y
         far = self.skeleton.rows[crank.axis][0]
-        self._line([crank.x, crank.x], [y, far], ORANGE, 3.2, zorder=3, gid=f"crank {crank.carrier}")
+        self._line([crank.x, crank.x], [y, far], ORANGE, _CARRIER, zorder=3, gid=f"crank {crank.carrier}")
         for side in (-1, 1):
             level = far + 0.05 * side
-            self._line([crank.x - 0.08, crank.x + 0.08], [level, level], ORANGE, 2.0, zorder=7)
+            self._line([crank.x - 0.08, crank.x + 0.08], [level, level], ORANGE, _WHEEL, zorder=7)
 
     def _tick(self, x: float, y: float, kind: str) -> None:
         """The mark of teeth at the end of a wheel: level, slanted (bevel), upright too (contrate), or long (worm)."""
@@ -194,7 +196,7 @@ class _Drawing:
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"
         self.words.keep_off((x - reach, x + reach), (y - lean, y + lean))
-        self._line([x - reach, x + reach], [y - lean, y + lean], BLUE, 2.0, zorder=4, linestyle=style, gid="teeth")
+        self._line([x - reach, x + reach], [y - lean, y + lean], BLUE, _WHEEL, zorder=4, linestyle=style, gid="teeth")
 
     def _ground(self, x: float, y: float) -> None:
         self.words.keep_off((x - 0.09, x + 0.09), (y - 0.045, y + 0.045))
@@ -207,18 +209,19 @@ class _Drawing:
 
 
 def _legend(train: GearTrain) -> Iterator[Line2D | Patch]:
-    yield Line2D([], [], color=BLACK, linewidth=1.8, label="links on their axes")
-    yield Line2D([], [], color=BLUE, linewidth=2.0, label="wheels")
+    yield Line2D([], [], color=BLACK, linewidth=_LINK, label="links on their axes")
+    yield Line2D([], [], color=BLUE, linewidth=_WHEEL, label="wheels")
     yield Patch(facecolor="white", edgecolor=GREY, hatch="//////", label="frame")
     if any(circuit.carrier != train.declaration.frame for circuit in train.circuits):
-        yield Line2D([], [], color=ORANGE, linewidth=3.2, label="carriers")
+        yield Line2D([], [], color=ORANGE, linewidth=_CARRIER, label="carriers")
     kinds = {coupling.kind for coupling in train.declaration.couplings}
     if kinds - {"parallel"}:
         holes = "pins in holes" if kinds - {"parallel"} == {"pins_in_holes"} else "pins in slots"
-        yield Line2D([], [], color=PURPLE, linewidth=2.0, marker="o", label=holes)
+        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, marker="o", label=holes)
     if "parallel" in kinds:
         ends = {"marker": "|", "markersize": 8, "markeredgewidth": 2.0}
-        yield Line2D([], [], color=PURPLE, linewidth=2.0, label="kept parallel", **ends)  # type: ignore[arg-type]
+        yield Line2D([], [], color=PURPLE, linewidth=_COUPLING, label="kept parallel", **ends)  # type: ignore[arg-type]
     if train.declaration.clutches:
-        yield Line2D([], [], color=PURPLE, linewidth=2.6, label="closed brakes and clutches")
-        yield Line2D([], [], color=GREY, linewidth=2.6, label="open ones")
+        ends = {"linewidth": PLATE, "marker": "|", "markersize": 10, "markeredgewidth": STEM}
+        for color, words in ((PURPLE, "closed brakes and clutches"), (GREY, "open ones")):
+            yield Line2D([], [], color=color, label=words, **ends)  # type: ignore[arg-type]

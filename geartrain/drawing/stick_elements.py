@@ -7,6 +7,8 @@ from geartrain.drawing.backend import Axes, Rectangle
 from geartrain.drawing.style import GREY, LETTER, PURPLE, write
 
 STEP = 0.62  # inches from one to the next
+PLATE, STEM = 2.6, 1.6
+"""Widths of a plate and of what bears it [pt]."""
 _HALF, _PLATE = 0.42, 0.11  # inches: half its height, half a plate
 _CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap of its plates
 _NAME = 8.0  # points
@@ -32,8 +34,8 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
         below, above = clutch.locks or (clutch.fixes or "", declared.frame)
         for side in (-1, 1):
             plate = middle + side * gap
-            axes.plot([x - _PLATE, x + _PLATE], [plate, plate], color=color, linewidth=2.6, gid=f"element {name}")
-            axes.plot([x, x], [plate, middle + side * _HALF], color=color, linewidth=1.6)
+            axes.plot([x - _PLATE, x + _PLATE], [plate, plate], color=color, linewidth=PLATE, gid=f"element {name}")
+            axes.plot([x, x], [plate, middle + side * _HALF], color=color, linewidth=STEM)
         if clutch.fixes is not None:
             box = Rectangle((x - 0.11, middle + _HALF), 0.22, 0.1, hatch="//////", zorder=4)
             box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)

@@ -6,6 +6,7 @@ Measured in the written file, where a glyph is an outline: what is measured is w
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from geartrain.errors import QuestionError
 pytest.importorskip("matplotlib")
 
 from matplotlib.figure import Figure
+from seen_figure import alike
 from written_text import read_picture
 
 from geartrain.drawing import picture, render
@@ -49,6 +51,7 @@ def check(name: str, kind: str, turns: Fraction = Fraction(0)) -> None:
     except QuestionError:
         return  # a kind that does not fit this train, which other tests hold
     assert not faults_of(figure)
+    assert not alike(figure)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -98,6 +101,52 @@ def test_names_of_links_axes_and_couplings_keep_off_uprights(name: str) -> None:
         box = words.get_window_extent()
         struck = [mark for mark in uprights if box.x0 < mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1]
         assert not struck, words.get_text()
+
+
+def test_lines_of_a_stick_diagram_tell_by_their_width_what_they_are_and_so_does_its_legend() -> None:
+    (axes,) = (figure := picture(load("zf-8hp70"), "stick", None, Fraction(0))).axes
+    drawn: dict[str, set[float]] = {}
+    for line in axes.lines:
+        drawn.setdefault((line.get_gid() or "").partition(" ")[0], set()).add(line.get_linewidth())
+    keys = {line.get_label(): line.get_linewidth() for line in figure.legends[0].get_lines()}
+    widths = [keys["links on their axes"], keys["wheels"], keys["carriers"]]
+    assert [drawn[part] for part in ("link", "wheel", "crank")] == [{width} for width in widths]
+    assert all(wider > 1.4 * width for width, wider in pairwise(widths))
+    touching = [line for line in axes.lines if line.get_gid() == "teeth"]
+    levels = sorted({(round(line.get_xdata()[0], 6), line.get_ydata()[0]) for line in touching})
+    gaps = [high - low for (x, low), (at, high) in pairwise(levels) if x == at and high - low < 0.1]
+    assert gaps
+    assert min(gaps) * 72 > widths[1] + 1, "the marks of two wheels that touch are two"
+
+
+@pytest.mark.parametrize(
+    ("name", "most"), [("three-planets", 0), ("zf-8hp70", 0), ("price-1974", 0), ("freeth-2021", 17)]
+)
+def test_labels_of_a_graph_keep_off_other_edges(name: str, most: int) -> None:
+    """In a graph of 60 links some thin edges run side by side; no label lies over the heavy edge of a gear pair."""
+    figure = picture(load(name), "graph", None, Fraction(0))
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    share = np.linspace(0, 1, 300)[:, None]
+    edges = []
+    for patch in axes.patches:
+        kind, _, label = (patch.get_gid() or "").partition(" ")
+        if kind in ("revolute", "gear", "coupling"):
+            first, middle, last = np.asarray(patch.get_path().vertices, dtype=float)
+            curve = (1 - share) ** 2 * first + 2 * share * (1 - share) * middle + share**2 * last
+            edges.append((kind, label, axes.transData.transform(curve)))
+    struck = []
+    for text in axes.texts:
+        if not (text.get_gid() or "").startswith("label "):
+            continue
+        box = text.get_window_extent()
+        for kind, label, points in edges:
+            inside = (points > (box.x0, box.y0)).all(1) & (points < (box.x1, box.y1)).all(1)
+            if label != text.get_text() and inside.any():
+                struck.append((kind, text.get_text(), label))
+    assert len(edges) == sum((text.get_gid() or "").startswith("label ") for text in axes.texts)
+    assert len(struck) <= most, struck
+    assert not [each for each in struck if each[0] == "gear"]
 
 
 def test_panels_of_a_speed_diagram_fill_the_page() -> None:

@@ -242,3 +242,22 @@ def test_a_dial_that_names_no_side_stands_on_feet_before_the_reader(name: str) -
     assert all(face.plate > face.radius > 0 for face in scene.dials)
     assert all(each.seat > 0 and each.level > 0 for each in scene.pointers if each.dial is not None)
     assert sum(part.kind == "foot" for part in scene.parts) >= 3
+
+
+@pytest.mark.parametrize("name", ["voulgaris-2022", "voulgaris-2024-a"])
+def test_a_dial_on_the_side_lies_on_the_bracket_of_its_arbor_beside_that_of_the_crank(name: str) -> None:
+    """It hung in the air, and the crank went through it as it turned."""
+    scene = shipped.built(name)
+    (at,) = (n for n, face in enumerate(scene.dials) if face.id == "draconic")
+    face, (hand,) = scene.dials[at], (each for each in scene.pointers if each.dial == at)
+    own = scene.bodies[hand.body].id
+    (bracket,) = (part for part in scene.parts if part.name == f"{own} bracket")
+    (arbor,) = (part for part in scene.parts if part.name == f"{own} arbor")
+    x, side = np.array(face.centre), np.array(face.normal)
+    assert 0 < (x - bracket.place) @ side - bracket.height / 2 < 0.5
+    assert 0 < (x + hand.level * side - arbor.place) @ side - arbor.bands[-1][1] < 1
+    assert hand.seat == pytest.approx(2 * arbor.bands[-1][2])
+    beside = [part for part in scene.parts if part.kind == "arbor" and abs(np.dot(part.direction, side)) > 0.99]
+    for part in beside:
+        off = np.cross(np.subtract(part.place, x), side)
+        assert part is arbor or np.hypot.reduce(off) - part.bands[0][2] > 1.075 * face.radius > 10

@@ -31,6 +31,9 @@ _FINE = 0.05  # mm that chords of plates may leave their curves
 _FIT = 0.01  # mm that those of holes may, of which a running fit leaves 0.04 mm all round
 _DIGITS = 4  # decimals of a mm
 _HAND = 1.0  # mm of an arbor's end that a hand takes
+_LAID = 0.2  # mm that the face of a dial is above the bracket on which it is laid
+_CLEAR = 1.0  # mm from the edge of such a dial to other arbors
+_EDGE = 1.08  # its edge over all that is engraved
 _SAME = 1e-6
 
 
@@ -78,11 +81,13 @@ def build_scene(
     plain = run is None and not formulas and model.sized is model.train
     scene = model.scene if plain else make_scene(train, state, model.layout, run, formulas)
     scene = scene if model.plan is None else with_pins_apart(scene, model.plan)
-    dials, pointers = _engraved(scene, model), scene.pointers
+    dials, pointers = _engraved(scene, model), tuple(scene.pointers)
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
         dials = _with_borne(dials, pointers)
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
+    for at in range(len(pointers)):
+        dials, pointers = _on_bracket(at, scene, dials, pointers, parts)
     wheels = tuple(_opened(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
     return found if model.hanging is None else replace(found, hangers=tuple(_hanging(model, model.hanging)))
@@ -184,6 +189,37 @@ def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
             if under.normal == face.normal and dot(off, off) - high * high < _SAME:
                 found[at] = replace(face, centre=plus(under.centre, face.normal, each.level), seated=True)
     return tuple(found)
+
+
+def _on_bracket(
+    at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
+) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
+    """A dial across which no plate stands is laid on the bracket of its pointer's arbor, clear of arbors beside it."""
+    pointer = pointers[at]
+    face = None if pointer.dial is None else dials[pointer.dial]
+    if face is None or pointer.dial is None or pointer.seat or face.plate or face.look != "scale":
+        return dials, pointers
+    link = scene.bodies[pointer.body].id
+    along = [part for part in parts if abs(dot(part.direction, face.normal)) > 1 - _SAME]
+    under = [part for part in along if part.name.startswith(f"{link} bracket")]
+    if not under:
+        return dials, pointers
+    high = max(dot(minus(part.place, face.centre), face.normal) + part.height / 2 for part in under)
+    room = [face.radius, *(_beside(part, face) - _CLEAR for part in along if part.bands and part.body != pointer.body)]
+    laid = replace(face, centre=plus(face.centre, face.normal, high + _LAID), radius=min(room) / _EDGE)
+    seat = 2 * max(band[2] for part in along if part.bands and part.body == pointer.body for band in part.bands)
+    hand = replace(pointer, level=_HAND / 2, seat=seat)
+    return (
+        (*dials[: pointer.dial], laid, *dials[pointer.dial + 1 :]),
+        (*pointers[:at], hand, *pointers[at + 1 :]),
+    )
+
+
+def _beside(part: ScenePart, face: DialFace) -> float:
+    """How far a turned part along the axis of a dial is from this axis, mm."""
+    off = minus(part.place, face.centre)
+    high = dot(off, face.normal)
+    return float(np.sqrt(max(dot(off, off) - high * high, 0.0))) - max(band[2] for band in part.bands)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:

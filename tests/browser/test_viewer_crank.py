@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
+
+if TYPE_CHECKING:
+    from conftest import Asked
 
 
 def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
@@ -115,3 +119,14 @@ def gearing(name: str) -> float:
     scene = shipped.scene(name)
     speed = 1.0 if scene.crank is None else abs(float(Fraction(scene.bodies[scene.crank].speed or 1)))
     return speed if 0.05 <= speed <= 20 else 1.0
+
+
+@pytest.mark.parametrize("name", ["carman-thorndike-evans-2012", "al-biruni-box-of-the-moon"])
+def test_a_crank_does_not_stand_before_a_dial_about_its_axis(asked: Asked, name: str) -> None:
+    """It hid the hands, or went through them."""
+    before = asked(name).run("""() => {
+      const [{world}] = geartrain.stages, [scene] = geartrain.scenes, {point} = scene.bodies[scene.crank];
+      const coaxial = scene.dials.filter(({centre}) => Math.hypot(centre[0] - point[0], centre[1] - point[1]) < 1e-6);
+      return coaxial.map(({centre, normal}) => Math.sign((world.crank.end.z - centre[2]) * normal[2]));
+    }""")
+    assert before == [-1]

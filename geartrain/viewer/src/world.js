@@ -111,7 +111,9 @@ export class World {
       : isParallel(body.direction, this.main.toArray())
         ? vector(body.direction).dot(this.main) * scene.front
         : off(high) - off(low);
-    const side = outward < 0 ? -1 : 1;
+    // before a dial it would hide what is read there
+    const read = new Set(scene.dials.filter(({ centre, normal }) => offAxis(body, centre) < 1e-6 * size && isParallel(body.direction, normal)).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));
+    const side = read.size === 1 ? -[...read][0] : outward < 0 ? -1 : 1;
     const last = side > 0 ? high : low;
     const end = last + side * 0.02 * size;
     const foot = own[side > 0 ? 1 : 0];

@@ -25,7 +25,7 @@ _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line bel
 _OUTER = _FACE / 2 - 0.2  # radius of a face
 _FINEST = 0.3  # points: a line
 _PLAIN = len(HANDS["needle"].stations)
-_SAMPLE = 0.45  # inches of a hand in the key
+_SAMPLE, _DASHED = 0.45, 0.75  # inches of a hand in the key, and of hands that are told apart by dashes
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +90,12 @@ def dials_figure(
     columns = min(len(faces), 4)
     rows = [faces[at : at + columns] for at in range(0, len(faces), columns)]
     tall = [_FACE + 0.35 + (_ROW * max(len(face.pointers) for face in row) if labels else 0.0) for row in rows]
-    told = [_words(scene.pointers[at], readings[at], face) for face in faces for at in face.pointers]
-    wide = max(_FACE, max(text_width(words) for words in told) + _SAMPLE + 0.3) if labels else _FACE
+    keys = [
+        _sample(face) + text_width(_words(scene.pointers[at], readings[at], face))
+        for face in faces
+        for at in face.pointers
+    ]
+    wide = max(_FACE, max(keys) + 0.3) if labels else _FACE
     width = max(wide * columns, 5.0)
     title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_lead(scene)}" if turns else "")
     figure, axes = sheet(width, _HEAD + sum(tall) + 0.1, title)
@@ -170,11 +174,17 @@ def _draw_key(
 ) -> None:
     """Below a face, a line for each hand: how it is drawn, and what it reads."""
     told = [_words(scene.pointers[at], readings[at], face) for at in face.pointers]
-    left = centre[0] - (max(map(text_width, told)) + _SAMPLE) / 2
+    sample = _sample(face)
+    left = centre[0] - (max(map(text_width, told)) + sample) / 2
     for order, words in enumerate(told):
         y, look = centre[1] - _OUTER - 0.3 - _ROW * order, series_look(order)
-        axes.plot([left, left + _SAMPLE - 0.08], [y, y], linewidth=2.2, zorder=6, **look)
-        write(axes, left + _SAMPLE, y, words, look["color"], ha="left", fontsize=FINE)
+        axes.plot([left, left + sample - 0.08], [y, y], linewidth=2.2, zorder=6, gid="key", **look)
+        write(axes, left + sample, y, words, look["color"], ha="left", fontsize=FINE)
+
+
+def _sample(face: DialPicture) -> float:
+    """Inches of a hand in the key of a face."""
+    return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from scipy.spatial import ConvexHull
 
-from geartrain.drawing.backend import Axes, Path, PolyCollection, Rectangle
+from geartrain.drawing.backend import Axes, Path, PolyCollection, Polygon, Rectangle
 from geartrain.drawing.callouts import Callout
 from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels
 from geartrain.drawing.style import BLACK, FILL, FINE, GREY, ORANGE, RED, SHADE
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 _SEAM = 0.3  # points: what joins two tiles of one surface
+_FACES_RIGHT = 0.99  # of the direction to the right, along the axis of a wheel that is seen with its teeth from there
 _SECTIONS = 48  # of a worm, between which its thread is drawn
 
 
@@ -182,8 +183,8 @@ class SideScale:
     def __init__(self, left: float, width: float, low: float, size: float) -> None:
         self.left, self.scale, self.low = left, width / size, low
 
-    def at(self, height: float) -> float:
-        """Inches from the left for a height (mm)."""
+    def at(self, height: Any) -> Any:
+        """Inches from the left for a height or heights (mm)."""
         return self.left + (height - self.low) * self.scale
 
 
@@ -191,18 +192,34 @@ def draw_side(page: ScaledPage, standing: ProjectedScene, depth: SideScale) -> N
     """The train from its right, as high as the plan: layers side by side, the reader's side on the right."""
     red = broken_wheels(standing.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
-    facing = filter(standing.faces, standing.scene.wheels)
-    for wheel in sorted(facing, key=lambda each: float(standing.seen(standing.centre(each))[0])):
+    for wheel in sorted(standing.scene.wheels, key=lambda each: float(standing.seen(standing.centre(each))[0])):
+        edge = RED if wheel.id in red else BLACK
+        style: dict[str, Any] = {"facecolor": (*_FACE, 0.7), "edgecolor": edge, "linewidth": 0.6, "zorder": 3}
+        if not standing.faces(wheel):
+            _draw_across_side(page, standing, wheel, depth, style)
+            continue
         x, y, z = map(float, standing.seen(standing.centre(wheel)))
         half = max(wheel.tip, wheel.root) * page.scale
         middle = float(page.at(np.array([x, y, z]))[1])
         left, right = depth.at(z - wheel.thickness / 2), depth.at(z + wheel.thickness / 2)
-        style: dict[str, Any] = {"edgecolor": RED if wheel.id in red else BLACK, "linewidth": 0.6, "zorder": 3}
-        face = (*_FACE, 0.7)
-        box = Rectangle((left, middle - half), right - left, 2 * half, facecolor=face, gid=f"side {wheel.id}", **style)
+        box = Rectangle((left, middle - half), right - left, 2 * half, gid=f"side {wheel.id}", **style)
         page.axes.add_artist(box)
         stacks.setdefault((round(x, 4), round(middle, 4)), []).extend((left, right))
     for (_, middle), ends in stacks.items():
         page.axes.plot([min(ends) - 0.06, max(ends) + 0.06], [middle, middle], color=BLACK, linewidth=1.4, zorder=4)
     text = "from the right" if abs(depth.scale / page.scale - 1) < 0.01 else "from the right, layers apart"
     page.axes.text(depth.left - 0.25, page.foot, text, fontsize=FINE, color=GREY)
+
+
+def _draw_across_side(
+    page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
+) -> None:
+    """A wheel of another axis than those of the plan: its teeth where it faces the right, else the line round it."""
+    ends = [face.points for face in _ends(standing, wheel)]
+    places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
+    if abs(float(standing.seen(standing.axis(wheel))[0])) > _FACES_RIGHT:
+        outline = places[int(np.argmax([points[:, 0].mean() for points in ends]))]
+    else:
+        every = np.concatenate(places)
+        outline = every[ConvexHull(every).vertices]
+    page.axes.add_artist(Polygon(outline, gid=f"side {wheel.id}", **style))

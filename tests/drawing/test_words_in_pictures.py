@@ -149,6 +149,23 @@ def test_labels_of_a_graph_keep_off_other_edges(name: str, most: int) -> None:
     assert not [each for each in struck if each[0] == "gear"]
 
 
+@pytest.mark.parametrize(("name", "round_"), [("lantern-mill", "pit72"), ("huygens-planetarium-1682", "y300")])
+def test_a_wheel_across_is_round_from_the_right_where_the_plan_has_its_edge(name: str, round_: str) -> None:
+    """Left out, it was an empty space as wide as the wheel."""
+    (axes,) = picture(load(name), "plan", None, Fraction(0)).axes
+    sides = {
+        (part.get_gid() or "").removeprefix("side "): part
+        for part in axes.get_children()
+        if "side " in str(part.get_gid())
+    }
+    assert set(sides) == set(load(name).declaration.wheels)
+    extents = {wheel: part.get_window_extent() for wheel, part in sides.items()}
+    own = extents.pop(round_)
+    assert own.width == pytest.approx(own.height, rel=0.01)
+    for edge in extents.values():
+        assert edge.width < 0.2 * own.width
+
+
 def test_panels_of_a_speed_diagram_fill_the_page() -> None:
     for name in ("planetary-24-18-60", "simpson-set"):
         figure = picture(load(name), "lever")
@@ -161,6 +178,19 @@ def test_two_faces_of_one_dial_are_told_apart() -> None:
     (axes,) = picture(load("price-1974"), "dials").axes
     titles = {words.get_text() for words in axes.texts if (words.get_gid() or "").startswith("dial ")}
     assert titles == {"zodiac", "lower (synodic month)", "lower (lunar year)", "upper"}
+
+
+def test_the_key_of_hands_shows_their_dashes() -> None:
+    """A piece shorter than one dash and its gap looks like a hand without dashes."""
+    (axes,) = picture(load("freeth-2021"), "dials", None, Fraction(0)).axes
+    keys = [line for line in axes.lines if line.get_gid() == "key"]
+    dashed = [line for line in keys if line.get_linestyle() == "--"]
+    assert len(keys) == 15
+    assert len(dashed) == 7
+    for line in dashed:
+        left, right = line.get_window_extent().get_points()[:, 0]
+        _, pattern = line._dash_pattern  # type: ignore[attr-defined]
+        assert (right - left) * 72 / axes.figure.dpi > 1.2 * sum(pattern)
 
 
 def test_plain_faces_tell_no_cells() -> None:

@@ -16,6 +16,7 @@ from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.dial_scale import RING, DialScale, scale_of
 from geartrain.scene.hand_outlines import HANDS
+from geartrain.scene.layout import WheelPlace
 from geartrain.scene.output_dependence import find_dependence
 from geartrain.scene.sky import find_targets
 from geartrain.scene.stroke_letters import Stroke
@@ -156,9 +157,10 @@ def _reach(stage: SceneContext, way: Vector) -> float:
     """How far all wheels reach along a direction, mm."""
     ends = []
     for wheel in stage.layout.wheels.values():
-        along = abs(dot(stage.layout.axes[wheel.axis].direction, way))
-        half = wheel.radius * sqrt(max(0.0, 1 - along * along)) + wheel.thickness / 2 * along
-        ends += [dot(wheel.centre, way) - half, dot(wheel.centre, way) + half]
+        along = dot(stage.layout.axes[wheel.axis].direction, way)
+        flat = wheel.radius * sqrt(max(0.0, 1 - along * along))
+        low, high = _faces(stage, wheel, way)
+        ends += [low - flat, high + flat]
     return max(ends) - min(ends) if ends else inf
 
 
@@ -166,11 +168,16 @@ def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vecto
     """The point of an axis that lies beyond all wheels on one side."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
-    top = max(
-        (dot(minus(wheel.centre, point), normal) + wheel.thickness / 2 for wheel in stage.layout.wheels.values()),
-        default=0.0,
-    )
+    wheels = stage.layout.wheels.values()
+    top = max((_faces(stage, wheel, normal)[1] - dot(point, normal) for wheel in wheels), default=0.0)
     return plus(point, normal, top + gap)
+
+
+def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, float]:
+    """Between which places along a direction the middles of a wheel's faces lie, mm."""
+    along = dot(stage.layout.axes[wheel.axis].direction, way) if wheel.axis in stage.layout.axes else way[2]
+    low, high = sorted(dot(wheel.centre, way) + at * along for at in wheel.span)
+    return low, high
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:

@@ -7,13 +7,13 @@ from itertools import pairwise
 from math import acos, atan2, ceil, cos, pi, sqrt, tan
 
 from geartrain.scene.elements import ToothProfile
+from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
 Points = tuple[tuple[float, float], ...]
 """Radii over the pitch radius, and angles (rad)."""
 
 FORM = "likeness"
 _PRESSURE = pi / 9
-_ADDENDUM, _DEDENDUM = 1.0, 1.25  # modules
 _PLAY = 0.02  # of a pitch: what each tooth is thinner
 _LEAST_ROOT = 0.2  # of the pitch radius: few teeth leave little
 _ROOM = 0.92  # of half a pitch: where at most a flank ends at the root
@@ -24,16 +24,16 @@ _STEP = pi / 18  # between points of a thread's section, of which a few go round
 _LAND = 0.08  # of a pitch: least half width of a tip
 
 
-def spur(z: int, room: float = _ADDENDUM) -> ToothProfile:
+def spur(z: int, room: float = ADDENDUM) -> ToothProfile:
     """A tooth of a wheel, of at most the height `room` (modules) over the pitch circle."""
-    return ToothProfile(FORM, _tooth(z, min(_ADDENDUM, room)))
+    return ToothProfile(FORM, _tooth(z, min(ADDENDUM, room)))
 
 
-def ring(z: int, room: float = _ADDENDUM) -> ToothProfile:
+def ring(z: int, room: float = ADDENDUM) -> ToothProfile:
     """A tooth of a ring: what a wheel of as many teeth leaves between its own, within the pitch circle by `room`."""
-    most = 1 + 2 * _DEDENDUM / z
+    most = 1 + 2 * DEDENDUM / z
     # the space of the ring is the tooth of a wheel, higher and a little wider
-    tip = max(1 - 2 * min(_ADDENDUM, room) / z, _LEAST_ROOT)
+    tip = max(1 - 2 * min(ADDENDUM, room) / z, _LEAST_ROOT)
     half = pi / z
     flank = [(r, half - _half(z, r) - 2 * _PLAY * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
@@ -48,11 +48,11 @@ def room(z: int, mate: int, within: bool) -> float:
     """
     if within:
         return _PASSING * abs(z - mate)
-    return mate / 2 * (1 - _root(mate)) - (_DEDENDUM - _ADDENDUM) / 2
+    return mate / 2 * (1 - _root(mate)) - (DEDENDUM - ADDENDUM) / 2
 
 
 def _root(z: float) -> float:
-    return max(1 - 2 * _DEDENDUM / z, _LEAST_ROOT)
+    return max(1 - 2 * DEDENDUM / z, _LEAST_ROOT)
 
 
 def bevel(z: int, cone: float) -> ToothProfile:
@@ -77,7 +77,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
     r, angle = np.array([point for point in section if point[1] >= 0]).T
     heights, halves = (1 - r) * mate / 2, 0.5 - angle * mate / (2 * pi) - _CROWN_PLAY
     # short of the roots of its mate; the tips of that come as far short of its own
-    low, high = heights[0] - (_DEDENDUM - _ADDENDUM), heights[-1] - (_DEDENDUM - _ADDENDUM)
+    low, high = heights[0] - (DEDENDUM - ADDENDUM), heights[-1] - (DEDENDUM - ADDENDUM)
     at = [low, *heights[heights < high], high]
     widths = np.clip(np.interp(at, heights, halves), _LAND / 2, _ROOM / 2)
     return ToothProfile(FORM, _mirrored([(1 + 2 * h / z, w * 2 * pi / z) for h, w in zip(at, widths, strict=True)], z))
@@ -86,7 +86,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 def worm(starts: int, height: float) -> ToothProfile:
     """A thread: its section along the axle, wound round it; height over the pitch radius."""
     half = pi / starts
-    low, high = max(1 - 1.25 * height, _LEAST_ROOT), 1 + height
+    low, high = max(1 - DEDENDUM * height, _LEAST_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
     corners = [(low, -half), *flanks, (low, half)]
     points = [corners[0]]
@@ -96,7 +96,7 @@ def worm(starts: int, height: float) -> ToothProfile:
     return ToothProfile(FORM, tuple(points))
 
 
-def _tooth(z: float, addendum: float = _ADDENDUM) -> Points:
+def _tooth(z: float, addendum: float = ADDENDUM) -> Points:
     root = _root(z)
     tip = 1 + 2 * addendum / z
     # a pointed tooth ends where its flanks are near to meeting
@@ -125,7 +125,7 @@ def _swept(z: float, r: float) -> float:
     A corner of the rack, `b` from that middle and at the height `c` over the axle, is u aside when the wheel has turned
     by u - b: it then stands atan(u / c) - (u - b) from the middle of the space.
     """
-    c = 1 - 2 * _ADDENDUM / z
+    c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
     u = sqrt(max(r * r - c * c, 0.0))
     return atan2(u, c) - u + b if c > 0 and r < 1 else 0.0

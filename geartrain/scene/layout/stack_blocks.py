@@ -17,7 +17,8 @@ from geartrain.numerics.vectors import dot
 from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, PinSlotTie, Point
 from geartrain.scene.layout.stack_order import StackProblem
 from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock, find_plan_overlap
-from geartrain.scene.layout.wheel_sizes import CrossingSide, SizedGeometry, rim
+from geartrain.scene.layout.wheel_reach import bare_reach
+from geartrain.scene.layout.wheel_sizes import CrossingSide, SizedGeometry
 from geartrain.scene.layout.wheel_stacks import WheelStack
 
 _GAP = 0.4  # of the median thickness: left free between levels
@@ -138,7 +139,7 @@ class _BlockBuilder:
                 continue
             size, (stack, offset) = self.sizes[wheel], self._stack(("wheel", wheel))
             cone, far = (seat[wheel].cone, seat[wheel].far) if wheel in seat else (0.0, 1.0)
-            inward, outward = rim(cone, size.radius, size.thickness)
+            outward, inward = bare_reach(cone, size.radius, size.thickness, size.module)
             up = far * self._rise(self.declared.lines[axis]) > 0
             low, high = (inward, outward) if up else (outward, inward)
             number, link = self.parallels.index[axis], self.declared.link(wheel)

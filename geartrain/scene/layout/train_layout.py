@@ -13,6 +13,7 @@ from geartrain.scene.layout.declared_geometry import read_geometry
 from geartrain.scene.layout.layout_diagnostics import notices, pitch_gaps
 from geartrain.scene.layout.mesh_alignment import align_meshes, reference
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
+from geartrain.scene.layout.wheel_reach import bare_reach, span
 from geartrain.scene.layout.wheel_sizes import Seat, size_geometry
 
 How = Literal["given", "found", "free"]
@@ -96,6 +97,11 @@ class WheelPlace:
     layer: int | None = 0
     turn: float = 0.0
     reference: Vector = (1.0, 0.0, 0.0)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Between which places of its axis its body stands, from its centre along the axis' direction [mm]."""
+        return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from math import pi, sin, tan
 
+from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
+
 LAND = 0.01  # of the pitch radius: metal under the roots
 CROWN = pi / 2 - 1e-6
 """rad: a wider cone is taken for a plane, that of a crown wheel, whose apex lies in it."""
@@ -47,6 +49,11 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
     """Where the back of its body lies, as `height_on_cone`; `root` as `depth`, of its roots (mm)."""
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
+
+
+def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
+    """As `reach`, of a wheel whose teeth are not known: of usual depth for its module (mm)."""
+    return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 
 def reach(cone: float, radius: float, thickness: float, root: float, tip: float) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan2, cos, sin, tan
+from math import atan2, tan
 
 from geartrain.numerics.vectors import Vector, across, cross, dot, minus, size, unit
 from geartrain.scene.layout.declared_geometry import ContactSide, DeclaredGeometry, PitchContact
@@ -80,14 +80,6 @@ def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
     if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), way) < 0:
         return opposite(way)
     return way
-
-
-def rim(cone: float, radius: float, width: float) -> tuple[float, float]:
-    """How far (mm) a wheel's rim reaches along its axis from its pitch circle, towards the apex and away from it."""
-    if not cone:
-        return width / 2, width / 2
-    lip = width / 4 * sin(cone)
-    return min(width * abs(cos(cone)) + lip, radius + width), lip
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,6 +24,7 @@ from geartrain.scene.parts.plate_passages import Passage
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
 from geartrain.scene.parts.stack_eccentrics import StackEccentrics, find_cups, find_pin_circles
 from geartrain.scene.solids.bearing_plates import basis
+from geartrain.teeth.standard_teeth import DEDENDUM
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -35,7 +36,6 @@ _SAME = 1e-6  # mm
 _UPRIGHT = 1e-9  # of a cosine: of an axis at right angles to the normal
 _PASS = 0.4  # mm of air round a wheel that goes through a plate
 _PARALLEL = 1e-9  # of a cosine
-_STANDARD = 1.25  # modules: depth of teeth that are not cut flat
 _RIM = 2.0  # modules round the teeth of a ring that is not
 
 
@@ -164,8 +164,9 @@ class FrameStack:
             blank, height = self.blanks.get(name), dot(place.centre, self.normal)
             ring = self.train.declaration.wheels[name][1].internal
             out = -1 if ring else 1
+            span = [end * dot(axis.direction, self.normal) for end in place.span]
             tip = blank.tip_radius if blank else place.radius + out * place.module
-            root = blank.root_radius if blank else place.radius - out * _STANDARD * place.module
+            root = blank.root_radius if blank else place.radius - out * DEDENDUM * place.module
             edge = tip if blank is None or blank.kind == "external" else rim(blank)
             if ring and blank is None:
                 edge = root + _RIM * place.module
@@ -174,8 +175,8 @@ class FrameStack:
                 place.link,
                 place.axis,
                 self.flat(place.centre),
-                height - place.thickness / 2,
-                height + place.thickness / 2,
+                height + min(span),
+                height + max(span),
                 max(edge, root),
                 tip if ring else 0.0,
                 min(root, edge),
@@ -239,21 +240,23 @@ class FrameStack:
     def _across(self, place: WheelPlace) -> AcrossWheel:
         assert self.normal is not None
         axis, outer = self.layout.axes[place.axis], place.radius + place.module
-        along, thick = dot(axis.direction, self.normal), place.thickness / 2 + place.module
+        below, above = place.span
+        along, thick = dot(axis.direction, self.normal), (above - below) / 2 + place.module
         flat, (u, v) = sqrt(max(1 - along**2, 0.0)), self.flat(axis.direction)
-        half, height = outer * flat + thick * abs(along), dot(place.centre, self.normal)
-        (x, y), low, high = self.flat(place.centre), height - half, height + half
+        middle = plus(place.centre, axis.direction, (below + above) / 2)
+        half, height = outer * flat + thick * abs(along), dot(middle, self.normal)
+        (x, y), low, high = self.flat(middle), height - half, height + half
         about = None if axis.carrier == self.frame else self.train.tree.axis(axis.carrier)
         if about is not None and about in self.layout.axes:
-            middle = self.flat(self.layout.axes[about].point)
-            return AcrossWheel(place.wheel, low, high, ((middle, dist(middle, (x, y)) + hypot(outer, thick)),))
+            centre = self.flat(self.layout.axes[about].point)
+            return AcrossWheel(place.wheel, low, high, ((centre, dist(centre, (x, y)) + hypot(outer, thick)),))
         if not flat:
             return AcrossWheel(place.wheel, low, high, (((x, y), outer),))
         count = max(1, ceil(outer / thick))
         steps = [outer * k / count / flat for k in range(-count, count + 1)]
         circles = tuple(((x - v * step, y + u * step), thick) for step in steps)
         upright = abs(along) < _UPRIGHT and self.train.declaration.wheels[place.wheel][1].kind != "worm"
-        section = ((x, y), (u, v), height, outer, place.thickness / 2) if upright else None
+        section = ((x, y), (u, v), height, outer, (above - below) / 2) if upright else None
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:

@@ -7,7 +7,7 @@ import { across, endsOf, frameAt, vector } from "./space.js";
 
 const ROUND = 8; // points of each circle
 const CIRCLES = [0.25, 0.6, 0.95]; // of a wheel from its middle, or the inside of a ring, to its rim
-const COVERED = 0.08; // of a wheel's points: before so many no pillar stands but one of glass
+const COVERED = 0.04; // of a wheel's points: before so many no pillar stands but one of glass
 
 /** Points evenly over a disc, or a ring. */
 function pointsOver({ at, direction, radius, inner = 0 }) {

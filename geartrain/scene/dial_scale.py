@@ -121,8 +121,8 @@ class DialScale:
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def told(self, turned: Fraction) -> str:
-        """The same in words, such as `Leo, degree 14`; empty without divisions. Which pointer is read on what is around
-        it, no train says."""
+        """The same in words, such as `Leo, degree 14`, and what is engraved in that cell; empty without divisions. Which
+        pointer is read on what is around it, no train says."""
         read, parts = self.read(turned), []
         if self.turns > 1:
             parts.append(f"turn {read.turn}")
@@ -132,6 +132,7 @@ class DialScale:
             parts.append(f"{self.cell} {read.within}")
         elif not read.name and self.divisions > 1:
             parts.append(f"{self.cell} {self.number(read.cell)}")
+        parts += [glyph for cell, glyph in self.glyphs if cell == read.cell]
         return ", ".join(parts)
 
 

@@ -62,6 +62,12 @@ def test_saros_turns_end_within_a_month() -> None:
     ]
 
 
+def test_what_is_engraved_in_a_cell_is_told_with_it() -> None:
+    saros = scale_of(Dial(turns=4, divisions=223, cell="month", glyphs={72: "Η"}))
+    assert saros.told(saros.turn_of(Fraction(143, 2))) == "turn 2, month 72, Η"
+    assert saros.told(saros.turn_of(72)) == "turn 2, month 73"
+
+
 def test_signs_and_days_are_told_by_name() -> None:
     assert ZODIAC.told(Fraction(134, 360)) == "Leo, degree 15"
     year = scale_of(Dial(names="egyptian_months"))

@@ -1,4 +1,4 @@
-"""Write docs/ready-to-cut.md: the verdict of `geartrain export` on fifteen shipped trains; five folders measured.
+"""Write docs/ready-to-cut.md: the verdict of `geartrain export` on eighteen shipped trains; five folders measured.
 
 `python docs/make_ready_to_cut.py --measure` exports them anew and keeps what is found in docs/data/ready-to-cut.json
 (some minutes); without it the page is written from what is kept.
@@ -22,6 +22,7 @@ TRAINS = {
     "Clocks and mills": ("longcase-clock-cycloidal", "longcase-clock-bs978", "watch-going-train", "lantern-mill"),
     "Antikythera": ("price-1974", "voulgaris-2024-a", "freeth-2008", "freeth-2021"),
     "Gearboxes": ("planetary-24-18-60", "ravigneaux-set", "wolfrom-175", "nrel-grc-750"),
+    "Bevels": ("bevel-differential", "humpage", "south-pointing-chariot"),
     "Reducers": ("cycloidal-reducer", "rv-reducer", "strain-wave"),
 }
 ASSEMBLED = ("longcase-clock-cycloidal", "watch-going-train", "pennestri-2002", "freeth-2008", "wolfrom-175")
@@ -49,7 +50,7 @@ Written by
 
     python docs/make_ready_to_cut.py --measure
 
-Fifteen trains, as `geartrain export TRAIN --to FOLDER` writes them without further options, and what their proof says
+Eighteen trains, as `geartrain export TRAIN --to FOLDER` writes them without further options, and what their proof says
 ([how](export.md#proved-before-it-is-cut)).
 """
 
@@ -70,7 +71,7 @@ of a1 and b1 is the likeness of a contrate, which is not to be cut, in the wheel
 
 
 def measure() -> dict[str, Any]:
-    """All trains, and the folders of four."""
+    """All trains, and the folders of some."""
     trains = [_proved(name, kind) for kind, names in TRAINS.items() for name in names]
     return {"trains": trains, "folders": [_assembled(name) for name in ASSEMBLED]}
 

@@ -271,8 +271,8 @@ def test_seen_from_the_carrier_the_carrier_stands_and_what_is_dragged_moves_agai
 
 def test_the_crown_of_a_differential_turns_as_the_package_says_of_both_sides(draw: Opening) -> None:
     drawn = draw("differential")
-    drawn.drag([drawn.place(12, y) for y in (-3, -1, 1, 3)])
-    drawn.drag([drawn.place(3.6, y) for y in (3, 0, -3.5)])
+    drawn.drag([drawn.place(14.2, y) for y in (-3, -1, 1, 3)])
+    drawn.drag([drawn.place(6.3, y) for y in (3, 0, -3.5)])
     left, right = (drawn.fraction(side, "turns") for side in ("left", "right"))
     assert float(left) == pytest.approx(1 / 8 + 6 / (TURN * 8), abs=0.005), "a wheel of 8 mm, dragged by 6"
     assert float(right) == pytest.approx(-6.5 / (TURN * 8), abs=0.005)

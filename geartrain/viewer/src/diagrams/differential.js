@@ -40,7 +40,7 @@ export function differential(host, { scene, shares, crown, spider }) {
   view.append(...shafts, ...groups.map(({ group }) => group));
   sides.forEach((side, n) => {
     const { centre, facing } = scene.wheels[solids.of(side)];
-    const at = [WIDE / 2 + SCALE * (middle * 0.7 - centre[0] - 8 * facing), 225];
+    const at = [WIDE / 2 + SCALE * (middle * 0.7 - centre[0] - 10.5 * facing), 225];
     sheet.write(side, at, { "data-side": n });
   });
 

@@ -31,8 +31,7 @@ SHOWN = 12  # obstacles of a train on the page
 SEEN = {
     "lantern-mill": """
 Seen in the pictures of its steps: one spur wheel stands between two lanterns of 15 and 20 staves, and a tooth that is
-right for the one is not for the other. Millwrights gave both stones the same lantern. The bracket of the
-water wheel's shaft, beside the pit wheel, comes too near to the wallower.
+right for the one is not for the other. Millwrights gave both stones the same lantern.
 """,
     "freeth-2021": """
 Seen in the pictures of its steps: the fixed wheels 49, 51 and 56 stand on a fixed pipe round the Moon's arbor, from a

@@ -121,8 +121,10 @@ class DialScale:
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def told(self, turned: Fraction) -> str:
-        """The same in words, such as `Leo, degree 14`, and what is engraved in that cell; empty without divisions. Which
-        pointer is read on what is around it, no train says."""
+        """The same in words, such as `Leo, degree 14`, and what is engraved in that cell; empty without divisions.
+
+        Which pointer is read on what is around it, no train says.
+        """
         read, parts = self.read(turned), []
         if self.turns > 1:
             parts.append(f"turn {read.turn}")

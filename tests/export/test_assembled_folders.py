@@ -60,6 +60,29 @@ def test_every_part_is_closed_and_no_two_stand_in_each_other(name: str) -> None:
     assert [each for each in find_overlaps(parts(name)) if each.share > SHARE] == []
 
 
+@pytest.mark.parametrize("name", ["humpage", "worm"])
+def test_wheels_whose_teeth_lie_in_no_plane_are_closed_and_stand_on_their_arbors(name: str) -> None:
+    """Points of theirs that coincide were two, with triangles of no area between; a worm had no bore."""
+    assert all(part.mesh.is_watertight and part.mesh.volume > 0 for part in parts(name))
+    pairs = {frozenset((each.one, each.other)): each.share for each in find_overlaps(parts(name))}
+    rods = [part.name for part in parts(name) if part.name.endswith(("arbor", "pipe"))]
+    assert rods
+    assert max((share for pair, share in pairs.items() if pair & {*rods}), default=0.0) < 0.01, "but for chords"
+
+
+def test_a_bracket_goes_through_its_plate_in_a_mortise() -> None:
+    """Beside the wheel that goes through the same plate: 59 cubic mm were in one place."""
+    whole = {part.name: part.mesh.bounds for part in parts("worm") if part.name.endswith("plate")}
+    normal = int(np.argmin(np.ptp(next(iter(whole.values())), axis=0)))
+    plates = {name: bounds[:, normal] for name, bounds in whole.items()}
+    brackets = [part.mesh.bounds[:, normal] for part in parts("worm") if "bracket" in part.name]
+    through = [
+        [faces[0] >= low - 1e-4 and faces[1] <= high + 1e-4 for faces in plates.values()] for low, high in brackets
+    ]
+    assert [sum(each) for each in through] == [1, 1]
+    assert [each for each in find_overlaps(parts("worm")) if plates.keys() & {each.one, each.other}] == []
+
+
 def test_two_parts_that_are_pushed_into_each_other_are_seen() -> None:
     """A hundredth of a millimetre of an arbor's radius in the plate that bears it."""
     arbor = next(part for part in parts("watch-going-train") if part.name == "third arbor")

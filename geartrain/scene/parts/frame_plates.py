@@ -58,7 +58,7 @@ class FlatPlate:
     at : tuple of float
         What its own coordinates are counted from [mm].
     windows : tuple of Contour
-        For wheels across that go through it [mm].
+        For wheels across that go through it, and for brackets [mm].
     """
 
     link: str
@@ -97,14 +97,14 @@ class FramePlates:
     """Plates, pillars and posts of a plan.
 
     feet   of dials, and the cock of a pendulum, each in one of the plates
-    tabs   points that a plate reaches out to, by the name of its side: there brackets stand
+    mortises  of brackets, round which a plate reaches, by the name of its side
     standing  pins that plates bear
     barrel    from which a weight hangs
     """
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
-    tabs: Mapping[str, Sequence[Point]] = field(default_factory=dict)
+    mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
     standing: tuple[StandingPins, ...] = ()
     barrel: Barrel | None = None
 
@@ -168,9 +168,10 @@ class FramePlates:
         """Both plates of the frame, then those that turn."""
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
-            points = [*self.pillars, *(hole.at for hole in holes), *self.tabs.get(side, ())]
+            mortises = self.mortises.get(side, ())
+            points = [*self.pillars, *(hole.at for hole in holes), *(at for each in mortises for at in each.corners)]
             circles = [(hole.at, hole.diameter / 2) for hole in holes]
-            passages = clear_passages(self._passages(faces), circles)
+            passages = clear_passages([*self._passages(faces), *mortises], circles)
             edge, windows = with_passages(around(points, self.pillar + _LAND), passages)
             name = f"{self.plan.stack.frame} {side} plate"
             yield FlatPlate(self.plan.stack.frame, name, edge, holes, *faces, windows=windows)

@@ -1,10 +1,10 @@
-"""Where wheels that stand across go through plates: windows, or notches where they leave a plate at its edge."""
+"""Where what stands across goes through plates, wheels and brackets: windows, or notches at a plate's edge."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import dist, hypot
+from math import hypot
 
 import numpy as np
 
@@ -13,7 +13,8 @@ from geartrain.scene.parts.stack_discs import Point
 from geartrain.teeth.outlines.contour import Contour
 
 _FINE = 0.005  # mm that chords of a notched edge may leave its arcs
-_WEB = 1.0  # mm of plate at the least between a window and the edge
+_CORNERS = (-1, -1), (1, -1), (1, 1), (-1, 1)
+_WEB = 1.0  # mm of plate at the least between a window and the edge, and between two windows
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +30,22 @@ class Passage:
     length: float
     width: float
 
+    @property
+    def corners(self) -> list[Point]:
+        """Counter-clockwise."""
+        (x, y), (u, v) = self.middle, self.way
+        ends = [(a * self.length, b * self.width) for a, b in _CORNERS]
+        return [(x + u * along - v * aside, y + v * along + u * aside) for along, aside in ends]
+
+    def is_clear_of(self, other: Passage) -> bool:
+        """True if a web of plate is left between them: along a side of one of them they are apart."""
+        for u, v in (self.way, other.way):
+            for x, y in ((u, v), (-v, u)):
+                spans = [[a * x + b * y for a, b in each.corners] for each in (self, other)]
+                if max(min(span) for span in spans) - min(max(span) for span in spans) >= _WEB:
+                    return True
+        return False
+
     def meets(self, at: Point, radius: float) -> bool:
         """True if it runs into a round hole."""
         x, y = at[0] - self.middle[0], at[1] - self.middle[1]
@@ -43,7 +60,7 @@ def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, 
         x, y = each.way
         turn = np.array([[x, -y], [y, x]])  # columns: along and across
         line = (edge.flattened(_FINE) - np.array(each.middle)) @ turn
-        corners = np.array([(u * each.length, v * each.width) for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+        corners = np.array([(u * each.length, v * each.width) for u, v in _CORNERS])
         inside = [_is_inside(line, corner) for corner in corners]
         if all(inside):
             windows.append(_contour(corners @ turn.T + np.array(each.middle)))
@@ -86,10 +103,10 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Those that run into no hole, and not into each other: middles and radii of holes (mm)."""
+    """Those that run into no hole, and leave a web between each other: middles and radii of holes (mm)."""
     there, found = list(holes), list[Passage]()
     for each in passages:
-        apart = all(dist(each.middle, other.middle) > each.length + other.length for other in found)
+        apart = all(each.is_clear_of(other) for other in found)
         if apart and not any(each.meets(at, radius) for at, radius in there):
             found.append(each)
     return found

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.scene.layout.wheel_reach import CROWN, LAND, back_of_cone, height_on_cone, taper
-from geartrain.scene.solids.triangle_solids import Solid, between, joined, raised
+from geartrain.scene.solids.triangle_solids import Solid, piled, raised, round_about, welded
 from geartrain.scene.solids.triangulation import fill
+from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.standard_teeth import MOST_TEETH
 
 if TYPE_CHECKING:
@@ -19,19 +20,20 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.triangulation import Integers
 
 _SLICES = 48  # of a worm
+_RIDGE = 0.01  # of a pitch: half of what is left of a crown's tooth that runs out, or its flanks would be one line
 _SIDES = 720  # of a wheel without teeth
 
 
 def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
     """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z.
 
-    bore   diameter of the hole in a bevel or crown wheel (mm)
+    bore   diameter of the hole in it, unless it is a ring (mm)
     """
     if wheel.kind == "worm":
-        return _worm(wheel, profile)
+        return _worm(wheel, profile, bore)
     if wheel.cone:
-        return _coned(wheel, profile, bore)
-    points, triangles = _section(wheel, profile)
+        return welded(_coned(wheel, profile, bore))
+    points, triangles = _section(wheel, profile, bore)
     return raised(points, triangles, wheel.thickness)
 
 
@@ -47,7 +49,7 @@ def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
     return np.tile(r * wheel.radius, wheel.teeth), turn.reshape(-1)
 
 
-def _section(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Integers]:
+def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Floats, Integers]:
     r, turn = _polar(wheel, profile)
     outline = np.stack([r * np.cos(turn), r * np.sin(turn)], axis=1)
     if wheel.kind == "ring":
@@ -55,6 +57,8 @@ def _section(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Integers
         around = np.arange(sides) * 2 * pi / sides
         rim = (wheel.root + 2 * wheel.module) * np.stack([np.cos(around), np.sin(around)], axis=1)
         return fill(rim, [outline])
+    if bore:
+        return fill(outline, [round_about(Contour.circle(bore / 2))])
     # every tooth is seen from the middle: a fan
     count = len(outline)
     spokes = np.arange(count)
@@ -101,7 +105,7 @@ def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
     space = pitch / 2 - abs(angle) + off - np.sin(off) + (1 - scale) * off / 2
-    return np.asarray(middle + np.sign(angle) * np.maximum(0.0, pitch / 2 - space / scale))
+    return np.asarray(middle + np.sign(angle) * np.maximum(_RIDGE * pitch, pitch / 2 - space / scale))
 
 
 def _at_bore(row: Floats, bore: float) -> Floats:
@@ -129,9 +133,9 @@ def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
     return Solid(np.concatenate(rows), np.concatenate(faces))
 
 
-def _worm(wheel: SceneWheel, profile: ToothProfile) -> Solid:
+def _worm(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
     """A section with as many lobes as starts, turned on along the axis as its thread winds."""
-    points, triangles = _section(wheel, profile)
+    points, triangles = _section(wheel, profile, bore)
     heights = np.linspace(-0.5, 0.5, _SLICES + 1) * wheel.thickness
     slices = []
     for height in heights:
@@ -139,18 +143,4 @@ def _worm(wheel: SceneWheel, profile: ToothProfile) -> Solid:
         c, s = np.cos(turn), np.sin(turn)
         x, y = points.T
         slices.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height)]))
-    return _lofted(slices, triangles)
-
-
-def _lofted(slices: list[Floats], triangles: Integers) -> Solid:
-    """A stack of like slices: caps at both ends, walls between."""
-    whole = [between(low, high, triangles) for low, high in pairwise(slices)]
-    n, caps = len(slices[0]), len(triangles)
-    walls = [Solid(part.vertices, part.faces[2 * caps :]) for part in whole]
-    stacked = joined(walls)
-    # each slice stands twice, as the top of one part and the bottom of the next
-    index = np.arange(len(stacked.vertices))
-    part, place = np.divmod(index, 2 * n)
-    faces = (part * n + place)[stacked.faces]
-    ends = [triangles[:, ::-1], triangles + (len(slices) - 1) * n]
-    return Solid(np.concatenate(slices), np.concatenate([*ends, faces]))
+    return piled(slices, triangles)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.scene.parts.frame_plates import FramePlates
-from geartrain.scene.parts.stack_discs import Point, swept_circle
+from geartrain.scene.parts.plate_passages import Passage
+from geartrain.scene.parts.stack_discs import swept_circle
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.scene.solids.solid_part import SolidPart
 from geartrain.teeth.outlines.contour import Contour
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 GAP = 0.5
 """Along an arbor, from its last wheel to what bears it [mm]."""
+_ROOM = 1.5  # mm, the same of a bracket: the wheel's window in the plate and a web of that stand between
 LAND = 2.0
 """Metal round a bearing [mm]."""
 _FLAT = 1e-6
@@ -33,13 +35,13 @@ class Bracket:
     """What bears one end of an arbor.
 
     body   that it bears; `reach`, how far along the arbor's direction its outer face stands (mm)
-    side   of the frame's plate on which it stands, and at which point `foot` of it
+    side   of the frame's plate in which it stands, through the `mortise` there
     """
 
     body: int
     reach: float
     side: str
-    foot: Point
+    mortise: Passage
     part: SolidPart
 
 
@@ -78,7 +80,7 @@ def _brackets(
     middle = np.mean([plan.stack.in_space(column.at) for column in plan.columns], axis=0)
     centre = float((middle - np.array(body.point)) @ np.array(body.direction))
     low, high = ends
-    faces = {1: high + GAP, -1: low - GAP}
+    faces = {1: high + _ROOM, -1: low - _ROOM}
     ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
     if len(ways) == 1:  # on the inner side, unless wheels are in its way there
         ways = [min(ways[0], -ways[0], key=lambda way: _in_the_way(plan, body, faces[way], way, sides)[0])]
@@ -125,9 +127,11 @@ def _bracket(
     hole = Contour.circle(radius + plan.process.running / 2)
     cut = around([(0.0, 0.0), (down, 0.0)], edge), hole
     name = f"{body.id} bracket" + (" 2" if way < 0 else "")
-    turn = np.column_stack([normal, np.cross(body.direction, normal), body.direction])
+    aside = np.cross(body.direction, normal)
+    turn = np.column_stack([normal, aside, body.direction])
+    mortise = Passage(foot, stack.flat(tuple(aside.tolist())), edge, (plan.thickness + plan.process.press) / 2)
     part = SolidPart(_frame(scene, plan), name, "plate", turn, place, "", cut, plan.thickness)
-    return Bracket(at, face + way * plan.thickness, side, foot, part)
+    return Bracket(at, face + way * plan.thickness, side, mortise, part)
 
 
 def _frame(scene: Scene, plan: FramePlan) -> int:

@@ -113,10 +113,10 @@ class SolidModel:
         """Plates, arbors and pillars, and brackets on the plates; None where there is no plan."""
         if self.plan is None:
             return None
-        tabs = {side: [each.foot for each in self.brackets if each.side == side] for side in ("back", "front")}
+        mortises = {side: [each.mortise for each in self.brackets if each.side == side] for side in ("back", "front")}
         feet = *(foot for dial in self.dials for foot in dial.feet), *(self.hanging.cock() if self.hanging else ())
         standing = *standing_pins(self.scene, self.plan), *side_bars(self.scene, self.plan)
-        return FramePlates(self.plan, feet, tabs, standing, self.hanging.barrel if self.hanging else None)
+        return FramePlates(self.plan, feet, mortises, standing, self.hanging.barrel if self.hanging else None)
 
     @cached_property
     def hanging(self) -> HangingParts | None:

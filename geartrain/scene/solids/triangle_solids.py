@@ -47,6 +47,13 @@ def joined(solids: Iterable[Solid]) -> Solid:
     )
 
 
+def welded(solid: Solid) -> Solid:
+    """With points that coincide as one, and without the triangles that have no area then."""
+    points, index = np.unique(solid.vertices.round(_SAME) + 0.0, axis=0, return_inverse=True)
+    faces = np.asarray(index).reshape(-1)[solid.faces]
+    return Solid(points, faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
+
+
 def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
     """A wheel from its flat shape, its middle at the origin. One pitch is filled and repeated where teeth allow."""
     contours = blank.contours
@@ -72,11 +79,11 @@ def _open(contour: Contour, count: int, tolerance: float) -> Floats:
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
     """A flat part with holes, its middle plane at z = 0."""
     outer, *others = contours
-    holes = [_round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
+    holes = [round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
     return raised(*fill(outer.flattened(tolerance), holes), thickness)
 
 
-def _round_about(circle: Contour) -> Floats:
+def round_about(circle: Contour) -> Floats:
     """A polygon round a circle, so that what has the size of the hole still stands in it."""
     centre = circle.points.mean(axis=0)
     radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
@@ -127,7 +134,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
     sweep = 2 * pi / teeth
     # -1: a tolerance beyond the diameter asks for no more than one chord
     steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))), ceil(SIDES / teeth))
-    radius = radius / float(np.cos(sweep / steps / 2))  # round the bore, as in `_round_about`
+    radius = radius / float(np.cos(sweep / steps / 2))  # round the bore, as in `round_about`
     turn = last - sweep * np.arange(steps + 1) / steps
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
     return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])

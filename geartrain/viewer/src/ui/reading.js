@@ -42,7 +42,7 @@ export function degrees(value, places = 2) {
 /** Number of the cell, from 1; a hand on a line stands in the cell after it, whatever floats make of the line. */
 const cellOf = ({ cell, scale }) => Math.floor(cell + 1e-9) % scale.divisions;
 
-/** The turn of a spiral, the name of the division, the cell, as `told` of geartrain/scene/dial_scale.py has them. */
+/** The turn of a spiral, the name of the division, the cell, what is engraved in it, as `told` of geartrain/scene/dial_scale.py has them. */
 function shownAt(reading) {
   const { scale, turns } = reading;
   const done = cellOf(reading);
@@ -51,6 +51,7 @@ function shownAt(reading) {
   if (named) parts.push(named[0]);
   if (!named) parts.push(`${scale.cell} ${numberOf(scale, done)}`);
   else if (scale.names.length < scale.divisions) parts.push(`${scale.cell} ${done - Math.floor(ratio(named[1])) + 1}`);
+  parts.push(...scale.glyphs.filter(([cell]) => cell === done + 1).map(([, glyph]) => glyph));
   return parts.join(", ");
 }
 

@@ -49,9 +49,9 @@ def joined(solids: Iterable[Solid]) -> Solid:
 
 def welded(solid: Solid) -> Solid:
     """With points that coincide as one, and without the triangles that have no area then."""
-    points, index = np.unique(solid.vertices.round(_SAME) + 0.0, axis=0, return_inverse=True)
+    _, first, index = np.unique(solid.vertices.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = np.asarray(index).reshape(-1)[solid.faces]
-    return Solid(points, faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
+    return Solid(solid.vertices[first], faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
 
 
 def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
@@ -93,10 +93,8 @@ def round_about(circle: Contour) -> Floats:
 
 def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
     """A flat shape (n, 2) raised half the thickness to either side; walls stand on edges that have one triangle."""
-    return between(
-        np.column_stack([points, np.full(len(points), -thickness / 2)]),
-        np.column_stack([points, np.full(len(points), thickness / 2)]),
-        triangles,
+    return piled(
+        [np.column_stack([points, np.full(len(points), z)]) for z in (-thickness / 2, thickness / 2)], triangles
     )
 
 
@@ -108,11 +106,6 @@ def twisted(points: Floats, triangles: Integers, thickness: float, twist: float)
         c, s = np.cos(height * twist), np.sin(height * twist)
         layers.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height * thickness)]))
     return piled(layers, triangles)
-
-
-def between(low: Floats, high: Floats, triangles: Integers) -> Solid:
-    """The solid between two copies (n, 3) of one flat shape."""
-    return piled((low, high), triangles)
 
 
 def piled(layers: Sequence[Floats], triangles: Integers) -> Solid:

@@ -24,7 +24,8 @@ Chances = Mapping[int, float]
 Pair = tuple[str, str]
 MOST = 9
 _CELL = 1.35  # inches of a panel
-_TICKS = 4  # most at an axis
+_TICKS = 3  # steps between numbers at an axis, at most
+_FEW = 20  # counts whose bars have outlines of their own
 _DASHES: Any = (0, (3, 2))
 
 
@@ -115,10 +116,11 @@ def _key(figure: Figure, likely: CountProbabilities) -> None:
 def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
     """Bars of one wheel's counts, and outlines of what was thought before."""
     chances = likely.single[wheel]
-    axes.bar(list(chances), list(chances.values()), width=0.86, color=BLUE, gid=f"{wheel}")
+    wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a gap would be a pixel, and often none
+    axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
     before = likely.before.get(wheel, {})
     if before:
-        axes.bar(list(before), list(before.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
+        _outline(axes, before)
     axes.set_ylim(0, 1.08 * max([*chances.values(), *before.values()]))
     axes.set_yticks([])
     best = max(chances, key=lambda count: chances[count])
@@ -127,6 +129,16 @@ def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, in
         axes.spines[side].set_visible(False)
     if wheel in likely.declared:
         axes.axvline(likely.declared[wheel], color=RED, linewidth=1.2, linestyle=_DASHES)
+
+
+def _outline(axes: Axes, chances: Chances) -> None:
+    """Bars without faces; of many counts, whose sides would be a grey block, the line along their tops."""
+    if len(chances) <= _FEW:
+        axes.bar(list(chances), list(chances.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
+        return
+    counts = np.arange(min(chances), max(chances) + 1)
+    edges = np.append(counts, counts[-1] + 1) - 0.5
+    axes.stairs([chances.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
 
 
 def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
@@ -158,7 +170,7 @@ def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
     """Some whole numbers within it, round ones where there are many counts."""
     low, high = span
-    found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
+    found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 

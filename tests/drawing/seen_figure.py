@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
@@ -100,6 +100,19 @@ def _points(axes: Axes) -> Iterator[np.ndarray]:
             yield axes.transData.transform(np.asarray(line.get_xydata(), dtype=float))
     for marks in axes.collections:
         yield axes.transData.transform(np.asarray(marks.get_offsets(), dtype=float).reshape(-1, 2))
+
+
+def crowded(figure: Figure) -> list[tuple[str, str]]:
+    """Neighbouring numbers below an axis that are read as one: nearer than half a letter."""
+    figure.draw_without_rendering()
+    found = []
+    for axes in figure.axes:
+        words = [text for text in axes.get_xticklabels() if text.get_text() and text.get_visible() and axes.axison]
+        boxes = sorted(((text.get_window_extent(), text) for text in words), key=lambda each: each[0].x0)
+        for (one, left), (other, right) in pairwise(boxes):
+            if other.x0 - one.x0 > 0 and other.x0 - one.x1 < 0.3 * left.get_fontsize() * figure.dpi / 72:
+                found.append((left.get_text(), right.get_text()))
+    return found
 
 
 def untitled(figure: Figure) -> bool:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from math import radians
 from typing import Any
 
 import numpy as np
 import pytest
-from seen_figure import alike, hidden, without_quantity
+from seen_figure import alike, crowded, hidden, without_quantity
 from shipped import train as load
 from test_tooth_figures import law
 
 pytest.importorskip("matplotlib")
 
-from matplotlib.colors import to_hex
+from matplotlib.colors import to_hex, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -27,6 +28,7 @@ from geartrain.drawing import (
     tooth_sizes_figure,
     train_sizes_figure,
 )
+from geartrain.drawing.corner_plot import CountProbabilities, corner_figure
 from geartrain.drawing.jam_map import jam_map_figure
 from geartrain.drawing.parameter_sweep_plot import parameter_label
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
@@ -201,6 +203,20 @@ def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
     assert not any("error" in axes.get_ylabel() for axes in figure.axes)
 
 
+def test_numbers_of_many_great_counts_stand_apart() -> None:
+    counts = {f"wheel {at}": np.arange(220, 229) + at for at in range(6)}
+    figure = corner_figure(CountProbabilities.of({**counts, "of many": np.arange(15, 24) ** 2 // 6}, np.ones(9)))
+    assert not crowded(figure)
+    assert min(len(axes.get_xticks()) for axes in figure.axes if axes.axison) > 1
+
+
+def test_many_counts_have_no_bars_of_outlines_alone() -> None:
+    likely = CountProbabilities.of({"wheel": np.arange(15, 82)}, np.ones(67))
+    (axes,) = corner_figure(replace(likely, before=likely.single)).axes
+    edged = [bar for bar in axes.patches if bar.get_linewidth() > 0 and to_rgba(bar.get_edgecolor())[3] > 0]
+    assert len(edged) == 1, "one line along the tops"
+
+
 # ---------------------------------------------------------------------------------------------- the measure can fail
 
 
@@ -242,3 +258,11 @@ def test_an_axis_of_numbers_without_words_is_found() -> None:
     assert len(without_quantity(figure)) == 2
     axes.set(xlabel="turns", ylabel="error (deg)")
     assert not without_quantity(figure)
+
+
+def test_numbers_that_run_into_each_other_are_found() -> None:
+    figure = Figure(figsize=(2, 2))
+    axes = figure.subplots()
+    axes.set_xlim(0, 10)
+    axes.set_xticks([4, 5], ["100", "101"])
+    assert crowded(figure) == [("100", "101")]

@@ -13,7 +13,7 @@ from shipped import train as load
 
 pytest.importorskip("matplotlib")
 
-from seen_figure import alike, hidden, untitled, without_quantity
+from seen_figure import alike, crowded, hidden, untitled, without_quantity
 from test_words_in_pictures import faults_of
 from written_text import read_picture
 
@@ -64,7 +64,8 @@ def check(arguments: list[object], folder: Path, option: str = "--plot") -> None
         result = call(*arguments, option, target)
     assert target.exists(), result.output
     (figure,) = drawn.call_args.args[:1]
-    assert (alike(figure), hidden(figure), untitled(figure), without_quantity(figure)) == ([], [], False, [])
+    assert (alike(figure), hidden(figure), crowded(figure)) == ([], [], [])
+    assert (untitled(figure), without_quantity(figure)) == (False, [])
     found = read_picture(target.read_bytes())
     assert found.texts
     assert (found.overlaps(), found.clipped(), found.small(8.0)) == ([], [], [])

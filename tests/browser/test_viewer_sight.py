@@ -16,7 +16,7 @@ from viewing import Opening, tab
 if TYPE_CHECKING:
     from conftest import Asked
 
-USUAL = [0.36, 0.3, 0.88]
+USUAL, INTO = [0.36, 0.3, 0.88], [0.62, 0.46, 0.64]
 # a picture from a side (null: from where the train opens) in which some wheels are blue and nothing else is
 PICTURE = """([towards, wheels, pillars]) => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {world} = stage;
@@ -94,6 +94,23 @@ def test_others_open_slantwise_from_the_front(asked: Asked, name: str) -> None:
     x, y, z = (each / hypot(*USUAL) for each in USUAL)
     front = asked(name).run("geartrain.scenes[0].front")
     assert asked(name).run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
+
+
+@pytest.mark.parametrize(("name", "times"), [("strain-wave", 1.35), ("zf-9hp48", 1.1)])
+def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(
+    asked: Asked, name: str, times: float
+) -> None:
+    """One looked into the cup of a strain wave, at whose far end its teeth are; roots, so that the worst seen weigh."""
+    wheels = range(asked(name).run("geartrain.scenes[0].wheels.length"))
+    behind, before = (
+        sum(blue(asked, name, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels) for towards in (None, INTO)
+    )
+    assert behind > times * before
+
+
+def test_others_that_are_cut_open_are_looked_into_from_the_front(asked: Asked) -> None:
+    asked("wolfrom-175").run("() => geartrain.stages[0].look('free')")
+    assert asked("wolfrom-175").run(TOWARDS) == pytest.approx([each / hypot(*INTO) for each in INTO], abs=1e-6)
 
 
 def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on_one_line(show: Opening) -> None:

@@ -47,6 +47,7 @@ export class Sight {
       const disc = { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), inner: wheel.kind === "ring" ? wheel.radius : 0 };
       return { ...disc, isWorm: wheel.kind === "worm", points: pointsOver(disc) };
     });
+    this.walls = scene.parts.filter(({ kind }) => kind === "wall").map(barOf);
     this.points = this.wheels.flatMap(({ points }) => points);
     this.swept = scene.wheels.flatMap((wheel, n) => discsOf(scene, wheel).map((disc) => pointsOver({ ...disc, inner: this.wheels[n].inner })));
   }
@@ -85,11 +86,23 @@ export class Sight {
       const off = eye.clone().sub(wheel.at);
       const cosine = off.dot(vector(wheel.direction)) / off.length();
       const facing = wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // its thread is seen from the side
-      const share = wheel.points.filter((point) => !before(point, wheel)).length / wheel.points.length;
+      const share = wheel.points.filter((point) => !before(point, wheel) && !this.walls.some((wall) => goesThrough(wall, eye, point))).length / wheel.points.length;
       return Math.sqrt(facing * share);
     });
     return parts.reduce((sum, part) => sum + part, 0) / parts.length;
   }
+}
+
+/** Whether the way from an eye to a point goes through the wall of a cup. */
+function goesThrough({ from, to, radius }, eye, point) {
+  const axis = to.clone().sub(from);
+  const long = axis.length();
+  axis.divideScalar(long);
+  const parted = (vector) => [vector.dot(axis), vector.clone().addScaledVector(axis, -vector.dot(axis))];
+  const [[low, off], [rise, way]] = [eye.clone().sub(from), point.clone().sub(eye)].map(parted);
+  const [a, b, c] = [way.dot(way), way.dot(off), off.dot(off) - radius * radius];
+  const root = Math.sqrt(b * b - a * c);
+  return [(-b - root) / a, (-b + root) / a].some((share) => share > 0 && share < 1 && low + share * rise > 0 && low + share * rise < long);
 }
 
 /** Whether a disc is met on the way from an eye. */

@@ -17,6 +17,7 @@ const OTHERS = [17, 38, 58, 4].flatMap((above) => [25, -25, 0, 55, -55].map((asi
 const BETTER = 1.13; // times as well wheels must be seen from another side, to begin there
 const NEARLY = 0.95; // of the best
 const INTO = [0.62, 0.46, 0.64]; // slantwise into a train that is cut open
+const BEHIND = [INTO[0], INTO[1], -INTO[2]]; // the same from behind
 const MARGIN = 1.05;
 const ASIDE = 0.55; // cosine of the way from which layers are seen when taken apart
 
@@ -152,7 +153,7 @@ export class Stage {
     const straight = from in LOOKS && from !== "free";
     this.from = from;
     if (straight) this.fit(this.towards(LOOKS[from]));
-    else this.fit(this.aside(this.world.opened ? this.towards(INTO) : this.opening()));
+    else this.fit(this.aside(this.opening()));
   }
 
   /** A way to look, given as from the front. */
@@ -164,7 +165,9 @@ export class Stage {
   /** From where a reader sees a train first: slantwise from the front, or from where wheels are seen better. Found once for a picture of one shape. */
   opening() {
     const { aspect } = this.camera;
-    if (this.found?.aspect !== aspect) this.found = { aspect, towards: this.bestOf(OTHERS.map((way) => this.towards(way)), this.towards(LOOKS.free)) };
+    const { opened } = this.world;
+    const [others, usual] = opened ? [[BEHIND], INTO] : [OTHERS, LOOKS.free];
+    if (this.found?.aspect !== aspect || this.found.opened !== opened) this.found = { aspect, opened, towards: this.bestOf(others.map((way) => this.towards(way)), this.towards(usual)) };
     return this.found.towards;
   }
 

@@ -98,11 +98,21 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _bands(wide: Sequence[float]) -> list[list[int]]:
-    """Panels side by side as far as a page is wide."""
+    """Panels side by side as far as a page is wide, in rows that are as equal as they can be."""
+    rows = len(_filled(wide, _PAGE))
+    ends = range(len(wide))
+    widths = sorted(
+        {sum(wide[first : last + 1]) + _GAP * (last + 1 - first) for last in ends for first in ends[: last + 1]}
+    )
+    return next(bands for each in widths if len(bands := _filled(wide, each)) <= rows)
+
+
+def _filled(wide: Sequence[float], page: float) -> list[list[int]]:
+    """Each panel in the first row that has room for it behind those before it."""
     bands: list[list[int]] = [[]]
     left = 0.0
     for at, each in enumerate(wide):
-        if bands[-1] and left + each + _GAP > _PAGE:
+        if bands[-1] and left + each + _GAP > page + 1e-9:  # rounding of sums
             bands.append([])
             left = 0.0
         bands[-1].append(at)

@@ -5,6 +5,7 @@ Measured in the written file, where a glyph is an outline: what is measured is w
 
 from __future__ import annotations
 
+from collections import Counter
 from fractions import Fraction
 from itertools import pairwise
 
@@ -171,6 +172,14 @@ def test_panels_of_a_speed_diagram_fill_the_page() -> None:
         figure = picture(load(name), "lever")
         right = max(axes.get_position().x1 for axes in figure.axes[1:])
         assert right * figure.get_size_inches()[0] == pytest.approx(figure.get_size_inches()[0] - 0.45, abs=0.01)
+
+
+def test_rows_of_a_speed_diagram_hold_as_many_panels_as_each_other() -> None:
+    """Four sets in a state: three and one left holes as wide as two panels."""
+    figure = picture(load("zf-8hp70"), "lever")
+    first = [axes for axes in figure.axes[1:] if axes.get_label().endswith(" 1")]
+    rows = Counter(round(axes.get_position().y0, 3) for axes in first)
+    assert list(rows.values()) == [2, 2]
 
 
 def test_two_faces_of_one_dial_are_told_apart() -> None:

@@ -25,6 +25,8 @@ const TIMED = [
   ["Page Up, Page Down", "to the next blow or the one before"],
   ["G", "to the slider of time"],
 ];
+export const BY_HAND =
+  "Drag the crank, or the handle in the picture. Drag elsewhere in the picture to look around, pinch or scroll to come nearer, click a wheel to know it.";
 const TEXT = "input:not([type=checkbox]):not([type=range]), textarea, select";
 const LOOKS = { 1: "front", 2: "back", 3: "side", 4: "free" };
 
@@ -44,11 +46,7 @@ export class Keys {
         { class: "keys" },
         [...(actions.timed ? TIMED : TURNED), ...REST].map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)]),
       ),
-      el(
-        "p",
-        {},
-        "Drag the crank, or the handle in the picture. Drag elsewhere in the picture to look around, pinch or scroll to come nearer, click a wheel to know it.",
-      ),
+      el("p", {}, BY_HAND),
       el("label", { class: "field tick" }, el("span", {}, "Single letters are keys"), this.letters),
       close,
     );

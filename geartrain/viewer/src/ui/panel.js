@@ -4,6 +4,7 @@ import { Change } from "./change.js";
 import { Contacts } from "./contacts.js";
 import { Dials } from "./dials.js";
 import { el } from "./element.js";
+import { BY_HAND } from "./keys.js";
 import { Outputs } from "./outputs.js";
 import { Path } from "./path.js";
 import { Sky, hasTargets } from "./sky.js";
@@ -72,7 +73,8 @@ export class Panel {
     this.places.Sky?.replaceChildren(this.sky.node);
     this.places.Wheels.replaceChildren(this.wheels.node);
     this.places.Change?.replaceChildren(this.change.node);
-    this.places.About.replaceChildren(...sides.map((side) => about(side, sides.length > 1)));
+    const byHand = el("p", { class: "quiet for-fingers" }, BY_HAND); // who has no keys does not see their list
+    this.places.About.replaceChildren(byHand, ...sides.map((side) => about(side, sides.length > 1)));
   }
 
   set(words) {

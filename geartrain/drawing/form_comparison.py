@@ -24,6 +24,7 @@ _SAMPLES = 301  # of each side
 _BESIDE = 1e-6  # of a side: nearer to the pitch point costs may be 0/0
 _MOST = 3.0  # of the greatest value of a middling form: what exceeds it leaves its panel
 _FLAT = 0.8  # of the greatest value: where the least is above it, a panel does not begin at 0
+_STRAIGHT = 0.1  # modules: the least that a panel shows across
 _AWAY = 0.1  # of a pitch: infinite costs are followed up to what they are this far from the pitch point
 
 
@@ -131,6 +132,9 @@ def _drawn(axes: Axes, text: str) -> None:
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     axes.set_title(text, fontsize=TEXT, loc="left", color=BLACK)
+    low, high = axes.get_xlim()
+    if high - low < _STRAIGHT:  # a radial flank, whose rounding would be drawn as a comb
+        axes.set_xlim((low + high - _STRAIGHT) / 2, (low + high + _STRAIGHT) / 2)
     axes.locator_params(axis="x", nbins=5)  # numbers of three decimals need room
     axes.set_xlabel("along the pitch line (modules)", fontsize=SMALL)
     axes.set_ylabel("towards gear 2 (modules)", fontsize=SMALL)

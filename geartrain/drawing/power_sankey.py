@@ -9,7 +9,7 @@ from typing import Any
 
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Path, PathPatch, Rectangle, Stroke
 from geartrain.drawing.sankey import BEND, DROP, TURN, BandSegment, ReturnBand, SankeyLayout, SankeySpot, lay_out_sankey
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WIDTH
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WHITE, WIDTH
 from geartrain.dynamics import PowerFlow, PowerNode
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
@@ -240,7 +240,9 @@ def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
         piece = turn.piece
         x = (placed.x[piece.source.column] + placed.x[piece.target.column]) / 2
         text = f"{percent_of_text(loop.power / flow.power_in, 'the power in')} circulates"
-        _write(axes, x, turn.lane + piece.width / 2, text, BLACK, va="center", fontsize=TEXT)
+        how: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": TEXT, "color": BLACK, "zorder": 5}
+        box = {"boxstyle": "round,pad=0.2", "facecolor": WHITE, "linewidth": 0}  # in print the band is hatched
+        axes.text(x, turn.lane + piece.width / 2, text, parse_math=False, bbox=box, gid="circulates", **how)
 
 
 def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:

@@ -24,6 +24,8 @@ from geartrain.drawing import (
     budget_figure,
     law_figure,
     motion_figure,
+    power_figure,
+    shapes_figure,
     sweep_figure,
     tooth_sizes_figure,
     train_sizes_figure,
@@ -36,6 +38,7 @@ from geartrain.drawing.theme_colours import themed
 from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES, ThemeName
 from geartrain.synthesis import ToothSizes, find_tooth_sizes, find_train_sizes
+from geartrain.teeth import Cycloidal
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.uncertainty import BudgetQuestion, find_budget
@@ -201,6 +204,25 @@ def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
     figure = motion_figure(MotionRun(load("longcase-clock-cycloidal").motion(), 2, 101), title="a clock")
     assert "no output has an error" in figure.get_suptitle()
     assert not any("error" in axes.get_ylabel() for axes in figure.axes)
+
+
+def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
+    train = load("norton-compound")
+    (axes,) = power_figure(train.power_flow(train.torques()), train.name).axes
+    turned = [patch for patch in axes.patches if patch.get_zorder() == 1.0]
+    assert turned
+    for text in axes.texts:
+        box = text.get_window_extent().transformed(axes.transData.inverted())
+        for band in turned:
+            assert not band.get_path().intersects_bbox(box, filled=False), text.get_text()
+
+
+def test_a_radial_flank_is_a_straight_line_not_its_rounding() -> None:
+    form = Cycloidal.declared({"thickness": ["1.5708", "1.05"], "addendum": ["1.4", "0"]})
+    figure = shapes_figure({"cycloidal": form.path(60, 8)})
+    low, high = figure.axes[1].get_xlim()
+    (flank,) = [line for line in figure.axes[1].lines if line.get_gid() == "cycloidal"]
+    assert np.ptp(flank.get_xdata()) < 1e-12 < 0.05 < high - low
 
 
 def test_numbers_of_many_great_counts_stand_apart() -> None:

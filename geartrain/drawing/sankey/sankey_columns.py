@@ -13,6 +13,7 @@ from geartrain.drawing.sankey.sankey_bands import TURN, BandSegment, ReturnBand,
 from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
 _LEAST_GAP = 0.62  # between columns
+_CLEAR = 0.06  # between words and a band that turns back beside them
 
 
 def turns(
@@ -26,7 +27,12 @@ def turns(
         first, last = piece.target.column, piece.source.column
         lane = min([lane, *(spot.top - spot.above for column in table[first : last + 1] for spot in column)])
         lane -= piece.width + 0.06
-        right, left = taken.get((last, True), TURN), taken.get((first, False), TURN)
+        # the words over the ends of a band stand within its turns, not over them
+        source, target = (
+            end - spot.width / 2 + _CLEAR
+            for end, spot in ((piece.source.right, piece.source), (piece.target.left, piece.target))
+        )
+        right, left = taken.get((last, True), max(TURN, source)), taken.get((first, False), max(TURN, target))
         turns.append(ReturnBand(piece, right, left, lane))
         taken[last, True], taken[first, False] = right + piece.width + 0.04, left + piece.width + 0.04
     return turns, taken

@@ -117,10 +117,13 @@ def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on
     shown = show("prague-orloj", viewport={"width": 390, "height": 844})
     shown.page.get_by_role("button", name="Open panels").click()
     tab(shown, "Sky")
-    top = shown.run("document.querySelector('canvas').getBoundingClientRect().top")
+    top, bottom = shown.run(
+        "(({top, bottom}) => [top, bottom])(document.querySelector('canvas').getBoundingClientRect())"
+    )
     panel = shown.run("document.querySelector('.panel').getBoundingClientRect().top")
     assert -2 <= top <= 2
     assert panel > 200
+    assert bottom < panel + 2
     # where the text of each cell of a row stands: [top, bottom], and left and right
     cells = shown.run("""[...document.querySelectorAll('.sky tbody tr')].map((row) => [...row.cells].map((cell) => {
       const range = document.createRange();

@@ -23,6 +23,7 @@ Styles = Mapping[str, tuple[str, Dash]]
 _SAMPLES = 301  # of each side
 _BESIDE = 1e-6  # of a side: nearer to the pitch point costs may be 0/0
 _MOST = 3.0  # of the greatest value of a middling form: what exceeds it leaves its panel
+_SPIKE = 6.0  # of what nine tenths of a curve stay below: a spike of teeth with a fault leaves its panel
 _FLAT = 0.8  # of the greatest value: where the least is above it, a panel does not begin at 0
 _STRAIGHT = 0.1  # modules: the least that a panel shows across
 _AWAY = 0.1  # of a pitch: infinite costs are followed up to what they are this far from the pitch point
@@ -163,11 +164,13 @@ def _along(
     for name, path in paths.items():
         X = _places(path)
         pitches = X / path.pitch.p
-        values = cost(path.at(X))
+        with np.errstate(invalid="ignore"):  # where a flank turns round there is no pressure to take the root of
+            values = cost(path.at(X))
         _line(axes, name, styles, np.stack([pitches, values], axis=1))
         away = values[(np.abs(pitches) > _AWAY) & np.isfinite(values)]
-        low, high = min(low, float(away.min(initial=inf))), max(high, float(away.max(initial=0.0)))
-        tops.append(float(away.max(initial=0.0)))
+        top = min(float(away.max(initial=0.0)), _SPIKE * float(np.quantile(away, 0.9))) if len(away) else 0.0
+        low, high = min(low, float(away.min(initial=inf))), max(high, top)
+        tops.append(top)
     high = min(high, _MOST * float(np.median(tops)))
     rim = max(0.1 * (high - low), 0.02 * high)
     axes.set_ylim(low - rim if low > _FLAT * high else 0.0, high + rim or 1.0)

@@ -38,7 +38,7 @@ from geartrain.drawing.theme_colours import themed
 from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES, ThemeName
 from geartrain.synthesis import ToothSizes, find_tooth_sizes, find_train_sizes
-from geartrain.teeth import Cycloidal
+from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.uncertainty import BudgetQuestion, find_budget
@@ -223,6 +223,16 @@ def test_a_radial_flank_is_a_straight_line_not_its_rounding() -> None:
     low, high = figure.axes[1].get_xlim()
     (flank,) = [line for line in figure.axes[1].lines if line.get_gid() == "cycloidal"]
     assert np.ptp(flank.get_xdata()) < 1e-12 < 0.05 < high - low
+
+
+def test_a_spike_leaves_its_panel_where_the_rest_would_be_flat() -> None:
+    """Where a pinion of eight teeth is undercut, its flank turns round and heat per area has no bound."""
+    figure = shapes_figure({"involute": Involute.declared({}).path(8, 36)})
+    (heat,) = [line for line in figure.axes[4].lines if line.get_gid() == "involute"]
+    values = np.asarray(heat.get_ydata(), dtype=float)
+    assert np.nanmax(values) > 100 * np.nanmedian(values)
+    assert figure.axes[4].get_ylim()[1] < 30 * np.nanmedian(values)
+    assert "curves that leave a panel" in figure.get_suptitle()
 
 
 def test_numbers_of_many_great_counts_stand_apart() -> None:

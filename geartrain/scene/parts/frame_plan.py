@@ -19,12 +19,12 @@ from geartrain.scene.parts.carried_axes import (
 )
 from geartrain.scene.parts.eccentrics import running_hole, too_thin
 from geartrain.scene.parts.flexible_cups import FlexibleCup
-from geartrain.scene.parts.frame_stack import FrameStack
+from geartrain.scene.parts.frame_stack import AcrossWheel, FrameStack
 from geartrain.scene.parts.pin_circles import PinCircle, pin_seats
 from geartrain.scene.parts.plate_places import PlateChoice, best_column, best_places, obstacles, with_discs
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.shaft_seats import arm_seats, flange_seats
-from geartrain.scene.parts.stack_discs import StackDisc, gaps, slabs
+from geartrain.scene.parts.stack_discs import Point, StackDisc, gaps, slabs
 from geartrain.scene.parts.stack_heights import BEHIND, StackHeights, stack_up
 
 if TYPE_CHECKING:
@@ -298,6 +298,15 @@ class FramePlan:
     def layout(self) -> Layout:
         """The layout with wheels moved along the plates' normal, those of axes across with their mates."""
         return self.stack.raised(self.heights.shift)
+
+    @cached_property
+    def wheels_across(self) -> tuple[AcrossWheel, ...]:
+        """Wheels that do not stand upright, where they are once there are plates."""
+        return replace(self.stack, layout=self.layout).across
+
+    def across(self, low: float, high: float) -> list[tuple[Point, float]]:
+        """Circles that hold those of them that stand between two heights."""
+        return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property
     def notices(self) -> tuple[Problem, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil, cos, dist, pi, sin
 
@@ -14,7 +14,6 @@ from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnM
 from geartrain.scene.parts.barrels import Barrel
 from geartrain.scene.parts.eccentrics import Eccentric, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.parts.frame_stack import AcrossWheel
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.pin_circles import StandingPins
 from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
@@ -127,24 +126,15 @@ class FramePlates:
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
-    @cached_property
-    def _wheels_across(self) -> tuple[AcrossWheel, ...]:
-        """Wheels that do not stand upright, where they are once there are plates."""
-        return replace(self.plan.stack, layout=self.plan.layout).across
-
-    def _across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Circles that hold those of them that stand between two heights."""
-        return [circle for wheel in self._wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
-
     def _passages(self, faces: tuple[float, float]) -> Iterator[Passage]:
         """Their ways through a plate."""
-        return filter(None, (wheel.passage(faces) for wheel in self._wheels_across))
+        return filter(None, (wheel.passage(faces) for wheel in self.plan.wheels_across))
 
     @cached_property
     def pillars(self) -> list[Point]:
         """Middles of the pillars."""
         places = self.plan.places
-        across = self._across(places.back[0], places.front[1])
+        across = self.plan.across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
         axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate is round its pins too
         found = pillar_places(axes, self.circles, self.pillar, even=True)
@@ -159,7 +149,9 @@ class FramePlates:
         if bridge is None:
             return []
         low, high = min(bridge[0], self.plan.bridged_plate[1]), max(bridge[0], self.plan.bridged_plate[1])
-        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high] + self._across(low, high)
+        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high] + self.plan.across(
+            low, high
+        )
         circles += [(column.at, column.radius(low, high)) for column in self.plan.columns]
         circles += [(at, self.pillar) for at in self.pillars]
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)

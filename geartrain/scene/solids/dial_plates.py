@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import cos, dist, hypot, pi, sin
+from math import cos, dist, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,9 +12,9 @@ import numpy as np
 from geartrain.numerics.vectors import cross, dot
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.dial_scale import DialScale
-from geartrain.scene.layout.swept_overlap import segment_distance
 from geartrain.scene.parts.dial_feet import RADIUS as FOOT
 from geartrain.scene.parts.dial_feet import dial_feet
+from geartrain.scene.parts.pillar_places import clear_of
 from geartrain.scene.parts.stack_discs import Point
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
@@ -169,20 +169,6 @@ def _same(one: Point, other: Point) -> bool:
     return dist(one, other) < _SAME
 
 
-def _across(at: Point, faces: tuple[float, float], plan: FramePlan) -> Iterator[float]:
-    """How far from an axis wheels stand that reach between two heights and do not stand upright."""
-    stack, layout = plan.stack, plan.layout
-    assert stack.normal is not None
-    upright = {disc.name for disc in plan.discs}
-    for place in layout.wheels.values():
-        height, outer = dot(place.centre, stack.normal), place.radius + place.module
-        if place.wheel not in upright and height - outer < faces[1] and faces[0] < height + outer:
-            (x, y), (u, v) = stack.flat(place.centre), stack.flat(layout.axes[place.axis].direction)
-            flat = hypot(u, v)
-            start, end = ((x + way * outer * v / flat, y - way * outer * u / flat) for way in (-1, 1))
-            yield segment_distance(at, start, end) - place.thickness / 2
-
-
 def _plate(
     side: int,
     by_axis: Mapping[str, Sequence[DialFace]],
@@ -216,7 +202,7 @@ def _circle(
     for other in plan.columns:
         if other.axis != column.axis and (rod := other.radius(*heights)):
             radius = min(radius, dist(other.at, column.at) - rod - _BESIDE)
-    radius = min([radius, *(away - _BESIDE for away in _across(column.at, heights, plan))])
+    radius = min(radius, clear_of(column.at, plan.across(*heights)) - _BESIDE)
     hole = 2 * (through + _ROOM)
     if radius <= hole:
         return None

@@ -93,6 +93,16 @@ def _images(pictures: Iterator[bytes]) -> Iterator[Image]:
         yield Image.open(io.BytesIO(picture)).convert("RGB")
 
 
+def mixed(one: bytes, other: bytes, share: float) -> bytes:
+    """A PNG between two: the share of the other in it, from 0 to 1."""
+    from PIL import Image
+
+    first, second = _images(iter((one, other)))
+    out = io.BytesIO()
+    Image.blend(first, second, share).save(out, "PNG")
+    return out.getvalue()
+
+
 FORMATS: Mapping[str, Callable[[Iterator[bytes], Shot], bytes]] = {
     ".png": _png,
     ".gif": _gif,

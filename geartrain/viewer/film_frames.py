@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.viewer.browser import open_browser, outside_of_loops
-from geartrain.viewer.film_formats import FORMATS, check_format
+from geartrain.viewer.film_formats import FORMATS, check_format, mixed
 from geartrain.viewer.film_parts import FilmPart, film_parts
 from geartrain.viewer.shot import Shot
 from geartrain.viewer.viewer_page import page
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 OnFrame = Callable[[], object]
 
+_FADE = 0.4  # s
 _PATIENCE = 180_000  # ms: software draws slowly on a busy machine
 
 
@@ -85,7 +86,7 @@ def film(
 
 
 def frames(parts: Sequence[FilmPart], shot: Shot) -> Iterator[bytes]:
-    """A PNG for each moment of each part."""
+    """A PNG for each moment of each part; the last one of a part fades into the next part."""
     html = page([part.scene for part in parts], teeth=shot.teeth, shown="film")
     with TemporaryDirectory() as folder, open_browser() as browser:
         path = Path(folder) / "film.html"
@@ -94,12 +95,16 @@ def frames(parts: Sequence[FilmPart], shot: Shot) -> Iterator[bytes]:
         sheet = browser.new_page(viewport={"width": width, "height": height}, device_scale_factor=1)
         sheet.set_default_timeout(_PATIENCE)
         sheet.goto(path.as_uri())
+        before = b""
         for at, part in enumerate(parts):
             if at:
                 sheet.evaluate("(at) => geartrain.film.open(at)", at)
             _prepare(sheet, shot, part.words)
-            for turns, orbit in part.moments:
-                yield _picture(sheet, str(turns), orbit)
+            fade = min(round(_FADE * shot.fps), len(part.moments) // 4) if at else 0
+            for n, (turns, orbit) in enumerate(part.moments, 1):
+                picture = _picture(sheet, str(turns), orbit)
+                yield mixed(before, picture, n / (fade + 1)) if n <= fade else picture
+            before = picture
 
 
 def _prepare(sheet: Page, shot: Shot, words: tuple[str, str] | None) -> None:

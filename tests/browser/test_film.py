@@ -209,6 +209,21 @@ def test_a_film_of_states_shows_each_by_its_name(tmp_path: Path) -> None:
     assert all(np.abs(one - other).max() > 100 for one, other in pairwise(corners[::2])), "and others in the next"
 
 
+def test_one_state_fades_into_the_next(tmp_path: Path) -> None:
+    """0.4 s: four pictures lie between the last one of a state and the fifth of the next."""
+    to, asked = tmp_path / "fading.webp", ("--seconds", "2", "--fps", "10", "--size", "120x80", "--no-teeth")
+    done = call("view", "planetary", "--states", "-o", to, *asked)
+    assert done.exit_code == 0, done.output
+    words = []
+    with Image.open(to) as shown:
+        for n in range(19, 26):
+            shown.seek(n)
+            words.append(np.asarray(shown.convert("L"), dtype=float)[4:26, 4:110])
+    old, *between, _, new = words
+    parts = [float(((each - old) * (new - old)).sum() / ((new - old) ** 2).sum()) for each in between]
+    assert parts == pytest.approx([0.2, 0.4, 0.6, 0.8], abs=0.05)
+
+
 def test_a_motion_in_time_is_filmed_for_as_long_as_it_lasts(tmp_path: Path) -> None:
     to = tmp_path / "blows.webp"
     asked = ("--dynamics", "--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")

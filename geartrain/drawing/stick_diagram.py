@@ -32,6 +32,7 @@ _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
 _NAME = 8.5  # points
 _LINK, _WHEEL, _CARRIER, _COUPLING = 1.1, 2.8, 4.0, 1.8  # points: what a line is, is seen without its colour
 _TOUCH = 0.032  # inches from where two wheels meet to the middle of either's mark
+_BEARING = 0.08  # inches: half of the mark of a carrier's bearing
 _LONE = 0.55  # inches of a wheel that meshes with nothing
 _HEAD, _FOOT = 0.7, 0.7
 
@@ -90,7 +91,9 @@ class _Drawing:
             for x in (mesh.x, mesh.x + _COLUMN) if mesh.ring else (mesh.x,):
                 self.words.keep_off((x, x), (min(ends), max(ends)))
         for crank in skeleton.cranks:
-            self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, skeleton.rows[crank.axis][0]))
+            far = skeleton.rows[crank.axis][0]
+            self.words.keep_off((crank.x, crank.x), (skeleton.shafts[crank.carrier].y, far))
+            self.words.keep_off((crank.x - _BEARING, crank.x + _BEARING), (far - 0.07, far + 0.07))
 
     def draw_axes(self) -> None:
         """Centre lines."""
@@ -188,7 +191,9 @@ class _Drawing:
         self._line([crank.x, crank.x], [y, far], ORANGE, _CARRIER, zorder=3, gid=f"crank {crank.carrier}")
         for side in (-1, 1):
             level = far + 0.05 * side
-            self._line([crank.x - 0.08, crank.x + 0.08], [level, level], ORANGE, _WHEEL, zorder=7)
+            self._line(
+                [crank.x - _BEARING, crank.x + _BEARING], [level, level], ORANGE, _WHEEL, zorder=7, gid="bearing"
+            )
 
     def _tick(self, x: float, y: float, kind: str) -> None:
         """The mark of teeth at the end of a wheel: level, slanted (bevel), upright too (contrate), or long (worm)."""

@@ -14,7 +14,7 @@ from geartrain.drawing.labels import Box, LabelSpace, text_box, text_width
 from geartrain.drawing.style import BLACK, FINE, GREY, write
 
 _NAME = 8.5  # points of a link's name
-_BESIDE = 0.09  # inches from an upright to the middle of the words along it
+_BESIDE = 0.12  # inches from an upright to the middle of the words along it
 _STEP = 0.06  # inches from one place to the next that is tried
 _AWAY = 0.105  # inches from a shaft to the middle of the words over it
 _APART = 0.02  # inches more between two names along one line, and on either side of a link's

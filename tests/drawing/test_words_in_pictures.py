@@ -167,6 +167,36 @@ def test_a_wheel_across_is_round_from_the_right_where_the_plan_has_its_edge(name
         assert edge.width < 0.2 * own.width
 
 
+@pytest.mark.parametrize("name", ["freeth-2021", "huygens-planetarium-1682", "three-planets", "zf-8hp70"])
+def test_words_along_a_wheel_leave_its_line_whole(name: str) -> None:
+    """With half a point between them, which is what a halo takes of the line."""
+    (axes,) = picture(load(name), "stick", None, Fraction(0)).axes
+    dots = axes.figure.dpi / 72
+    uprights = [
+        (line.get_window_extent(), line.get_linewidth() * dots / 2)
+        for line in axes.lines
+        if (line.get_gid() or "").startswith(("wheel ", "crank ")) and np.ptp(line.get_xdata()) == 0
+    ]
+    for words in axes.texts:
+        box = words.get_window_extent()
+        beside = [
+            min(abs(box.x0 - line.x0), abs(box.x1 - line.x0)) - half
+            for line, half in uprights
+            if words.get_rotation() == 90 and box.y0 < line.y1 and line.y0 < box.y1
+        ]
+        assert min(beside, default=dots) > 0.5 * dots, words.get_text()
+
+
+def test_names_of_links_keep_off_the_bearings_of_carriers() -> None:
+    (axes,) = picture(load("freeth-2021"), "stick", None, Fraction(0)).axes
+    bearings = [line.get_window_extent() for line in axes.lines if line.get_gid() == "bearing"]
+    assert len(bearings) == 2 * sum((line.get_gid() or "").startswith("crank ") for line in axes.lines)
+    for words in axes.texts:
+        box = words.get_window_extent()
+        struck = [b for b in bearings if box.x0 < b.x1 and b.x0 < box.x1 and box.y0 < b.y1 and b.y0 < box.y1]
+        assert not struck, words.get_text()
+
+
 def test_panels_of_a_speed_diagram_fill_the_page() -> None:
     for name in ("planetary-24-18-60", "simpson-set"):
         figure = picture(load(name), "lever")

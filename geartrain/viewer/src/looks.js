@@ -7,7 +7,7 @@ import { vector } from "./space.js";
 
 const GHOST = 0.14; // opacity of what is not highlighted
 const GLASS = 0.07; // of a plate or a pillar before the wheels
-const HIDDEN = 0.15; // of the wheels, behind a plate that then is of glass
+const HIDDEN = 0.05; // of the wheels, behind a plate that then is of glass
 const GLOSS = 0.75;
 
 export class Looks {

@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.drawing.callouts import Callout
 from geartrain.drawing.labels import Box, LabelSpace, text_box
-from geartrain.drawing.projection import ProjectedScene, arms_of
+from geartrain.drawing.projection import ProjectedScene, arms_of, coupling_spans
 from geartrain.drawing.style import FINE
 from geartrain.scene import SceneWheel
 
@@ -35,7 +35,7 @@ class PlanNames:
 
     centres   of the wheels (n, 2)
     reach     what each hides (n,); of a ring nothing, which is open
-    arms      points (m, 2) that keep names off arms
+    arms      points (m, 2) that keep names off arms, slots, and pins in holes
     scale     inches of a millimetre
     """
 
@@ -53,7 +53,8 @@ class PlanNames:
         centres = np.array([at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
         ends = [at(standing.seen(np.array([start, end]))) for _, start, end in arms_of(standing)]
-        return cls(wheels, centres, reach, _points_along(ends), scale)
+        pins = [span for each in standing.scene.couplings for span in coupling_spans(standing, each, at, scale)]
+        return cls(wheels, centres, reach, _points_along([*ends, *pins]), scale)
 
     def place(self) -> tuple[list[tuple[SceneWheel, Box]], list[Callout]]:
         """Names that stand on their wheels, and those that a line must lead from: one to all of an axis, from inside

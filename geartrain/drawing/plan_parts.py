@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 
 from geartrain.drawing.backend import Circle, Path, PathPatch, Polygon
 from geartrain.drawing.oblique_side_views import draw_across
-from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels
+from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels, coupling_spans
 from geartrain.drawing.style import BLACK, BLUE, FILL, ORANGE, PURPLE, RED, SHADE
 from geartrain.scene import SceneCoupling, SceneWheel
 
@@ -117,12 +117,7 @@ def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCo
         _draw_holes(page, standing, coupling)
         return
     pin = page.at(standing.seen(standing.pose.point(coupling.pin, coupling.pin_at)))
-    body = standing.scene.bodies[coupling.slot]
-    hub = page.at(standing.seen(standing.pose.point(coupling.slot, coupling.slot_at if body else body.point)))
-    along = pin - hub
-    far = float(np.hypot(*along)) or 1.0
-    reach = coupling.offset * page.scale
-    ends = hub + np.outer([max(far - 1.2 * reach, 0.3 * far), far + 0.6 * reach + 0.04], along / far)
+    (ends,) = coupling_spans(standing, coupling, page.at, page.scale)
     page.axes.plot(*ends.T, color=PURPLE, linewidth=5.5, solid_capstyle="round", zorder=5, gid=f"slot {coupling.id}")
     page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
     spot = (float(pin[0]), float(pin[1]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.drawing.backend import Axes
 from geartrain.numerics.polylines import simplified
-from geartrain.scene import Scene, SceneWave, SceneWheel
+from geartrain.scene import Scene, SceneCoupling, SceneWave, SceneWheel
 from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.wave_tooth import bent_line
@@ -176,6 +176,26 @@ def arms_of(standing: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
         if key not in seen:
             seen.add(key)
             yield body.parent, *ends
+
+
+def coupling_spans(
+    standing: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
+) -> list[Floats]:
+    """Lines (2, 2) over what a coupling takes of a plan [inches]: along its slot, or two across each of its holes.
+
+    at, scale   inches (..., 2) of what is seen (..., 3), and of a millimetre
+    """
+    pose, half = standing.pose, coupling.hole / 2 * scale
+    if coupling.hole:
+        middles = [at(standing.seen(pose.point(coupling.slot, place))) for place in coupling.holes_at]
+        across = half * np.array([[[-1, 0], [1, 0]], [[0, -1], [0, 1]]])
+        return [middle + line for middle in middles for line in across]
+    pin = at(standing.seen(pose.point(coupling.pin, coupling.pin_at)))
+    body = standing.scene.bodies[coupling.slot]
+    hub = at(standing.seen(pose.point(coupling.slot, coupling.slot_at if body else body.point)))
+    along, reach = pin - hub, coupling.offset * scale
+    far = float(np.hypot(*along)) or 1.0
+    return [hub + np.outer([max(far - 1.2 * reach, 0.3 * far), far + 0.6 * reach + 0.04], along / far)]
 
 
 def broken_wheels(scene: Scene) -> set[str]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from geartrain.numerics.vectors import Vector
-from geartrain.scene.layout.wheel_reach import reach, span
+from geartrain.scene.layout.wheel_reach import reach, span, web
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +174,11 @@ class SceneWheel:
         """Between which places its body stands, from its centre along its direction [mm]."""
         depths = self.root - self.radius, self.tip - self.radius
         return span(self.facing, *reach(self.cone, self.radius, self.thickness, *depths))
+
+    @property
+    def web(self) -> tuple[float, float]:
+        """The same of the disc within its teeth."""
+        return span(self.facing, *web(self.cone, self.radius, self.thickness, self.root - self.radius))
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,6 +83,13 @@ def test_a_bracket_goes_through_its_plate_in_a_mortise() -> None:
     assert [each for each in find_overlaps(parts("worm")) if plates.keys() & {each.one, each.other}] == []
 
 
+def test_pillars_brackets_and_cages_stand_in_nothing_else() -> None:
+    """A pillar stood in a bracket, and a cage's post in its arm; the saddle of its eye alone is filed to the post."""
+    found = find_overlaps(parts("south-pointing-chariot"))
+    held = [each for each in found if {"plate", "pillar", "bracket", "arm"} & {*f"{each.one} {each.other}".split()}]
+    assert [each for each in held if each.share > SHARE] == []
+
+
 def test_two_parts_that_are_pushed_into_each_other_are_seen() -> None:
     """A hundredth of a millimetre of an arbor's radius in the plate that bears it."""
     arbor = next(part for part in parts("watch-going-train") if part.name == "third arbor")

@@ -68,6 +68,14 @@ def reach(cone: float, radius: float, thickness: float, root: float, tip: float)
     return -back_of_cone(cone, radius, thickness, root), max(ends)
 
 
+def web(cone: float, radius: float, thickness: float, root: float) -> tuple[float, float]:
+    """As `reach`, of the disc within its teeth."""
+    if not cone:
+        return thickness / 2, thickness / 2
+    front = height_on_cone(cone, radius, root - LAND * radius, taper(cone, radius, thickness))
+    return -back_of_cone(cone, radius, thickness, root), front
+
+
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
     """The same as places along the axis' direction, from the pitch circle: the lower and the upper; `facing`, of it."""
     return (-towards, away) if facing > 0 else (-away, towards)

@@ -137,10 +137,12 @@ class FramePlates:
         across = self.plan.across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
         axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate is round its pins too
-        found = pillar_places(axes, self.circles, self.pillar, even=True)
+        beside = [circle for side in self.mortises.values() for each in side for circle in each.circles]
+        circles = [*self.circles, *beside]
+        found = pillar_places(axes, circles, self.pillar, even=True)
         if all(clear_of(at, across) > self.pillar for at in found):  # plates are the smaller the nearer pillars are
             return found
-        return pillar_places(axes, [*self.circles, *across], self.pillar, even=True)
+        return pillar_places(axes, [*circles, *across], self.pillar, even=True)
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:

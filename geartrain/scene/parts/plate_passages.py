@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import hypot
+from math import ceil, hypot
 
 import numpy as np
 
@@ -36,6 +36,13 @@ class Passage:
         (x, y), (u, v) = self.middle, self.way
         ends = [(a * self.length, b * self.width) for a, b in _CORNERS]
         return [(x + u * along - v * aside, y + v * along + u * aside) for along, aside in ends]
+
+    @property
+    def circles(self) -> list[tuple[Point, float]]:
+        """Such in a row that hold next to all of it."""
+        (x, y), (u, v), count = self.middle, self.way, ceil(self.length / self.width)
+        steps = [self.length * k / count for k in range(-count, count + 1)]
+        return [((x + u * step, y + v * step), self.width) for step in steps]
 
     def is_clear_of(self, other: Passage) -> bool:
         """True if a web of plate is left between them: along a side of one of them they are apart."""

@@ -7,12 +7,14 @@ the pinion where a plate of the frame stands before the wheel.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.scene.parts.ring_posts import TENON
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import around, basis
 from geartrain.scene.solids.brackets import GAP, LAND, on_axis, wheel_ends
@@ -93,9 +95,11 @@ class _Holder:
             seat, level = None, self._beside(height)
         else:
             level = self._level(height, away - post) if seat is None else seat
-        start = height + (radius + LAND / 2) * (1 if level > height else -1)
-        low, high = sorted((start, level))
-        parts = [eye, self._post(eye.place - height * self.along, low, high, post)]
+        way = 1 if level > height else -1
+        ends = [height + way * (radius + LAND / 2), level]
+        if seat is None:  # through the arm
+            ends[1:] = level - way * _ARM / 2, level + way * _ARM / 2
+        parts = [eye, self._post(eye.place - height * self.along, ends, post)]
         if seat is None:
             parts.append(self._arm(aside, away, level, post))
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
@@ -121,9 +125,11 @@ class _Holder:
         )
         return self._placed(part, on_axis(self.body, middle), self.body)
 
-    def _post(self, foot: Floats, low: float, high: float, radius: float) -> SolidPart:
-        bands = (Band(low, high, radius),)
-        part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), bands)
+    def _post(self, foot: Floats, ends: Sequence[float], radius: float) -> SolidPart:
+        """From the eye on; with a tenon from the second to the third height."""
+        sizes = zip(pairwise(ends), (radius, TENON * radius), strict=False)
+        bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
+        part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
         return self._placed(part, foot, self.carrier)
 
     def _placed(self, part: TurnedPart, place: Floats, about: SceneBody) -> SolidPart:
@@ -131,9 +137,10 @@ class _Holder:
         return SolidPart(self.index, part.name, part.kind, turn, place, turned=part)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """The nearest middle plane of the carrier's wheels that reach out to a post."""
-        own = [self.height(wheel.centre) for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away]
-        return min(own, key=lambda each: abs(each - height), default=None)
+        """The nearest face of the carrier's wheels that reach out to a post, within their teeth."""
+        own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
+        faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
+        return min(faces, key=lambda each: abs(each - height), default=None)
 
     def _is_behind_a_plate(self, height: float, seat: float) -> bool:
         """True if a plate of the frame stands between two heights."""
@@ -150,7 +157,7 @@ class _Holder:
 
         def hit(level: float) -> int:
             wheels = list(self._coaxial())
-            faces = map(self._faces, wheels)
+            faces = (self._faces(wheel, wheel.span) for wheel in wheels)
             return sum(low - _ARM / 2 < level < high + _ARM / 2 for low, high in faces)
 
         return min((height + reach, height - reach), key=hit)
@@ -163,10 +170,10 @@ class _Holder:
             if upright and float(np.abs(aside).max()) < _SAME:
                 yield wheel
 
-    def _faces(self, wheel: SceneWheel) -> tuple[float, float]:
-        """Between which heights a wheel about the carrier's axis stands."""
+    def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
+        """Heights of the `ends` of a wheel about the carrier's axis, that count from its centre along its direction."""
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
-        low, high = sorted(self.height(wheel.centre) + up * end for end in wheel.span)
+        low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
@@ -179,7 +186,7 @@ class _Holder:
             return hit, side * beyond(side)
 
         def beyond(side: int) -> float:
-            own = [max(side * face for face in self._faces(wheel)) for wheel in wheels]
+            own = [max(side * face for face in self._faces(wheel, wheel.span)) for wheel in wheels]
             reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at)
             return side * (max([each for each in own if each > side * height] or [side * height + reach]))
 
@@ -191,7 +198,8 @@ class _Holder:
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)
-        cut = around([(0.0, 0.0), (away, 0.0)], wide), Contour.circle(hub)
+        tenon = TENON * post + self.plan.process.press / 2
+        cut = around([(0.0, 0.0), (away, 0.0)], wide), Contour.circle(hub), Contour.circle(tenon, (away, 0.0))
         turn = np.column_stack([across, np.cross(self.along, across), self.along])
         place = on_axis(self.carrier, level)
         return SolidPart(self.index, f"{self.body.id} cage arm", "plate", turn, place, "", cut, _ARM)

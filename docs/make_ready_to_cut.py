@@ -64,8 +64,7 @@ The folders of five were read by programs that know nothing of geartrain: trimes
 `assembly.stl`, manifold3d finds volumes, sections across the axes are cut and circles measured on their corners. A
 round hole has its corners outside its circle, so that every chord leaves the stated room: that is why holes are up to
 0.004 mm wider than stated. "Turning" are holes with something of another link in them, "aside" says how far apart the
-middles of hole and rod are, "overlap" is the greatest volume that two parts share, over that of the smaller one. That
-of a1 and b1 is the likeness of a contrate, which is not to be cut, in the wheel that it meshes with.
+middles of hole and rod are, "overlap" is the greatest volume that two parts share, over that of the smaller one.
 """
 
 

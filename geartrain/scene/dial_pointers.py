@@ -175,7 +175,7 @@ def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vecto
 
 def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, float]:
     """Between which places along a direction the middles of a wheel's faces lie, mm."""
-    along = dot(stage.layout.axes[wheel.axis].direction, way) if wheel.axis in stage.layout.axes else way[2]
+    along = dot(stage.layout.axes[wheel.axis].direction, way)
     low, high = sorted(dot(wheel.centre, way) + at * along for at in wheel.span)
     return low, high
 

@@ -134,7 +134,7 @@ class DialScale:
             parts.append(f"{self.cell} {read.within}")
         elif not read.name and self.divisions > 1:
             parts.append(f"{self.cell} {self.number(read.cell)}")
-        parts += [glyph for cell, glyph in self.glyphs if cell == read.cell]
+        parts += [glyph for cell, glyph in self.glyphs if glyph and cell == read.cell]
         return ", ".join(parts)
 
 

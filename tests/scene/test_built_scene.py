@@ -261,3 +261,39 @@ def test_a_dial_on_the_side_lies_on_the_bracket_of_its_arbor_beside_that_of_the_
     for part in beside:
         off = np.cross(np.subtract(part.place, x), side)
         assert part is arbor or np.hypot.reduce(off) - part.bands[0][2] > 1.075 * face.radius > 10
+
+
+@pytest.mark.parametrize("way", ["[0, 0, 1]", "[1, 0, 0]"])
+@pytest.mark.parametrize("side", ["front", "back"])
+def test_dials_stand_on_plates_whichever_way_all_axes_look(way: str, side: str) -> None:
+    """Of a train whose axes lie across the view they hung in the air."""
+    scene = build_scene(
+        geartrain.load(f"""
+frame: f
+links: {{f: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 60}}}}}}
+axes: {{A: {{direction: {way}, position: [0, 0, 0]}}, B: {{direction: {way}, position: [0, 40 mm, 0]}}}}
+revolutes: {{A: [f, a], B: [f, b]}}
+gears: [p ~ w]
+inputs: {{a: 1}}
+dials: {{d: {{face: {side}, divisions: 12}}}}
+outputs: {{b: {{dial: d}}}}
+""")
+    )
+    (face,), (hand,) = scene.dials, scene.pointers
+    assert face.plate > face.radius > 0
+    assert hand.seat > 0
+
+
+def test_a_dial_on_the_side_is_laid_once_however_many_hands_it_has() -> None:
+    """Each hand made it smaller."""
+    more = "extends: voulgaris-2022\nname: more\noutputs: {one: {of: %s, dial: draconic}}\n"
+    (own,) = (
+        output.of or name
+        for name, output in shipped.train("voulgaris-2022").declaration.outputs.items()
+        if output.dial == "draconic"
+    )
+    scenes = shipped.built("voulgaris-2022"), build_scene(geartrain.load(more % own))
+    once, twice = (next(face.radius for face in scene.dials if face.id == "draconic") for scene in scenes)
+    assert once == twice
+    hands = [each for each in scenes[1].pointers if scenes[1].dials[each.dial or 0].id == "draconic"]
+    assert len({each.seat for each in hands}) == 1 < len(hands)

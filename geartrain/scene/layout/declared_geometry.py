@@ -315,7 +315,7 @@ def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front
             link = output.of or name
             line = lines.get(tree.axis(link) or "")
             across = line is not None and abs(line.direction[2]) < _ACROSS  # it looks neither to the reader nor away
-            if dial is None or dial.look == "ball" or across:
+            if dial is None or dial.look == "ball" or (across and dial.face not in ("front", "back")):
                 continue
             high = (front > 0) != looks_away(dial.face, declared.view.from_)
             before = found.get(link, DialEnds())

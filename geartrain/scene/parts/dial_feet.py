@@ -34,10 +34,13 @@ def dial_feet(
     free = [spot for at, radius in circles for spot in _tried(at, radius) if clear_of(spot, turning) > RADIUS + _GAP]
     spots = _apart(free)
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
-        across = [circle for wheel in plan.stack.across if wheel.is_between(*faces) for circle in wheel.circles]
         even = len({column.at for column in plan.columns}) == 1  # as its pillars are
         spots = pillar_places(
-            [at for at, _ in circles], turning, RADIUS, lambda spot: _reaches(spot, circles, across) > 0, even
+            [at for at, _ in circles],
+            turning,
+            RADIUS,
+            lambda spot: _reaches(spot, circles, plan.across(*faces)) > 0,
+            even,
         )
     ends = (plate, faces) if above else (faces, plate)
     return [_foot(plan, f"{name} foot {number}", spot, ends) for number, spot in enumerate(spots, 1)]
@@ -47,9 +50,7 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
     """What stands or turns between two heights, as circles."""
     yield from (swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high)
     yield from ((column.at, wide) for column in plan.columns if (wide := column.radius(low, high)))
-    for wheel in plan.stack.across:
-        if wheel.is_between(low, high):
-            yield from wheel.circles
+    yield from plan.across(low, high)
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:

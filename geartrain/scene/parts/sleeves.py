@@ -103,7 +103,7 @@ class _Around:
             return False
         near = (disc for disc in self.discs if disc.low < high - _SAME and low + _SAME < disc.high)
         return all(disc.room_for(self.column.at, radius) >= APART for disc in near) and not any(
-            wheel.is_between(low, high) for wheel in self.plan.stack.across
+            wheel.is_between(low, high) for wheel in self.plan.wheels_across
         )
 
 

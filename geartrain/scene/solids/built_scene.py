@@ -86,7 +86,7 @@ def build_scene(
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
         dials = _with_borne(dials, pointers)
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
-    for at in range(len(pointers)):
+    for at in range(len(dials)):
         dials, pointers = _on_bracket(at, scene, dials, pointers, parts)
     wheels = tuple(_opened(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
@@ -194,32 +194,35 @@ def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """A dial across which no plate stands is laid on the bracket of its pointer's arbor, clear of arbors beside it."""
-    pointer = pointers[at]
-    face = None if pointer.dial is None else dials[pointer.dial]
-    if face is None or pointer.dial is None or pointer.seat or face.plate or face.look != "scale":
-        return dials, pointers
-    link = scene.bodies[pointer.body].id
+    """A dial across which no plate stands is laid on the bracket of its pointers' arbor, clear of arbors beside it."""
+    face = dials[at]
+    own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]
     along = [part for part in parts if abs(dot(part.direction, face.normal)) > 1 - _SAME]
-    under = [part for part in along if part.name.startswith(f"{link} bracket")]
-    if not under:
+    links = tuple(f"{scene.bodies[pointers[n].body].id} bracket" for n in own)
+    under = [part for part in along if part.name.startswith(links)] if links else []
+    if face.plate or face.look != "scale" or not under:
         return dials, pointers
     high = max(dot(minus(part.place, face.centre), face.normal) + part.height / 2 for part in under)
-    room = [face.radius, *(_beside(part, face) - _CLEAR for part in along if part.bands and part.body != pointer.body)]
-    laid = replace(face, centre=plus(face.centre, face.normal, high + _LAID), radius=min(room) / _EDGE)
-    seat = 2 * max(band[2] for part in along if part.bands and part.body == pointer.body for band in part.bands)
-    hand = replace(pointer, level=_HAND / 2, seat=seat)
-    return (
-        (*dials[: pointer.dial], laid, *dials[pointer.dial + 1 :]),
-        (*pointers[:at], hand, *pointers[at + 1 :]),
-    )
+    radius = min([face.radius, *_room_beside(face, [part for part in along if part.bands])])
+    if radius <= 0:
+        return dials, pointers
+    laid = replace(face, centre=plus(face.centre, face.normal, high + _LAID), radius=radius)
+    hands = {n: replace(pointers[n], level=_HAND / 2, seat=_widest(pointers[n].body, along)) for n in own}
+    return (*dials[:at], laid, *dials[at + 1 :]), tuple(hands.get(n, each) for n, each in enumerate(pointers))
 
 
-def _beside(part: ScenePart, face: DialFace) -> float:
-    """How far a turned part along the axis of a dial is from this axis, mm."""
-    off = minus(part.place, face.centre)
-    high = dot(off, face.normal)
-    return float(np.sqrt(max(dot(off, off) - high * high, 0.0))) - max(band[2] for band in part.bands)
+def _room_beside(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
+    """How large a dial can be beside turned parts along its axis, those about the axis itself left out (mm)."""
+    for part in parts:
+        off = minus(part.place, face.centre)
+        apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))
+        if apart > _SAME:
+            yield (apart - max(band[2] for band in part.bands) - _CLEAR) / _EDGE
+
+
+def _widest(body: int, parts: Sequence[ScenePart]) -> float:
+    """Diameter of a body's widest turned part (mm)."""
+    return 2 * max((band[2] for part in parts if part.body == body for band in part.bands), default=0.0)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:

@@ -51,7 +51,7 @@ function shownAt(reading) {
   if (named) parts.push(named[0]);
   if (!named) parts.push(`${scale.cell} ${numberOf(scale, done)}`);
   else if (scale.names.length < scale.divisions) parts.push(`${scale.cell} ${done - Math.floor(ratio(named[1])) + 1}`);
-  parts.push(...scale.glyphs.filter(([cell]) => cell === done + 1).map(([, glyph]) => glyph));
+  parts.push(...scale.glyphs.filter(([cell, glyph]) => glyph && cell === done + 1).map(([, glyph]) => glyph));
   return parts.join(", ");
 }
 

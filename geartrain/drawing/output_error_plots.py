@@ -77,22 +77,33 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     'turns of crank'
     """
     found = _traces(run, on_done)
-    erring = [trace for trace in found if trace.errs] or found
-    most = {trace.name for trace in sorted(erring, key=lambda trace: -float(np.ptp(trace.error)))[:_OUTPUTS]}
-    traces = [trace for trace in erring if trace.name in most]
+    erring = [trace for trace in found if trace.errs]
+    ranked = sorted(erring, key=lambda trace: -float(np.ptp(trace.error))) or found
+    most = {trace.name for trace in ranked[:_OUTPUTS]}
+    traces = [trace for trace in found if trace.name in most]
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
-    left_out = _left_out(len(erring) - len(traces), len(found) - len(erring))
-    if not any(trace.errs for trace in found):
-        left_out = iter(["no output has an error"])
+    left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
 
 
-def _left_out(less: int, exact: int) -> Iterator[str]:
-    """Words on outputs that are not drawn: so many err less than others, so many not at all."""
-    if less:
-        yield f"{less} outputs that err less are left out: name them with --output"
+def _left_out(erring: int, exact: int) -> Iterator[str]:
+    """Words on outputs that are not drawn, where so many err and so many do not."""
+    if not erring:
+        yield "no output has an error"
+        yield from _beyond(exact, "")
+        return
+    yield from _beyond(erring, " that err less")
     if exact:
         yield f"{exact} without error {'is' if exact == 1 else 'are'} not drawn"
+
+
+def _beyond(outputs: int, which: str) -> Iterator[str]:
+    """Words on outputs that are more than are drawn."""
+    less = outputs - _OUTPUTS
+    if less == 1:
+        yield f"1 output{which and ' that errs less'} is left out: name it with --output"
+    elif less > 1:
+        yield f"{less} outputs{which} are left out: name them with --output"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:

@@ -206,6 +206,13 @@ def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
     assert not any("error" in axes.get_ylabel() for axes in figure.axes)
 
 
+def test_outputs_without_error_that_are_left_out_are_told() -> None:
+    figure = motion_figure(MotionRun(load("price-1974").motion(), 0.02, 21), title="price-1974")
+    said = " ".join(figure.get_suptitle().split())
+    assert said == "price-1974; no output has an error; 8 outputs are left out: name them with --output"
+    assert len([axes for axes in figure.axes if axes.axison]) == 12
+
+
 def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
     train = load("norton-compound")
     (axes,) = power_figure(train.power_flow(train.torques()), train.name).axes

@@ -500,7 +500,7 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
 
     year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
     labels = [panel.get_ylabel() for panel in year.axes]
-    assert labels == ["mars\nangle (deg)", "mars\nerror less its mean (deg)", "mars\nspeed over mean"]
+    assert labels == ["mars\nangle (deg)", "mars\nerror less\nits mean (deg)", "mars\nspeed over mean"]
     back = year.axes[0].lines[2]
     assert back.get_label() == "going back"
     y = np.asarray(back.get_ydata(), dtype=float)

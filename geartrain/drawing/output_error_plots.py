@@ -51,7 +51,11 @@ _Drawer = Callable[[Any, _Trace], None]
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """Of each output: its angle against its mean motion, its error and its speed; in red where it goes back.
+    """How outputs move: angles against mean motions, errors and speeds; in red where a pointer goes back.
+
+    Of an output that errs, its error and its speed; over few turns also its angle, over many also where it goes back,
+    if it does. Outputs without error are drawn only where none errs, each in one panel: of its angle over few turns,
+    or else of its speed.
 
     Parameters
     ----------
@@ -65,8 +69,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     Returns
     -------
     matplotlib.figure.Figure
-        Angles and errors [deg], speeds over that of the input, over turns of the input; of the twelve outputs that
-        err most.
+        Angles and errors [deg], speeds over their means, over turns of the input; of the twelve outputs that err
+        most, or the first twelve where none errs.
 
     Examples
     --------

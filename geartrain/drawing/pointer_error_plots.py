@@ -65,7 +65,7 @@ class ErrorBands:
 def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the input") -> Figure:
     """Of each pointer: median, the middle 50 and 95 percent, and the extremes of its error over the turns of `lead`.
 
-    The thin line is one trial. Raises `QuestionError` where there is none to draw.
+    The thin dashed line is one trial. Raises `QuestionError` where there is none to draw.
     """
     shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
     spans = {float(np.ptp(bands.turns)) for bands in shown.values()}

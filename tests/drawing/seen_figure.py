@@ -141,7 +141,8 @@ def without_quantity(figure: Figure) -> list[str]:
                 any(_number(text.get_text()) for text in axes.get_yticklabels()),
             ),
         )
-        below = [each.get_xlabel() for each in figure.axes if each.get_position().x0 - axes.get_position().x0 < 0.02]
+        left = axes.get_position().x0
+        below = [each.get_xlabel() for each in figure.axes if abs(each.get_position().x0 - left) < 0.02]
         for axis, numbers in labels:
             words = axis.get_label_text() or (any(below) if axis is axes.xaxis else axes.get_title("left"))
             if numbers and not words:

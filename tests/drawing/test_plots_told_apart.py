@@ -299,6 +299,15 @@ def test_an_axis_of_numbers_without_words_is_found() -> None:
     assert not without_quantity(figure)
 
 
+def test_a_label_does_not_serve_the_column_beside_it() -> None:
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    left.set(xlabel="turns", ylabel="error (deg)")
+    right.set(ylabel="speed")
+    figure.draw_without_rendering()
+    assert without_quantity(figure) == ["x of panel 1"]
+
+
 def test_numbers_that_run_into_each_other_are_found() -> None:
     figure = Figure(figsize=(2, 2))
     axes = figure.subplots()

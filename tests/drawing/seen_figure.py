@@ -7,13 +7,16 @@ from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox, BboxBase
 
 from geartrain.drawing.theme_colours import themed
 from geartrain.scene.palette import ThemeName
@@ -77,7 +80,10 @@ def _seen(patch: Patch) -> tuple[float, ...]:
 
 
 def hidden(figure: Figure) -> list[str]:
-    """Legends within axes that lie over a point, a mark or a bar, by their first words."""
+    """Legends within axes that lie over a line, a mark, a filled area or a bar with an id, by their first words.
+
+    Not asked are what is no data: rules and bands across a whole panel, maps and contours.
+    """
     figure.draw_without_rendering()
     found = []
     for axes in figure.axes:
@@ -85,21 +91,51 @@ def hidden(figure: Figure) -> list[str]:
         if legend is None:
             continue
         box = legend.get_window_extent()
-        points = np.concatenate([np.empty((0, 2)), *_points(axes)])
-        inside = (points > (box.x0, box.y0)).all(1) & (points < (box.x1, box.y1)).all(1)
         bars = any(box.overlaps(bar.get_window_extent()) for bar in axes.patches if bar.get_gid())
-        if inside.any() or bars:
+        if bars or _over_lines(axes, box) or _over_collections(axes, box):
             found.append(legend.get_texts()[0].get_text())
     return found
 
 
-def _points(axes: Axes) -> Iterator[np.ndarray]:
-    """Places of marks and lines (n, 2) that are within the axes [pixels]."""
+def _over_lines(axes: Axes, box: BboxBase) -> bool:
+    """Whether a box [pixels] lies over a mark or a stretch between two."""
     for line in axes.lines:
-        if line.get_transform() == axes.transData:
-            yield axes.transData.transform(np.asarray(line.get_xydata(), dtype=float))
-    for marks in axes.collections:
-        yield axes.transData.transform(np.asarray(marks.get_offsets(), dtype=float).reshape(-1, 2))
+        seen = _seen_part(box, line)
+        if line.get_transform() != axes.transData or seen is None:
+            continue
+        drawn = line.get_linestyle() != "None" and line.get_path().transformed(axes.transData)
+        if _holds(seen, axes, line.get_xydata()) or (drawn and drawn.intersects_bbox(seen, filled=False)):
+            return True
+    return False
+
+
+def _over_collections(axes: Axes, box: BboxBase) -> bool:
+    """Whether a box [pixels] lies over a mark of a cloud, a line of a bundle or a filled area."""
+    for each in axes.collections:
+        seen = _seen_part(box, each)
+        if seen is None:
+            continue
+        if isinstance(each, PathCollection):
+            if _holds(seen, axes, each.get_offsets()):
+                return True
+        elif isinstance(each, (LineCollection, PolyCollection)):
+            filled = isinstance(each, PolyCollection)
+            paths = (path.transformed(each.get_transform()) for path in each.get_paths())
+            if any(len(path.vertices) and path.intersects_bbox(seen, filled=filled) for path in paths):
+                return True
+    return False
+
+
+def _seen_part(box: BboxBase, artist: Artist) -> BboxBase | None:
+    """The part of a box in which an artist can be seen: within its axes, if it is cut there."""
+    cut = artist.get_clip_box() if artist.get_clip_on() else None
+    return box if cut is None else Bbox.intersection(box, cut)
+
+
+def _holds(box: BboxBase, axes: Axes, places: Any) -> bool:
+    """Whether one of some places of data is within a box [pixels]."""
+    points = axes.transData.transform(np.asarray(places, dtype=float).reshape(-1, 2))
+    return bool(((points > box.min) & (points < box.max)).all(1).any())
 
 
 def crowded(figure: Figure) -> list[tuple[str, str]]:

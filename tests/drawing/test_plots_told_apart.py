@@ -289,6 +289,26 @@ def test_a_legend_over_a_mark_is_found() -> None:
     assert not hidden(figure)
 
 
+def test_a_legend_over_a_line_between_its_ends_is_found() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    axes.plot([0, 1], [0, 1], label="a line")
+    axes.legend(loc="center")
+    assert hidden(figure) == ["a line"]
+    axes.legend(loc="upper left")
+    assert not hidden(figure)
+
+
+def test_a_legend_over_a_filled_area_is_found() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    axes.fill_between([0, 1], [0, 1], label="an area")
+    axes.legend(loc="lower right")
+    assert hidden(figure) == ["an area"]
+    axes.legend(loc="upper left")
+    assert not hidden(figure)
+
+
 def test_an_axis_of_numbers_without_words_is_found() -> None:
     figure = Figure()
     axes = figure.subplots()

@@ -16,7 +16,7 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
-from matplotlib.transforms import Bbox, BboxBase
+from matplotlib.transforms import Bbox
 
 from geartrain.drawing.theme_colours import themed
 from geartrain.scene.palette import ThemeName
@@ -97,7 +97,7 @@ def hidden(figure: Figure) -> list[str]:
     return found
 
 
-def _over_lines(axes: Axes, box: BboxBase) -> bool:
+def _over_lines(axes: Axes, box: Bbox) -> bool:
     """Whether a box [pixels] lies over a mark or a stretch between two."""
     for line in axes.lines:
         seen = _seen_part(box, line)
@@ -109,7 +109,7 @@ def _over_lines(axes: Axes, box: BboxBase) -> bool:
     return False
 
 
-def _over_collections(axes: Axes, box: BboxBase) -> bool:
+def _over_collections(axes: Axes, box: Bbox) -> bool:
     """Whether a box [pixels] lies over a mark of a cloud, a line of a bundle or a filled area."""
     for each in axes.collections:
         seen = _seen_part(box, each)
@@ -121,18 +121,18 @@ def _over_collections(axes: Axes, box: BboxBase) -> bool:
         elif isinstance(each, (LineCollection, PolyCollection)):
             filled = isinstance(each, PolyCollection)
             paths = (path.transformed(each.get_transform()) for path in each.get_paths())
-            if any(len(path.vertices) and path.intersects_bbox(seen, filled=filled) for path in paths):
+            if any(np.size(path.vertices) and path.intersects_bbox(seen, filled=filled) for path in paths):
                 return True
     return False
 
 
-def _seen_part(box: BboxBase, artist: Artist) -> BboxBase | None:
+def _seen_part(box: Bbox, artist: Artist) -> Bbox | None:
     """The part of a box in which an artist can be seen: within its axes, if it is cut there."""
     cut = artist.get_clip_box() if artist.get_clip_on() else None
     return box if cut is None else Bbox.intersection(box, cut)
 
 
-def _holds(box: BboxBase, axes: Axes, places: Any) -> bool:
+def _holds(box: Bbox, axes: Axes, places: Any) -> bool:
     """Whether one of some places of data is within a box [pixels]."""
     points = axes.transData.transform(np.asarray(places, dtype=float).reshape(-1, 2))
     return bool(((points > box.min) & (points < box.max)).all(1).any())
@@ -146,7 +146,7 @@ def crowded(figure: Figure) -> list[tuple[str, str]]:
         words = [text for text in axes.get_xticklabels() if text.get_text() and text.get_visible() and axes.axison]
         boxes = sorted(((text.get_window_extent(), text) for text in words), key=lambda each: each[0].x0)
         for (one, left), (other, right) in pairwise(boxes):
-            if other.x0 - one.x0 > 0 and other.x0 - one.x1 < 0.3 * left.get_fontsize() * figure.dpi / 72:
+            if other.x0 - one.x0 > 0 and other.x0 - one.x1 < 0.3 * float(left.get_fontsize()) * figure.dpi / 72:
                 found.append((left.get_text(), right.get_text()))
     return found
 

@@ -74,6 +74,7 @@ def sweep_figure(
     columns: Mapping[str, NDArray[Any]],
     verdicts: NDArray[np.str_],
     title: str = "",
+    units: Mapping[str, str] | None = None,
 ) -> Figure:
     """Results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
 
@@ -84,8 +85,8 @@ def sweep_figure(
     Parameters
     ----------
     parameters : mapping of str to array
-        One or two: name as it stands at the axis, and values, of shape (n,) or, as grids with each parameter constant
-        along one axis, (n, m).
+        One or two: name, which stands at the axis in words, and values, of shape (n,) or, as grids with each parameter
+        constant along one axis, (n, m).
     columns : mapping of str to array
         Results of the same shape: of these `efficiency_mean`, `error_pp_deg` [deg] and `tau_min` with `tau_max` are
         shown, or else all.
@@ -94,6 +95,8 @@ def sweep_figure(
         not run; of one that runs any text, such as its phases.
     title : str
         What is swept, written over all.
+    units : mapping of str to str, optional
+        Of parameters whose values are in a unit, that unit.
 
     Returns
     -------
@@ -108,10 +111,10 @@ def sweep_figure(
     Examples
     --------
     >>> import numpy as np
-    >>> found = sweep_figure({"clearance": np.array([1.0, 1.1])}, {"efficiency_mean": np.array([np.nan, 0.9])},
-    ...     np.array(["jam", "runs"]))
+    >>> found = sweep_figure({"half_angle": np.array([20, 30])}, {"efficiency_mean": np.array([np.nan, 0.9])},
+    ...     np.array(["jam", "runs"]), units={"half_angle": "deg"})
     >>> found.axes[-1].get_xlabel()
-    'clearance'
+    'half angle (deg)'
     """
     verdicts = np.asarray(verdicts).astype(str)
     values = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
@@ -124,6 +127,8 @@ def sweep_figure(
                 fix="give one parameter and arrays (n,), or two and grids (n, m), and at least one column",
             )
         )
+    units = units or {}
+    places = {parameter_label(name, units.get(name, "")): column for name, column in places.items()}
     figure = _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
     if title:
         headed(figure, title)

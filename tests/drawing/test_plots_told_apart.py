@@ -118,6 +118,15 @@ def test_parameters_are_named_with_their_units() -> None:
     assert parameter_label("z1") == "teeth of wheel 1"
 
 
+def test_a_sweep_names_its_parameters_by_itself() -> None:
+    x, y = np.meshgrid(GRID, GRID, indexing="ij")
+    ways = np.full(x.shape, "recess")
+    figure = sweep_figure({"half_angle": x, "z1": y}, {"efficiency_mean": x}, ways, units={"half_angle": "deg"})
+    assert (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()) == ("half angle (deg)", "teeth of wheel 1")
+    figure = sweep_figure({"clearance": GRID}, {"efficiency_mean": GRID}, ways[0])
+    assert figure.axes[-1].get_xlabel() == "clearance factor"
+
+
 def test_marks_of_one_place_stand_one_within_the_other() -> None:
     """The best of every pair by itself is the best for the train here."""
     figure = train_sizes_figure(find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}))

@@ -130,13 +130,12 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     if len(ranges) == 1:
         _tell_changes(make, next(iter(ranges)), found, units)
     if picture.path is not None:
-        from geartrain.drawing.parameter_sweep_plot import parameter_label, parameter_name, sweep_figure
+        from geartrain.drawing.parameter_sweep_plot import parameter_name, sweep_figure
 
         z1, z2 = ("varied" if name in ranges else str(z) for name, z in zip(("z1", "z2"), pair.teeth, strict=True))
         varied = " and ".join(map(parameter_name, ranges))
         title = f"triangular teeth, {z1} and {z2}, wheel {pair.driver} drives: {varied} varied"
-        named = {parameter_label(name, units[name]): values for name, values in found.parameters.items()}
-        draw(sweep_figure(named, found.columns, found.labels, title), picture)
+        draw(sweep_figure(found.parameters, found.columns, found.labels, title, units), picture)
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:

@@ -16,6 +16,14 @@ PICTURE = """() => {
   stage.render();
   return stage.canvas.toDataURL('image/png');
 }"""
+# a picture from a side, opaque parts drawn from the front (0) or from both sides (2)
+SIDED = """([side, towards]) => {
+  const [stage] = geartrain.stages;
+  stage.world.materials[0].side = side;
+  stage.fit(stage.camera.position.clone().set(...towards).normalize());
+  stage.render();
+  return stage.canvas.toDataURL('image/png');
+}"""
 # the wheel that is met first along the axis of most rings, at a radius and an angle from the right, both as given
 MET = """([radius, degrees]) => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {world, camera} = stage;
@@ -68,3 +76,14 @@ def test_what_is_cut_out_lies_in_the_quarter_and_one_taps_through_it(show: Openi
     outside = (columns < column - margin) | (rows > row + margin)
     assert 0.02 < changed.mean() < 0.25
     assert outside.sum() < 1e-3 * changed.size, "but for single points on edges of teeth"
+
+
+def test_backs_of_closed_bodies_need_not_be_drawn(show: Opening) -> None:
+    """Cones of both hands, whose outlines go round either way, face outwards: from no side does one look into them."""
+    shown = show("bevel-differential")
+    shown.page.get_by_label("Teeth").check()
+    wait(shown, "geartrain.stages[0].world.cut")
+    for towards in ((0.4, 0.3, 0.9), (-0.4, 0.3, -0.9), (0.9, 0.2, -0.3)):
+        front, both = (picture(shown.run(SIDED, [side, towards])) for side in (0, 2))
+        differs = np.abs(front - both).max(axis=2) > 40
+        assert differs.mean() < 0.002, "but for single points on edges"

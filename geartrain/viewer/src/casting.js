@@ -16,11 +16,15 @@ export class Casting {
    *              each point
    */
   add(shape, matrix, { body, slot, lift, count = 1 }) {
+    turnOut(shape);
     if (shape.corners) this.jobs.push({ shape, matrix, body, slot, lift, count });
   }
 
-  /** Meshes of all that was added, one for each material; `parts` say where each stands in it. */
-  cast(materials) {
+  /**
+   * Meshes of all that was added: what is seen, what is half seen, and what is cut open of slots that `canOpen`; `parts`
+   * say where each stands in it.
+   */
+  cast([seen, ghosts, cut], canOpen) {
     const total = (key) => this.jobs.reduce((sum, job) => sum + job.count * key(job.shape), 0);
     const corners = total((shape) => shape.corners);
     const data = {
@@ -48,8 +52,32 @@ export class Casting {
     for (const [name, attribute] of Object.entries(data)) geometry.setAttribute(name, attribute);
     geometry.setIndex(new BufferAttribute(index, 1));
     this.geometry = geometry;
-    this.meshes = materials.map((material) => Object.assign(new Mesh(geometry, material), { frustumCulled: false, matrixAutoUpdate: false }));
+    this.meshes = [seen, ghosts, cut].map((material) => Object.assign(new Mesh(geometry, material), { frustumCulled: false, matrixAutoUpdate: false }));
+    this.canOpen = canOpen;
     return this.meshes;
+  }
+
+  /** The same corners, with the triangles of what can be cut open or of the rest. */
+  only(opened) {
+    const { attributes, index } = this.geometry;
+    const shape = new BufferGeometry();
+    for (const [name, attribute] of Object.entries(attributes)) shape.setAttribute(name, attribute);
+    const own = this.parts.filter(({ slot }) => this.canOpen(slot) === opened);
+    const to = new Uint32Array(own.reduce((sum, part) => sum + part.to - part.from, 0));
+    let next = 0;
+    for (const part of own) {
+      to.set(index.array.subarray(part.from, part.to), next);
+      next += part.to - part.from;
+    }
+    return shape.setIndex(new BufferAttribute(to, 1));
+  }
+
+  /** Cut open, or closed. */
+  open(opened) {
+    if (opened) this.halves ??= [false, true].map((each) => this.only(each));
+    this.meshes[0].geometry = opened ? this.halves[0] : this.geometry;
+    if (opened) this.meshes[2].geometry = this.halves[1];
+    this.meshes[2].visible = opened;
   }
 
   /** What a ray meets: [distance, part], in no order. `seenBy(body)`, the ray as a body sees it; `shift(lift)`, in mm. */
@@ -72,7 +100,20 @@ export class Casting {
   }
 
   dispose() {
-    this.geometry?.dispose();
+    for (const shape of [this.geometry, ...(this.halves ?? [])]) shape?.dispose();
+  }
+}
+
+/** Makes all triangles go counter-clockwise as one sees them from where they face, so that what looks away is not drawn. */
+function turnOut({ points: p, normals: n, indices }) {
+  for (let at = 0; at < indices.length; at += 3) {
+    const [a, b, c] = [3 * indices[at], 3 * indices[at + 1], 3 * indices[at + 2]];
+    let out = 0;
+    for (let k = 0; k < 3; k += 1) {
+      const [l, m] = [(k + 1) % 3, (k + 2) % 3];
+      out += (n[a + k] + n[b + k] + n[c + k]) * ((p[b + l] - p[a + l]) * (p[c + m] - p[a + m]) - (p[b + m] - p[a + m]) * (p[c + l] - p[a + l]));
+    }
+    if (out < 0) [indices[at + 1], indices[at + 2]] = [indices[at + 2], indices[at + 1]];
   }
 }
 

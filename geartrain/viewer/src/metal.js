@@ -1,9 +1,9 @@
 // The one material: brushed metal under lamps that go with the reader. One program draws everything.
 //
 // Each corner knows its body and its slot; where the body stands and what the slot looks like are read from two small
-// textures, so that a train, however many parts it has, is drawn in one call.
+// textures, so that a train, however many parts it has, is drawn in one call; what of it is cut open, in a second.
 
-import { Color, DataTexture, DoubleSide, FloatType, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
+import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
 
 import { SECTION } from "./colours.js";
 
@@ -119,7 +119,7 @@ void main() {
   colour = vec4(sqrt(light), paint.a);
 }`;
 
-/** What draws all that is seen, and what is half seen over it: `poses` of `count` bodies, and where their layers lie; `quarter`, what can be cut out. */
+/** What draws all that is seen, of closed bodies; what is half seen over it; and what is cut open, with its inside: `poses` of `count` bodies, and where their layers lie; `quarter`, what can be cut out. */
 export function metals(count, main, middle, size, quarter) {
   const rows = Math.max(1, Math.ceil((4 * count) / WIDTH));
   const poses = new DataTexture(new Float32Array(4 * WIDTH * rows), WIDTH, rows, RGBAFormat, FloatType);
@@ -133,18 +133,17 @@ export function metals(count, main, middle, size, quarter) {
     size: { value: size },
     ...(quarter && { edge: { value: quarter.at }, right: { value: quarter.right }, up: { value: quarter.up }, section: { value: new Color(SECTION) } }),
   };
-  return [false, true].map((ghosts) => {
+  const material = (ghosts, side, defines = {}) => {
     const uniforms = { ...shared, ghosts: { value: ghosts } };
-    const about = { defines: {}, glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, side: DoubleSide };
+    const about = { defines, glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, side };
     return new RawShaderMaterial({ ...about, uniforms, transparent: ghosts, depthWrite: !ghosts });
-  });
+  };
+  return [material(false, FrontSide), material(true, DoubleSide), material(false, DoubleSide, { CUT: "" })];
 }
 
-/** From now on cut open, or whole. */
-export function cutOpen(materials, opened) {
-  for (const material of materials) {
-    if (opened === "CUT" in material.defines) continue;
-    material.defines = opened ? { CUT: "" } : {};
-    material.needsUpdate = true;
-  }
+/** What is half seen is from now on cut open, or whole. */
+export function cutOpen([, ghosts], opened) {
+  if (opened === "CUT" in ghosts.defines) return;
+  ghosts.defines = opened ? { CUT: "" } : {};
+  ghosts.needsUpdate = true;
 }

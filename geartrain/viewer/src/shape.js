@@ -27,9 +27,11 @@ export class Shape {
   }
 }
 
-/** A closed outline of [radius, z] points, counter-clockwise, swept in `count` steps round the z axis, or part of it. */
+/** A closed outline of [radius, z] points, either way round, swept in `count` steps round the z axis, or part of it. */
 export function swept(shape, outline, count, first = 0, turns = 1) {
   const { points, normals, grains, indices } = shape;
+  const area = outline.reduce((sum, [r, z], m) => sum + r * outline[(m + 1) % outline.length][1] - outline[(m + 1) % outline.length][0] * z, 0);
+  if (area < 0) outline = outline.toReversed(); // so that it faces outwards
   outline.forEach(([r, z], m) => {
     const [r1, z1] = outline[(m + 1) % outline.length];
     const length = Math.hypot(r1 - r, z1 - z);

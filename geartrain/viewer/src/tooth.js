@@ -39,17 +39,18 @@ export function blankOf(wheel, apex) {
   };
 }
 
-/** The tooth between its profile and `base` (over the pitch radius), on a blank. */
-export function toothShape(points, base, at, fine = FINE) {
+/** The tooth between its profile and `base` (over the pitch radius), on a blank; `hand`, -1 where that is mirrored. */
+export function toothShape(points, base, at, fine = FINE, hand = 1) {
   const ring = base > Math.max(...points.map(([radius]) => radius));
   const side = ring ? -1 : 1; // a ring's outline has its metal on the other side
   const edge = simplify(points, fine, side);
-  const shape = flanks(new Shape(), edge, at, side);
+  const way = side * hand;
+  const shape = flanks(new Shape(), edge, at, way);
   for (const end of [0, 1]) {
     for (let n = 1; n < edge.length; n += 1) {
       const [[r0, t0], [r1, t1]] = [edge[n - 1], edge[n]];
       const corners = [at(base, t0, end), at(base, t1, end), at(r1, t1, end), at(r0, t0, end)];
-      shape.face(corners, facing(corners, end ? -side : side), [t0, t1, t1, t0].map((t) => [-Math.sin(t), Math.cos(t), 0]));
+      shape.face(corners, facing(corners, end ? -way : way), [t0, t1, t1, t0].map((t) => [-Math.sin(t), Math.cos(t), 0]));
     }
   }
   return shape;

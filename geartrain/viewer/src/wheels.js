@@ -66,7 +66,7 @@ export class WheelPart {
     const depth = this.wave ? this.wave.wall / (2 * wheel.radius) : Math.min(0.03, 0.1 * root);
     const base = wheel.kind === "ring" ? root + 0.02 : root - depth;
     const fine = many > MANY_TEETH ? 0.3 : Math.min(0.3, Math.max(0.02, (SEEN * this.size) / this.depth));
-    const shape = profile.hole ? pinShape(profile.points, surface) : toothShape(profile.points, base, surface, fine);
+    const shape = profile.hole ? pinShape(profile.points, surface) : toothShape(profile.points, base, surface, fine, wheel.cone ? this.apex : 1);
     add(shape, this.matrix, profile.hole ? this.own : this.toothed, Math.min(wheel.teeth, MOST_TEETH));
   }
 

@@ -43,7 +43,7 @@ export class World {
     this.looks = new Looks(this.scene, this.palette, this.wheels, this.parts, this.sight);
     this.looks.showTeeth(false);
     this.looks.paint("plain");
-    this.root.add(...this.castings[0].cast(this.materials), ...this.castings[2].cast(this.materials));
+    this.root.add(...this.cast(0), ...this.cast(2));
     this.machine = machine;
     this.ground = new Ground(this.size);
     this.root.add(this.ground.mesh);
@@ -136,11 +136,15 @@ export class World {
     return (shape, matrix, slot, count) => casting.add(shape, matrix, { body, slot, count, lift: this.poses.lift(body, at) });
   }
 
+  cast(at) {
+    return this.castings[at].cast(this.materials, (slot) => this.palette.looks[slot].opened);
+  }
+
   /** The teeth, cast when the rest can be seen already. */
   castTeeth() {
     const many = this.scene.wheels.reduce((sum, { teeth }) => sum + teeth, 0);
     for (const part of this.wheels) part.castTeeth(this.adder(this.castings[1], part), many);
-    this.root.add(...this.castings[1].cast(this.materials));
+    this.root.add(...this.cast(1));
     this.bend();
     this.cut = true;
   }
@@ -216,7 +220,11 @@ export class World {
   /** What the materials read, up to date. */
   refresh() {
     this.uniforms.palette.value = this.palette.refresh();
-    for (const { meshes, slots } of this.castings) if (meshes) meshes[1].visible = this.palette.hasGhosts(slots);
+    for (const casting of this.castings) {
+      if (!casting.meshes) continue;
+      casting.meshes[1].visible = this.palette.hasGhosts(casting.slots);
+      casting.open(Boolean(this.opened));
+    }
   }
 
   dispose() {

@@ -58,6 +58,12 @@ SLOW = [
 ]  # fmt: skip
 
 
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures of one question are asked side by side, and two runs do not write one journal."""
+    monkeypatch.chdir(tmp_path)
+
+
 def check(arguments: list[object], folder: Path, option: str = "--plot") -> None:
     target = folder / "plot.svg"
     with patch("geartrain.drawing.render", wraps=render) as drawn:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from math import radians
@@ -288,32 +289,21 @@ def test_two_areas_of_one_grey_are_found() -> None:
     assert alike(keyed(*areas))
 
 
-def test_a_legend_over_a_mark_is_found() -> None:
+@pytest.mark.parametrize(
+    ("draw", "over"),
+    [
+        (lambda axes: axes.plot([0, 1], [0, 1], "o", label="drawn"), "upper right"),
+        (lambda axes: axes.plot([0, 1], [0, 1], label="drawn"), "center"),
+        (lambda axes: axes.fill_between([0, 1], [0, 1], label="drawn"), "lower right"),
+    ],
+    ids=("a mark", "a line between its ends", "a filled area"),
+)
+def test_a_legend_over_what_is_drawn_is_found(draw: Callable[[Any], object], over: str) -> None:
     figure = Figure()
     axes = figure.subplots()
-    axes.plot([0, 1], [0, 1], "o", label="a mark")
-    axes.legend(loc="upper right")
-    assert hidden(figure) == ["a mark"]
-    axes.legend(loc="upper left")
-    assert not hidden(figure)
-
-
-def test_a_legend_over_a_line_between_its_ends_is_found() -> None:
-    figure = Figure()
-    axes = figure.subplots()
-    axes.plot([0, 1], [0, 1], label="a line")
-    axes.legend(loc="center")
-    assert hidden(figure) == ["a line"]
-    axes.legend(loc="upper left")
-    assert not hidden(figure)
-
-
-def test_a_legend_over_a_filled_area_is_found() -> None:
-    figure = Figure()
-    axes = figure.subplots()
-    axes.fill_between([0, 1], [0, 1], label="an area")
-    axes.legend(loc="lower right")
-    assert hidden(figure) == ["an area"]
+    draw(axes)
+    axes.legend(loc=over)
+    assert hidden(figure) == ["drawn"]
     axes.legend(loc="upper left")
     assert not hidden(figure)
 

@@ -4,7 +4,7 @@
 
     declared_geometry   axes as lines, pairs of wheels           DeclaredGeometry
     wheel_modules       union-find of ratios; closed_chains      WheelModules
-    wheel_sizes         radii, rims, seats of crossing pairs     SizedGeometry
+    wheel_sizes         radii, seats of crossing pairs           SizedGeometry
     wheel_reach         how far bodies of wheels reach
     parallel_groups     groups of parallels, one by one          Arrangement
         plan_problem    what is asked of a plan                  PlanProblem

@@ -1,0 +1,18 @@
+"""Trains from public sources, each with the right answer in its comment or in its `expect`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from commands import call
+
+CASES = Path(__file__).parents[1] / "data" / "public_cases"
+LOCKED = {"three-crossed-left-locked", "twisted-ring-10-locked"}
+
+
+@pytest.mark.parametrize("path", sorted((CASES / "right").glob("*.yaml")), ids=lambda path: path.stem)
+def test_a_public_train_has_its_published_speeds_or_is_locked_as_published(path: Path) -> None:
+    result = call("check", path)
+    assert result.exit_code == (1 if path.stem in LOCKED else 0), result.output
+    assert ("locked: loop" in result.output) == (path.stem in LOCKED)

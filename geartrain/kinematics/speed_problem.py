@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -73,7 +74,9 @@ class SpeedProblem:
         try:
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
         except TooDenseError:
-            return self._answer_in_floats(part, case, wanted)
+            with suppress(RangeError):  # no digit of some speed is known in floats
+                return self._answer_in_floats(part, case, wanted)
+            solution = solve(part, case, self.signs, None)
         if not case.exact:  # radians beside turns are no fractions, and none are shown
             return self._rounded(part, case, wanted, solution)
         verdict, speeds = solution.verdict, solution.speeds

@@ -18,9 +18,11 @@ from test_large_trains import ten_thousand_cascade
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import RangeError
 from geartrain.kinematics import FloatSpeeds
+from geartrain.kinematics.speeds import EXACT_BUDGET, solve
 from geartrain.kinematics.speeds.float_speeds import solve_floats
 from geartrain.numerics import LongFloat
 from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.long_float import scaled
 
 EPS = Fraction(1, 2**53)
@@ -300,6 +302,69 @@ def test_no_speed_is_farther_off_than_its_estimate(
             still += not truth[link] and bool(speed)
     assert judged > 100
     assert still > 3, "zeros that floats do not hit are what is tried here"
+
+
+def amplifiers(counts: list[tuple[int, int, int, int]], driven: str) -> dict[str, Any]:
+    """Differentials in a row, f ~ p and q ~ g: the sun g turns at 1 - f q / (p g) of its carrier."""
+    links: dict[str, Any] = {"frame": {"wheels": {}}, "x0": {}}
+    joints, gears = [{"pair": ["frame", "x0"], "axis": "main"}], []
+    for at, (f, p, q, g) in enumerate(counts):
+        links["frame"]["wheels"][f"f{at}"] = f
+        links[f"p{at}"] = {"wheels": {f"p{at}": p, f"q{at}": q}}
+        links[f"x{at + 1}"] = {"wheels": {f"g{at}": g}}
+        joints.append({"pair": ["frame", f"x{at + 1}"], "axis": "main"})
+        joints.append({"pair": [f"x{at}", f"p{at}"], "axis": f"P{at}"})
+        gears += [{"pair": [f"f{at}", f"p{at}"]}, {"pair": [f"q{at}", f"g{at}"]}]
+    return {"links": links, "revolutes": joints, "gears": gears, "inputs": {driven: 1}}
+
+
+def test_a_ratio_of_1e18_is_refused_in_floats_and_exact_otherwise() -> None:
+    train = GearTrain.declare(amplifiers([(10**9 - 1, 10**9, 10**9 + 1, 10**9)], "x1"))
+    assert train.solve()["x0"] == 10**18
+    with pytest.raises(RangeError, match=r"in float64[^$]*use the exact method"):
+        train.floats()
+    with pytest.raises(RangeError, match=r"in float64[^$]*use the exact method"):
+        train.solve(method="sparse")
+
+
+def test_a_dense_train_of_which_no_digit_is_known_in_floats_is_solved_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
+    def too_dense(part: Any, case: Any, signs: Any, budget: int | None = EXACT_BUDGET) -> Any:
+        if budget is not None:
+            raise TooDenseError
+        return solve(part, case, signs, budget)
+
+    monkeypatch.setattr("geartrain.kinematics.speed_problem.solve", too_dense)
+    train = GearTrain.declare(amplifiers([(10**9 - 1, 10**9, 10**9 + 1, 10**9)], "x1"))
+    answer = train.solve()
+    assert answer.method == "exact"
+    assert answer["x0"] == 10**18
+    assert GearTrain.declare(planetaries(2)).solve().method == "floats"
+
+
+def test_estimate_and_bound_are_valid_up_to_a_condition_of_1e24_or_the_floats_are_refused() -> None:
+    """The error is exact; the bound is (25b), condition times the maximum residual."""
+    draw, given, refused = random.Random(1), 0, 0
+    for _ in range(200):
+        counts = []
+        for _ in range(draw.choice([1, 1, 2, 3])):
+            n, k = int(10 ** draw.uniform(2, 11.9 if len(counts) == 0 else 5)), draw.randint(1, 3)
+            counts.append((n - k, n, n + k, n))  # 1 - f q / (p g) is (k / n)**2
+        train = GearTrain.declare(amplifiers(counts, draw.choice(["x0", f"x{len(counts)}"])))
+        truth = train.solve().speeds
+        try:
+            floats = train.floats(condition_of=[*truth])
+        except RangeError:
+            refused += 1
+            continue
+        given += 1
+        bound = Fraction(float(floats.residual.values.max())) + EPS  # and one rounding, that of the speed itself
+        for link, speed in truth.items():
+            off = abs(Fraction(floats[link]) - speed)
+            assert off <= Fraction(float(floats.estimate[link][0])), (counts, link)
+            if speed and floats.condition[link] < float("inf"):
+                assert off <= Fraction(floats.condition[link]) * bound * abs(Fraction(floats[link])), (counts, link)
+    assert given > 100
+    assert refused > 20
 
 
 # Beyond the range of float64 ------------------------------------------------------------------------------------------

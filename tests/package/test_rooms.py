@@ -35,8 +35,6 @@ NOUNS = {
     "sharing",
 }
 
-LONGEST = 350
-
 
 @cache
 def modules() -> dict[str, Path]:
@@ -106,15 +104,6 @@ def test_modules_are_named_by_nouns() -> None:
 
     stems = {part for name in modules() for part in name.split(".")}
     assert sorted(filter(participle, stems)) == []
-
-
-def test_no_module_is_too_long_to_read_in_one_go() -> None:
-    long = {
-        str(path.relative_to("geartrain"))
-        for path in modules().values()
-        if len((ROOT / path).read_text(encoding="utf-8").splitlines()) > LONGEST
-    }
-    assert long == set()
 
 
 def test_no_circle_of_imports_not_even_inside_a_room() -> None:

@@ -39,13 +39,17 @@ class GearState(Result):
     verdict : Verdict
         Neutral is free, park is locked.
     ratio : Fraction or None
-        Input over output; None where the output stands still or is not determined.
+        Input over output; None where one of them is at rest or the output is not determined.
     step : Fraction or None
         This ratio over that of the next state; None where one of them runs backwards.
+    driven_by : str
+        The link whose speed is the unit of `speeds` and `slips`: the input, or where that is at rest in this state the
+        first input that turns; empty if none does, and speeds are those declared.
     speeds : mapping of str to Fraction
-        Of links, over the input's.
+        Speed of each determined link, over that of `driven_by`.
     slips : mapping of str to Fraction
-        By open element, speed of the link it fixes, or of the first it locks seen from the second, over the input's.
+        By open element, speed of the link it fixes, or of the first it locks relative to the second, over that of
+        `driven_by`.
     torques : mapping of str to Fraction or None
         By closed element, what it exerts on the link it fixes, or on the first it locks, over the input's torque; None
         where statics leaves it open.
@@ -63,6 +67,7 @@ class GearState(Result):
         "verdict",
         "ratio",
         Key("step", to=as_float),
+        "driven_by",
         "speeds",
         "slips",
         Key("torques", to=as_float),
@@ -76,6 +81,7 @@ class GearState(Result):
     verdict: Verdict
     ratio: Fraction | None
     step: Fraction | None
+    driven_by: str
     speeds: Mapping[str, Fraction]
     slips: Mapping[str, Fraction]
     torques: Mapping[str, Fraction | None]
@@ -227,8 +233,10 @@ def gearbox_ends(train: TrainUnderLoad, output: str | None) -> tuple[str, str]:
 
 def _state(train: TrainUnderLoad, answer: Answer, source: str, link: str) -> GearState:
     declared, state = train.declaration, answer.state or ""
-    engaged, drive = declared.states[state].engaged, answer.speeds.get(source)
-    speeds = {name: Fraction(speed) / Fraction(drive) for name, speed in answer.speeds.items()} if drive else {}
+    engaged, given = declared.states[state].engaged, declared.case(state).inputs
+    drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
+    unit = Fraction(answer.speeds[drive]) if drive else 1
+    speeds = {name: Fraction(speed) / unit for name, speed in answer.speeds.items()}
     slips = {
         name: slip
         for name, clutch in declared.clutches.items()
@@ -240,8 +248,9 @@ def _state(train: TrainUnderLoad, answer: Answer, source: str, link: str) -> Gea
         state,
         engaged,
         answer.verdict,
-        1 / out if out else None,
+        1 / out if out and drive == source else None,
         None,
+        drive,
         speeds,
         slips,
         {} if load is None else _torques(load, source, engaged),

@@ -24,16 +24,17 @@ _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
 _OUTER = _FACE / 2 - 0.2  # radius of a face
 _FINEST = 0.3  # points: a line
+_DECIMALS = 9  # of a turn, to which a float error is read
 _PLAIN = len(HANDS["needle"].stations)
 _SAMPLE, _DASHED = 0.45, 0.75  # inches of a hand in the key, and of hands that are told apart by dashes
 
 
 @dataclass(frozen=True, slots=True)
 class PointerReading:
-    """Where a pointer stands after some turns of the lead.
+    """The position of a pointer after some turns of the driving link.
 
-    turned   turns of it since the zero pose on the mean, clockwise as read positive, exact; None if undetermined
-    error    what teeth and pins add (turns, clockwise as read)
+    turned   mean turns since the zero pose, clockwise as read positive, exact; None if undetermined
+    error    what its starting angle, teeth and pins add (turns, clockwise as read)
     reach    length of its hand over the radius of a scale, and `outline` (x, half its width) over that length
     """
 
@@ -44,9 +45,12 @@ class PointerReading:
     outline: Sequence[tuple[float, float]] = ()
 
     @property
-    def angle(self) -> float:
-        """Turns past the zero mark, from 0 to 1, clockwise as read."""
-        return (float((self.turned or Fraction(0)) % 1) + self.error) % 1.0
+    def at(self) -> Fraction:
+        """Turns past the zero mark, clockwise as read, exact but for the error, whose float noise is rounded off.
+
+        A hand on a line is read in the cell after it, and an error of -1e-17 turns would put it in the cell before.
+        """
+        return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,9 +213,8 @@ def _draw_pointer(
     if reading.turned is None:
         return
     scale = face.scale
-    along = (float(reading.turned * scale.way % scale.turns) + reading.error * scale.way) % scale.turns
-    tip = place(centre, reach * scale.radius(along), reading.angle)
-    tail = place(centre, -0.12, reading.angle)
+    tip = place(centre, reach * scale.radius(float(reading.at * scale.way % scale.turns)), reading.at % 1)
+    tail = place(centre, -0.12, reading.at % 1)
     look = series_look(order)
     axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, solid_capstyle="round", zorder=6)
     axes.plot(*zip(centre, tip, strict=True), linewidth=2.2, zorder=6, gid=f"pointer {reading.output}", **look)
@@ -242,7 +245,7 @@ def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
     error = reading.error * scale.way
     if abs(error) > 5e-7:
         text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
-    if face.name and (shown := scale.told(where + Fraction(error))):  # a plain face has ticks and no cells
+    if face.name and (shown := scale.told(reading.at * scale.way)):  # a plain face has ticks and no cells
         text += f", {shown}"
     way = pointer.text.removesuffix(" as read")
     return f"{pointer.output}: {text}" + (f", {way}" if way == "stands still" else f", going {way}" if way else "")

@@ -62,14 +62,21 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
     links = [link for link in known if _moves(found, link)]
-    yield Section("Speeds", ("Over the input's speed, exact.",), (_speeds(found.states, links),))
+    yield Section("Speeds", (f"Exact. {_unit(found)}",), (_speeds(found.states, links),))
     slips = _by_state(found.states, names, lambda each: each.slips)
-    yield Section("Slip of open elements", ("Over the input's speed.",), (slips,))
+    yield Section("Slip of open elements", (_unit(found),), (slips,))
     torques = _by_state(found.states, names, lambda each: each.torques)
     yield Section("Torques of closed elements", (_TORQUES,), (torques,))
     count = len(found.states)
     header = ("element", "kind", "closed in", "torque", "in", "slip", "in")
     yield Section("Elements", (_ELEMENTS,), (Table(header, [_element(each, count) for each in found.elements]),))
+
+
+def _unit(found: Gearbox) -> str:
+    """The unit of the speeds in a table, with the states whose input is at rest."""
+    others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
+    named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
+    return "Over the input's speed" + (f"; over that of another link in {named}." if named else ".")
 
 
 def _moves(found: Gearbox, link: str) -> bool:
@@ -84,7 +91,7 @@ def _gear(each: GearState, names: Sequence[str]) -> tuple[str, ...]:
 
 def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
     rows = [
-        (each.state, *(exact(each.speeds[link]) if link in each.speeds else "free" for link in links))
+        (each.state, *(exact(each.speeds[link]) if link in each.speeds else each.verdict.kind for link in links))
         for each in states
     ]
     return Table(("state", *links), rows, wide=True)

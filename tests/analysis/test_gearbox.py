@@ -7,10 +7,13 @@ from itertools import combinations, pairwise
 
 import pytest
 import yaml
+from places import ROOT
 from shipped import train as load
 
+import geartrain
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
+from geartrain.report.gearbox_report import describe_gearbox
 from geartrain.train import State
 
 PUBLISHED = {
@@ -270,3 +273,40 @@ def test_a_train_without_clutches_is_no_gearbox() -> None:
         load("planetary-24-18-60").gearbox()
     with pytest.raises(GearTrainError, match="no output 'OTU'"):
         load("zf-8hp70").gearbox("OTU")
+
+
+def test_a_state_whose_first_input_is_at_rest_has_the_speeds_that_its_other_input_gives() -> None:
+    """A hub that coasts: the sprocket is at rest, the shell turns, and the open clutch slips at its speed."""
+    box = geartrain.load(ROOT / "tests/data/public_cases/04-state-with-a-still-input.yaml").gearbox()
+    coast = box.states[1]
+    assert coast.driven_by == "shell"
+    assert coast.speeds == {"axle": 0, "ring": 0, "planet": 0, "cage": 0, "sprocket": 0, "shell": 1}
+    assert coast.slips == {"pawls": -1}
+    assert coast.ratio is None
+    page = describe_gearbox(box)
+    assert "free" not in [cell for row in page.sections[1].tables[0].rows for cell in row]
+
+
+def test_an_input_at_rest_beside_another_gives_every_link_its_speed() -> None:
+    """A planetary with two inputs in one state: the carrier of 24 and 60 teeth turns at 60/84 of the ring."""
+    text = """
+    name: two-inputs
+    links:
+      frame: {}
+      sun: {wheels: {s: 24}}
+      ring: {wheels: {r: {teeth: 60, internal: true}}}
+      planet: {wheels: {p: 18}}
+      arm: {}
+    revolutes: {main: [frame, sun, ring, arm], P: [arm, planet]}
+    gears: [s ~ p, p ~ r]
+    clutches: {brake: {fixes: ring}, lock: {locks: [sun, ring]}}
+    outputs: {arm: {}}
+    states:
+      low: {engaged: [brake], inputs: {sun: 1}}
+      sun held: {engaged: [], inputs: {sun: 0, ring: 1}}
+      at rest: {engaged: [brake], inputs: {sun: 0}}
+    """
+    low, held, rest = GearTrain.declare(yaml.safe_load(text)).gearbox().states
+    assert (low.speeds["arm"], low.ratio) == (Fraction(2, 7), Fraction(7, 2))
+    assert (held.speeds["arm"], held.speeds["sun"], held.driven_by, held.ratio) == (Fraction(5, 7), 0, "ring", None)
+    assert (set(rest.speeds.values()), rest.driven_by) == ({0}, "")

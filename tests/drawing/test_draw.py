@@ -445,6 +445,21 @@ def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:
     assert reach[1] > reach[0] * 1.1
 
 
+DIALLED = [name for name in shipped.trains() if load(name).declaration.dials and not load(name).states]
+
+
+@pytest.mark.parametrize("name", DIALLED)
+def test_a_pointer_at_its_zero_mark_reads_the_first_cell(name: str) -> None:
+    """Its float error is some 1e-17 turns at the start, and of any sign."""
+    scene = shipped.scene(name)
+    shown = {text.get_text() for text in dials_figure(scene).axes[0].texts}
+    read = [each for each in scene.pointers if each.dial is not None and each.speed is not None]
+    assert read
+    for pointer in read:
+        text = next(each for each in shown if each.startswith(f"{pointer.output}: at "))
+        assert scene.dials[pointer.dial or 0].scale.told(Fraction(0)) in text
+
+
 def test_dials_name_what_they_do_not_have() -> None:
     assert "no output 'minute hand'" in refusal("longcase-clock", "dials", outputs=("minute hand",))
 

@@ -219,6 +219,90 @@ def test_torques_take_the_efficiency_of_screws() -> None:
     assert "lock" in str(back.verdict)
 
 
+def share_of_vectors(g1: list[float], g2: list[float], place: list[float], beta: float, rough: float) -> float:
+    """Power that arrives at the second wheel over that of the first, from forces and velocities at the pitch point.
+
+    Only the first wheel's helix angle is used: the tooth of the second lies along it.
+    """
+    up = cross(g1, g2)
+    a = [x / hypot(*up) * (1 if dot(up, place) > 0 else -1) for x in up]
+    side = cross(g1, a)
+    tooth = [cos(beta) * x + sin(beta) * y for x, y in zip(g1, side, strict=True)]
+    across = cross(a, tooth)
+    first, second = side, cross(g2, a)
+    first = [x / dot(first, across) for x in first]  # both move by 1 across the teeth, the first pushes that way
+    second = [x / dot(second, across) for x in second]
+    slip = dot(first, tooth) - dot(second, tooth)
+    force = [n + (rough if slip > 0 else -rough) * t for n, t in zip(across, tooth, strict=True)]
+    return dot(force, second) / dot(force, first)
+
+
+def unit(vector: list[float]) -> list[float]:
+    return [x / hypot(*vector) for x in vector]
+
+
+@pytest.mark.parametrize("worm_first", [True, False])
+def test_the_lead_of_a_worm_and_the_shaft_angle_give_its_efficiency(worm_first: bool) -> None:
+    """At the normal pressure angle of 20 degrees: friction counts mu/cos(20 deg) in the pitch plane."""
+    random, locked = Random(7), 0
+    for _ in range(60):
+        first, second, place = ([random.randint(-3, 3) for _ in range(3)] for _ in range(3))
+        if not any(upright := cross(first, second)) or not dot(upright, place):
+            continue
+        hand, angle, friction = random.choice(["right", "left"]), random.uniform(40, 88), random.uniform(0.02, 0.3)
+        # the worm is on axis A through the origin, its wheel on axis B through `place`
+        screw, wheel = helical(2, angle, hand, kind="worm"), {"teeth": 40}
+        pair = {"pair": ["a1", "b1"] if worm_first else ["b1", "a1"], "friction": friction}
+        found = train(screw, wheel, axes=axes(first, second, place), pair=pair)
+        beta, rough = radians(angle if hand == "right" else -angle), friction / cos(radians(20))
+        ahead = share_of_vectors(unit(first), unit(second), place, beta, rough)
+        # driven by its wheel, the force of friction turns round
+        back = 1 / share_of_vectors(unit(first), unit(second), place, beta, -rough)
+        for share, way in ((ahead, ("b", "a")), (back, ("a", "b"))):
+            answer = found.driven(*way)
+            if share > 0:
+                assert answer.verdict.kind == "determined"
+                assert float(answer.efficiency) == pytest.approx(share, rel=1e-9)
+            else:
+                assert answer.verdict.kind == "self-locking"
+                locked += 1
+    assert locked > 3
+
+
+@pytest.mark.parametrize("mate", [{"teeth": 60}, helical(60, 11.31), helical(60, 11.31, "left")])
+def test_a_worm_of_five_threads_has_its_textbook_efficiency(mate: dict[str, Any]) -> None:
+    """tan g/tan(g + r) and tan(g - r)/tan g with g = 11.31 deg and tan r = 0.08/cos(20 deg): 0.689482 and 0.564716."""
+    placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
+    found = train(helical(5, 78.69, "left", kind="worm"), mate, axes=placed, pair={"friction": 0.08})
+    assert round(float(found.driven("b", "a").efficiency), 6) == 0.689482
+    assert round(float(found.driven("a", "b").efficiency), 6) == 0.564716
+
+
+def test_a_straight_wheel_slides_along_a_helical_one() -> None:
+    """On axes that cross by the helix angle of its mate: 1/(1 + mu' tan(30 deg)), and backwards 1 - mu' tan(30 deg)."""
+    placed = axes([1, 0, 0], ["0.8660254037844386", "0.5", 0], None)
+    found = train(helical(20, 30), {"teeth": 40}, axes=placed, pair={"friction": 0.1})
+    rough = 0.1 / cos(radians(20)) * tan(radians(30))
+    assert float(found.driven("b", "a").efficiency) == pytest.approx(1 / (1 + rough))
+    assert float(found.driven("a", "b").efficiency) == pytest.approx(1 - rough)
+
+
+@pytest.mark.parametrize("mate", [helical(60, 12), helical(60, 11.31, "right")])
+def test_the_wheel_of_a_worm_lies_along_its_thread(mate: dict[str, Any]) -> None:
+    placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
+    with pytest.raises(GearTrainError, match="do not lie along each other"):
+        train(helical(5, 78.69, "left", kind="worm"), mate, axes=placed).solve()
+
+
+def test_friction_of_a_worm_of_unknown_lead_asks_for_its_helix_angle() -> None:
+    placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
+    given = {"axes": placed, "pair": {"friction": 0.08}, "loads": {"a": "1 N m"}}
+    (left,) = train({"teeth": 5, "kind": "worm"}, {"teeth": 60}, **given).torques().left_out
+    assert left.what == "friction of teeth"
+    assert "declare the `helix_angle` of the worm" in left.why
+    assert "tooth_form" not in left.why
+
+
 def volume(solid: Solid) -> float:
     a, b, c = (solid.vertices[solid.faces[:, at]] for at in range(3))
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)

@@ -13,7 +13,6 @@ import numpy as np
 from geartrain.dynamics.strength.contact_results import WheelForce
 from geartrain.dynamics.strength.virtual_spurs import ConeMiddle
 from geartrain.errors import RangeError
-from geartrain.kinematics.circuits import Axes
 from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
@@ -89,7 +88,7 @@ class ToothForces:
         first, second = (float("inf") if width is None else _MM * width.si for width in widths)
         return CrossedWheels(
             (self._radius(circuit, 0), self._radius(circuit, 1)),
-            (wheels[0].helix, wheels[1].helix),
+            self.setting.helix_angles(circuit) or (0.0, 0.0),
             _MM * self.modules[circuit.wheels[0]] / wheels[0].slant,
             self._angle(circuit),
             self._addenda(circuit),
@@ -106,13 +105,7 @@ class ToothForces:
         return float(first.value), float(second.value)
 
     def _is_parallel(self, circuit: Circuit) -> bool:
-        return self._axes.are_parallel(
-            [self.setting.tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
-        )
-
-    @cached_property
-    def _axes(self) -> Axes:
-        return Axes(self.setting.train, self.setting.tree)
+        return self.setting.axes.are_parallel(self.setting.axis_labels(circuit))
 
     def _wheel(self, circuit: Circuit, at: int) -> Wheel:
         return self.setting.train.wheels[circuit.wheels[at]][1]
@@ -150,12 +143,12 @@ class ToothForces:
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
         """With the friction of teeth that slide along each other."""
-        own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
+        helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
         sliding = 0.0 if friction is None or friction.sliding is None else friction.sliding
-        sense = (1 if tan(own.helix) + tan(mate.helix) >= 0 else -1) * (-1 if drives else 1)
-        return radius, helical_force(load / radius, own.helix, angle, sense * friction_angle(sliding, angle))
+        sense = (1 if tan(helix[0]) + tan(helix[1]) >= 0 else -1) * (-1 if drives else 1)
+        return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
     def _bevel(self, circuit: Circuit, at: int, load: float, crossing: float) -> tuple[float, WheelParts]:
         """At the middle of the teeth where a width is known, else at the outer pitch circle."""

@@ -11,7 +11,7 @@ from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.member_torques import BearingTorque
 from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
-from geartrain.kinematics.circuits import Circuit, Tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
 from geartrain.numerics.elimination import LinearForm, add_into
@@ -64,6 +64,21 @@ class LoadCase:
     def system(self) -> WillisSystem:
         """The labelled rows of the case."""
         return assemble_willis_system(tuple(self.train.links), self.train.frame, self.circuits, self.case, self.signs)
+
+    @cached_property
+    def axes(self) -> Axes:
+        """Directions and positions of all axes."""
+        return Axes(self.train, self.tree)
+
+    def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
+        """The axes of a circuit's first and second link, as its carrier holds them."""
+        seen_from = self.tree.axis_seen_from
+        return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
+
+    def helix_angles(self, circuit: Circuit) -> tuple[float, float] | None:
+        """Helix angles (rad) of two wheels that slide along each other; None on parallel axes, or where unknown."""
+        first, second = (self.train.wheels[name][1] for name in circuit.wheels)
+        return self.axes.helix_angles(self.axis_labels(circuit), (first, second))
 
     @property
     def open(self) -> tuple[str, ...]:

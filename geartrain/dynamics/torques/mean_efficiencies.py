@@ -15,7 +15,7 @@ from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
-from geartrain.kinematics.circuits import Axes, Circuit
+from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency
 from geartrain.teeth.transmission_figures import SlidingEfficiency
 
@@ -56,21 +56,17 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Of a worm or of helical wheels on skew axes, where both helix angles and a coefficient of friction are known."""
+    """Of a worm or of helical wheels on skew axes, where helix angles and a coefficient of friction are known."""
     gear = setting.gears[circuit.id]
-    first, second = (setting.train.wheels[name][1] for name in gear.pair)
     friction = setting.train.friction_of(gear)
-    if first.helix_angle is None or second.helix_angle is None or friction is None or friction.sliding is None:
+    if friction is None or friction.sliding is None:
         return None
-    labels = [setting.tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
-    if Axes(setting.train, setting.tree).are_parallel(labels):
+    helix = setting.helix_angles(circuit)
+    if helix is None:
         return None
     form = setting.train.form_of(gear)
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
-    found = [
-        Fraction(f"{screw_efficiency(*helix, friction.sliding, angle):.15g}")
-        for helix in ((first.helix, second.helix), (second.helix, first.helix))
-    ]
+    found = [Fraction(f"{screw_efficiency(*pair, friction.sliding, angle):.15g}") for pair in (helix, helix[::-1])]
     return MeanEfficiencies((found[0], found[1]), (found[0], found[1]))
 
 

@@ -15,6 +15,11 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.exact import as_float
 
+_NO_FORM = "these teeth have no form of which it could take anything: give a `tooth_form`, or an `efficiency`"
+_NO_LEAD = (
+    "these teeth slide along each other: declare the `helix_angle` of the worm, or of both wheels, on axes that cross, "
+    "and a constant `friction`; or an `efficiency`"
+)
 _MEAN = "the torques given are means over a turn"
 
 
@@ -90,18 +95,25 @@ def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Friction declared on teeth that have no form."""
-    found = []
+    """Friction declared on teeth that have no form, and on worms of unknown lead."""
+    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_LEAD: []}
     for circuit in busy:
         gear = setting.gears.get(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
         rubs = setting.rubs(gear) and means[circuit.id] == MeanEfficiencies()
         if rubs and setting.relative(circuit.i, circuit.carrier) != 0:
-            found.append(circuit.id)
-    if found:
-        why = "these teeth have no form of which it could take anything: give a `tooth_form`, or an `efficiency`"
-        yield NeglectedEffect("friction of teeth", tuple(found), why)
+            bare[_NO_LEAD if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
+    for why, names in bare.items():
+        if names:
+            yield NeglectedEffect("friction of teeth", tuple(names), why)
+
+
+def _slides(setting: LoadCase, circuit: Circuit) -> bool:
+    """True for worms, and helical wheels on axes that are not parallel: no tooth form of theirs has a mean loss."""
+    wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
+    helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
+    return helical or any(wheel.kind == "worm" for wheel in wheels)
 
 
 def _open(

@@ -16,7 +16,7 @@ from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, Torques, TorqueVerdict
 from geartrain.dynamics.torques.torque_verdicts import LoadedBalance, find_imbalance, find_torque_verdict
-from geartrain.kinematics.circuits import Axes, Circuit
+from geartrain.kinematics.circuits import Circuit
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 
 def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     """A torque about an axis that moves does no work with a sum of joint speeds, which is no rotation."""
-    sums = Axes(setting.train, setting.tree).joint_sums
+    sums = setting.axes.joint_sums
     for link in links:
         if link in sums:
             why = "the axes between it and the frame are not parallel, and its sum of joint speeds is no rotation"

@@ -8,7 +8,7 @@ from math import atan2
 from typing import Any
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.kinematics.circuits.helical_pairs import check_parallel, crossed_sense
+from geartrain.kinematics.circuits.helical_pairs import check_parallel, crossed_helix_angles, crossed_sense
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel, size
@@ -100,6 +100,10 @@ class Axes:
         far = size((float(upright[0]), float(upright[1]), float(upright[2])))
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
+    def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
+        """Helix angles (rad) of two wheels that slide along each other; None on parallel axes, or where unknown."""
+        return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self._crossing(*labels))
+
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """a and b of the circuit, and a note where a sign is a convention.
 
@@ -133,6 +137,7 @@ class Axes:
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
         label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
+        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises where the teeth do not lie along the thread
         here, there = self.positions.get(worm), self.positions.get(wheel)
         turn = Fraction(0)
         if here is not None and there is not None:

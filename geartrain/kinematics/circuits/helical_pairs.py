@@ -64,6 +64,33 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     return fits[0][0], note
 
 
+def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
+    """Helix angles (rad) of two wheels on skew axes, right hands above 0; None where none is declared.
+
+    The helix angle of a worm and the shaft angle fix that of its wheel by (12a), which may declare it too. A worm
+    without one leaves both unknown. `angle` and `side` as of `crossed_sense`.
+
+    Raises
+    ------
+    GearTrainError
+        If a worm's wheel declares another angle or hand than its worm needs.
+    """
+    kinds = [wheel.kind for wheel in wheels]
+    if "worm" not in kinds:
+        return None if all(wheel.helix_angle is None for wheel in wheels) else (wheels[0].helix, wheels[1].helix)
+    at = kinds.index("worm")
+    worm, wheel = wheels[at], wheels[1 - at]
+    if worm.helix_angle is None:
+        return None
+    leans = [remainder(way * angle - worm.helix, pi) for way in ((side,) if side else (1, -1))]
+    if wheel.helix_angle is not None:
+        declared = {wheel.helix} if wheel.hand else {wheel.helix, -wheel.helix}
+        leans = [lean for lean in leans if any(abs(lean - each) <= _SAME for each in declared)]
+    if not leans:
+        raise GearTrainError(_not_along(wheels, angle, side))
+    return (leans[0], worm.helix) if at else (worm.helix, leans[0])
+
+
 def _not_along(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
     hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
     over = " about the way from the second to the first" if side else ""

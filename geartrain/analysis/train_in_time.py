@@ -258,14 +258,23 @@ class TrainInTime(TrainDynamics):
         from geartrain.dynamics.time.vibration_modes import find_modes
 
         case = self._case(state)
-        found = self._in_time(case, without, 1.0 if case.drive is None else None, None, True)
+        found = self._in_time(case, without, None, None, True, scale=1.0)
         assert isinstance(found, YieldingTrain)
         return find_modes(found)
 
     def _in_time(
-        self, case: StateCase, without: Sequence[str], rate: float | None, restitution: float | None, yields: bool
+        self,
+        case: StateCase,
+        without: Sequence[str],
+        rate: float | None,
+        restitution: float | None,
+        yields: bool,
+        scale: float | None = None,
     ) -> TrainModel:
-        """The train as a model of contacts; `rate` (rad/s) and `restitution` in place of what is declared."""
+        """The train as a model of contacts; `rate` (rad/s) and `restitution` in place of what is declared.
+
+        scale   rate (rad/s) where none is declared, for answers that do not depend on it
+        """
         from geartrain.dynamics.contacts.time_case import find_time_case
         from geartrain.dynamics.contacts.train_model import TrainModel
         from geartrain.dynamics.contacts.yielding_train import YieldingTrain
@@ -276,7 +285,7 @@ class TrainInTime(TrainDynamics):
             rate *= problem.way
         heavy = find_link_inertias(self, case, with_inputs=True)
         inertia = {each.link: each.value for each in heavy if each.value}
-        found = find_time_case(self.declaration, case, problem, inertia, rate, restitution)
+        found = find_time_case(self.declaration, case, problem, inertia, rate, restitution, scale)
         if yields:
             return YieldingTrain(self.declaration, problem, found, self.tree, case.state, restitution=restitution)
         return TrainModel(self.declaration, problem, found, self.tree, case.state)

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 _FORCES = (
     "At the circles on which wheels roll, as means. Axial above 0 along the direction of the axis; radial towards the "
-    "axis, below 0 outwards. Friction counts along teeth that slide along each other, not up and down them. Where no "
-    "form says it the pressure angle is 20 degrees."
+    "axis, below 0 outwards. Both wheels of a pair bear the same force: friction reduces the torque on one of them, "
+    "and the greater torque over radius counts, except on crossed axes. Friction counts along teeth that slide along "
+    "each other, not up and down them. Where no form says it the pressure angle is 20 degrees."
 )
 _CONTACT = (
     "Hertz pressure of smooth flanks under the mean torque; couples that touch at once carry the same force, as rigid "
@@ -203,7 +204,7 @@ def _contact(pair: PairStrength) -> Table:
         (
             each.where,
             figure(each.position, 3),
-            str(each.couples),
+            figure(each.couples, 4),
             figure(each.force, 4),
             figure(each.pressure, 4) if each.pressure < float("inf") else "no bound",
         )

@@ -48,8 +48,6 @@ class GearMesh(ABC):
     >>> mesh = geartrain.load("sorge-pairs").meshes[0]
     >>> mesh.form, mesh.counts, mesh.verdict.text, mesh.law.ratio
     ('triangular', (48, 96), 'the wheels turn', Fraction(1, 2))
-    >>> mesh.rigid, mesh.friction
-    (False, 0.2)
     """
 
     wheels: MeshingWheels
@@ -199,6 +197,11 @@ class GearMesh(ABC):
         """The path of contact by which the teeth are designed; None for those that are not designed by one."""
         return None
 
+    @property
+    def separation(self) -> float | None:
+        """Force between the axes over that along the pitch circles, without friction; None where it is not known."""
+        return None
+
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
         """The outline of one wheel of the pair, whole, as its form wants it cut.
 
@@ -232,8 +235,7 @@ class GearMesh(ABC):
     @property
     def cut_sizes(self) -> Any:
         """The `TriangularSizes` about which errors are drawn; raises `RangeError` for teeth of another form."""
-        why = "these sizes are of straight flanks that meet in a point"
-        fix = "declare `tooth_form: {form: triangular, ...}`"
+        why, fix = "these sizes are of straight flanks that meet in a point", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property

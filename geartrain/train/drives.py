@@ -114,7 +114,9 @@ class Drive(Declared):
         None, description="Mass of a weight that pulls a line on a drum"
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
-        None, description="Radius at which that line pulls: of the drum, with half the line"
+        None,
+        description="Radius at which that line pulls, that of the drum plus half the thickness of the line. The line "
+        "carries the whole weight: if the weight hangs in a pulley, give half of its mass",
     )
     spring: SpringDrive | None = Field(None, description="A spring")
     hand: HandDrive | None = Field(None, description="A hand")

@@ -16,6 +16,7 @@ from commands import HEAVY, RIGHT, UNUSABLE, call, functions
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.files import LongTable, destination, write_bytes, write_folder
+from geartrain.numerics.files.atomic import check_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no socket in a folder")
 
@@ -288,13 +289,23 @@ def test_what_is_written_is_on_the_disk_before_it_takes_its_name(here: Path, mon
     assert done == ["sync", "name", "sync"] * 2
 
 
+@pytest.mark.parametrize(("names", "words"), [("a", "'a' exists"), ("ab", "'a' and 1 other file exist"),
+                                              ("abcd", "'a' and 3 other files exist")])  # fmt: skip
+def test_files_that_are_there_are_counted_in_one_sentence(here: Path, names: str, words: str) -> None:
+    for name in names:
+        (here / name).write_text("mine", encoding="utf-8")
+    with pytest.raises(GearTrainError) as found:
+        check_folder(here, [*names, "z"])
+    assert found.value.problems[0].what == f"{words} there already"
+
+
 def test_a_folder_of_results_follows_the_same_rule(here: Path) -> None:
     to = here / "set"
     (to / "wheels").mkdir(parents=True)
     (here / "away").write_text("mine", encoding="utf-8")
     (to / "graph.dot").symlink_to(here / "away")
     asked = ("export", "planetary-24-18-60", "--to", to, "--as", "dot")
-    assert "exists there already" in refused(call(*asked))
+    assert "'graph.dot' exists there already" in refused(call(*asked))
     assert call(*asked, "--force").exit_code == 0
     assert (to / "graph.dot").is_symlink()
     assert "graph" in (here / "away").read_text(encoding="utf-8")

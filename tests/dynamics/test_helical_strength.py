@@ -92,6 +92,23 @@ def test_pressure_at_the_pitch_point_is_hertz_in_space_and_that_of_the_standard(
     assert found.iso.stress == (found.iso.nominal, found.iso.nominal), "single contact there is none"
 
 
+@pytest.mark.parametrize(("helix", "width"), [(8.0, 12.0), (15.0, 20.0), (30.0, 40.0)])
+def test_the_couples_told_are_those_that_share_the_force(helix: float, width: float) -> None:
+    """Force across the axes times its part along the pitch circle times couples: the whole; counted by slices."""
+    beta, alpha = radians(helix), radians(20)
+    transverse = atan(tan(alpha) / cos(beta))
+    r1, r2 = (z * NORMAL / cos(beta) / 2 for z in (Z1, Z2))
+    ends = sum(sqrt((r + NORMAL) ** 2 - (r * cos(transverse)) ** 2) for r in (r1, r2))
+    ratio = (ends - (r1 + r2) * sin(transverse)) / (pi * NORMAL / cos(beta) * cos(transverse))
+    slices = np.linspace(0, width * sin(beta) / (pi * NORMAL), 4001)
+    phases = [phase - slices for phase in np.linspace(0, 1, 401)]
+    least = min(float((np.floor(at) - np.ceil(at - ratio) + 1).mean()) for at in phases)
+    found = strength(helix, width)
+    for place in found.contact:
+        assert place.couples == pytest.approx(least, abs=0.005)
+        assert place.couples * place.force * cos(transverse) == pytest.approx(TORQUE * 1e3 / r1, rel=1e-9)
+
+
 def test_factors_are_those_of_the_standard() -> None:
     """Ybeta 1 - 15/120 and Zbeta 1/sqrt(cos 15) with an overlap of 1; half as much lean counts half as much overlap."""
     lean = ToothLean(radians(15), 0.24, 1.3)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sorge
 
 import geartrain
 from geartrain.dynamics.strength.strength_results import WheelForce
@@ -127,14 +128,53 @@ def test_the_helical_pinion_of_shigleys_example_13_7() -> None:
     assert sqrt(sum(each**2 for each in parts)) == pytest.approx(49.8, rel=5e-3)
 
 
-def test_nothing_is_said_of_how_triangles_push_apart_nor_of_contrates() -> None:
-    found = geartrain.load("""
-links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 2 mm}}}, b: {wheels: {w: 40}}}
-revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-gears: [{pair: [p, w], tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.2}}]
-inputs: {a: 1}
-loads: {b: 1 N m}
-""").strength()
-    assert [each.radial for each in found.forces] == [None, None]
+@pytest.mark.parametrize("loss", [", tooth_form: {form: involute}, friction: 0.15", ", efficiency: 0.8"])
+@pytest.mark.parametrize("load", ["a: 2 N m", "b: 1 N m"])
+def test_wheels_push_each_other_alike_whatever_friction_takes(loss: str, load: str) -> None:
+    """The force along the pitch circles is that of the wheel whose torque over its radius is the greater."""
+    lean = "module: 2 mm, helix_angle: 25 deg, hand:"
+    found = forces(f"teeth: 20, {lean} left", f"teeth: 35, {lean} right", "", loss, load)
+    balance(found, (UP, UP), ((1, 0, 0), (-1, 0, 0)))
+    given, at = (2e3, 0) if load.startswith("a") else (1e3, 1)
+    # the wheel whose torque is given is the driven one: its driver's torque over the radius is greater
+    assert abs(found[at].tangential) > 1.005 * given / found[at].radius
+    axes = "A: {direction: [1, 0, 0]}, B: {direction: [0, 0, 1]}"
+    wheel = "kind: bevel, module: 2 mm"
+    one, other = forces(f"teeth: 20, {wheel}", f"teeth: 40, {wheel}", axes, loss, load)
+    assert abs(one.tangential) == pytest.approx(abs(other.tangential))
+    assert (one.axial, one.radial) == pytest.approx((other.radial, other.axial))
+
+
+def triangles(angle: str, clearance: float) -> geartrain.GearTrain:
+    return geartrain.load(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: {{teeth: 20, module: 2 mm}}}}}}, b: {{wheels: {{w: 40}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, w], tooth_form: {{form: triangular, half_angle: {angle}, clearance: {clearance}}}}}]
+inputs: {{a: 1}}
+loads: {{b: 1 N m}}
+""")
+
+
+@pytest.mark.parametrize(("angle", "clearance"), [("30 deg", 1.02), ("20 deg", 1.01), ("[25 deg, 35 deg]", 1.015)])
+def test_triangles_push_apart_along_the_normals_of_their_flanks(angle: str, clearance: float) -> None:
+    """Mean over a pitch of F sin(psi), F = T/n2, by the closure equations: a flank leans by beta1 + x or beta2 - y."""
+    train = triangles(angle, clearance)
+    sizes = train.meshes[0].law.sizes
+    pair = sorge.Pair.of(sizes)
+    total = 0.0
+    for part in pair.path:
+        assert part.held is None
+        nodes, weights = np.polynomial.legendre.leggauss(12)
+        middle, half = float(part.start + part.end) / 2, float(part.start - part.end) / 2
+        for node, weight in zip(nodes, weights, strict=True):
+            x = sorge.mp.mpf(middle + half * node)
+            lean = pair.b1 + x if part.phase == sorge.APPROACH else pair.b2 - pair.angle(x, part.phase)
+            total += weight * half * float(sorge.mp.sin(lean) / pair.arms(x, 0, part.phase)[1])
+    mean = total / float(pair.p1) * float(pair.D) * 2 / 3
+    for each in train.strength().forces:
+        assert each.radial == pytest.approx(abs(each.tangential) * mean, rel=1e-6)
+
+
+def test_nothing_is_said_of_contrates() -> None:
     contrate = forces("teeth: 20, module: 2 mm", "teeth: 40, kind: contrate", "A: {direction: [1, 0, 0]}, B: {}")
     assert contrate == ()

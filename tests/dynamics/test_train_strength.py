@@ -305,3 +305,43 @@ def test_a_load_that_passes_beneath_the_roots_of_a_ring_bends_nothing() -> None:
     )
     pair = geartrain.load(ring).strength().pairs["p~w"]
     assert all(0 < wheel.shared_stress < 200 for wheel in pair.wheels)
+
+
+def test_a_planet_that_interferes_with_its_ring_keeps_its_strength_against_the_sun() -> None:
+    """As of the same two wheels on fixed axes under the force that the carrier's torque asks for."""
+    text = """
+links:
+  frame: {wheels: {ring: {teeth: 58, internal: true}}}
+  sun: {wheels: {s: {teeth: 24, module: 1 mm}}}
+  arm: {}
+  planet: {wheels: {p: 17}}
+revolutes: [{pair: [frame, sun], axis: A}, {pair: [frame, arm], axis: A}, {pair: [arm, planet], axis: B}]
+gears: [{pair: [s, p]}, {pair: [p, ring]}]
+tooth_form: {form: involute}
+material: steel
+face_width: 5 mm
+inputs: {sun: 1}
+loads: {arm: 1 N m}
+"""
+    found = geartrain.load(text).strength()
+    assert list(found.pairs) == ["s~p"]
+    assert [each.where for each in found.left_out] == [("p~ring",)]
+    assert any("for the teeth of pair 'p~ring' do not turn" in note for note in found.pairs["s~p"].notes)
+    # the carrier's torque is the sun's times 1 + 58/24
+    torque = 1 / (1 + 58 / 24)
+    alone = geartrain.load(f"""
+links: {{frame: {{}}, a: {{wheels: {{s: {{teeth: 24, module: 1 mm}}}}}}, b: {{wheels: {{p: 17}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [s, p]}}]
+tooth_form: {{form: involute}}
+material: steel
+face_width: 5 mm
+inputs: {{a: 1}}
+loads: {{b: {torque * 17 / 24!r} N m}}
+""").strength()
+    assert found.pairs["s~p"].tangential == pytest.approx(torque * 1e3 / 12)
+    for one, other in zip(found.pairs["s~p"].wheels, alone.pairs["s~p"].wheels, strict=True):
+        assert (one.tip_stress, one.pressure) == pytest.approx((other.tip_stress, other.pressure))
+        assert one.iso is not None
+        assert other.iso is not None
+        assert one.iso.stress == pytest.approx(other.iso.stress)

@@ -265,6 +265,18 @@ def test_two_discs_on_teeth_turn_together_and_swing_against_each_other() -> None
     assert found.shapes["a"] / found.shapes["b"] == pytest.approx([-3, 5e-5 / 3 / 3e-6], rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    "drive", [{"torque": "1 N mm"}, {"weight": "20 g", "drum": "10 mm"}, {"hand": {"torque": "1 N mm"}}]
+)
+def test_modes_need_no_rate(drive: dict[str, Any]) -> None:
+    """Two equal discs of J on teeth of k, the weight's m r^2 on the first one: sqrt(k (1/J1 + 1/J2))/2 pi, any rate."""
+    first = 1e-6 + (0.02 * 0.01**2 if "weight" in drive else 0.0)
+    closed = [0, sqrt(20 * (1 / first + 1 / 1e-6)) / tau]
+    for rate in ({}, {"rate": "3 turn/s"}):
+        found = disc_chain(1, drive=drive, **rate).vibration_modes()
+        assert found.frequencies == pytest.approx(closed, rel=1e-9, abs=1e-6)
+
+
 def test_a_light_train_swings_about_what_it_carries() -> None:
     # a step of load on one disc: the peak is 1 + exp(-zeta pi/sqrt(1 - zeta^2)) times the load it comes to carry
     links = {"d1": {"wheels": {"wd1": 30}, "inertia": "1e-6 kg m2", "bearing": "1 N mm"}}

@@ -74,11 +74,15 @@ def find_time_case(
     inertia: Mapping[str, float],
     rate: float | None = None,
     restitution: float | None = None,
+    scale: float | None = None,
 ) -> TimeCase:
-    """What is declared, where a rate (rad/s of the first input that turns) or a restitution is not given instead."""
+    """What is declared, where a rate (rad/s of the first input that turns) or a restitution is not given instead.
+
+    scale   magnitude of that rate where none is declared either, for answers that do not depend on it
+    """
     links = {name: link for name, link in train.links.items() if name != train.frame}
     given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
-    turning = rate if rate is not None else _declared_rate(train, case, problem)
+    turning = rate if rate is not None else _declared_rate(train, case, problem, scale)
     escapement = train.escapement
     bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
     if escapement is not None:
@@ -121,8 +125,8 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
         raise QuestionError(Problem(what, why, fix))
 
 
-def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> float:
-    """Speed of the lead (rad/s): a declared rate, the escapement's, or that of a hand."""
+def _declared_rate(train: Train, case: StateCase, problem: MotionProblem, scale: float | None) -> float:
+    """Speed of the lead (rad/s): a declared rate, the escapement's, that of a hand, or else `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.lead])
@@ -131,6 +135,8 @@ def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> flo
     hand = None if case.drive is None else case.drive.hand
     if hand is not None and hand.rate is not None:
         return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))
+    if scale is not None:
+        return problem.way * scale
     what = "nothing says how fast the train turns"
     why = "the length of a step follows from the time in which teeth pass"
     raise QuestionError(

@@ -82,6 +82,7 @@ class PairUnderLoad:
     elements  whether stresses are checked by finite elements
     spurs     of bevels: the spur pair that stands for them
     swing     the torque that bends and presses over the mean one, which wears
+    remarks   what does not hold of its wheels
     """
 
     mesh: GearMesh
@@ -92,6 +93,7 @@ class PairUnderLoad:
     elements: bool = False
     spurs: VirtualSpurs | None = None
     swing: float = 1.0
+    remarks: tuple[str, ...] = ()
 
     def strength(self) -> PairStrength:
         """All figures."""
@@ -165,6 +167,7 @@ class PairUnderLoad:
         return () if self.load is None else self.load.places()
 
     def _notes(self) -> Iterator[str]:
+        yield from self.remarks
         if self.load is None:
             yield "its form has no path of contact: no pressure by Hertz, and the load acts at the tip"
         elif self.load.has_cusp:

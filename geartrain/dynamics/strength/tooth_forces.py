@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
-from math import cos, tan
+from math import copysign, cos, tan
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from geartrain.dynamics.strength.contact_results import WheelForce
 from geartrain.dynamics.strength.virtual_spurs import ConeMiddle
@@ -61,19 +58,31 @@ class ToothForces:
         wheels = [self.setting.train.wheels[name][1] for name in circuit.wheels]
         if any(wheel.kind == "contrate" for wheel in wheels):
             return
-        parallel = self._is_parallel(circuit)
-        crossing = None if parallel else _shaft_angle(self.setting, circuit)
-        for at, name in enumerate(circuit.wheels):
-            load = float(torque.torques[at]) * _MM * self.swings.get(circuit.id, 1.0)
-            if parallel:
-                radius, force = self._parallel(circuit, at, load)
-            elif crossing is not None:
-                radius, force = self._bevel(circuit, at, load, crossing)
-            elif all(wheel.helix_angle is not None for wheel in wheels):
-                radius, force = self._skew(circuit, at, load, torque.driver == circuit.wheels[at])
-            else:
-                return
+        loads = [float(each) * _MM * self.swings.get(circuit.id, 1.0) for each in torque.torques[:2]]
+        if self._is_parallel(circuit):
+            found = self._both(loads, [self._rolling_radius(circuit, at) for at in (0, 1)])
+            parts = [(radius, self._parallel(circuit, at, push)) for at, (radius, push) in enumerate(found)]
+        elif (crossing := _shaft_angle(self.setting, circuit)) is not None:
+            middles = [self._middle(circuit, at, crossing) for at in (0, 1)]
+            found = self._both(loads, [middle.radius(1) for middle in middles])
+            parts = [
+                (radius, bevel_force(push, middles[at].cone(1), self._angle(circuit), wheels[at].facing))
+                for at, (radius, push) in enumerate(found)
+            ]
+        elif all(wheel.helix_angle is not None for wheel in wheels):
+            drives = [torque.driver == name for name in circuit.wheels]
+            parts = [self._skew(circuit, at, loads[at], drives[at]) for at in (0, 1)]
+        else:
+            return
+        for name, (radius, force) in zip(circuit.wheels, parts, strict=True):
             yield WheelForce(circuit.id, name, radius, *force)
+
+    @staticmethod
+    def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
+        """Radii with forces along them: the greater one on both wheels, for friction takes some of a torque only."""
+        pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
+        greatest = max(map(abs, pushes))
+        return [(radius, copysign(greatest, push)) for radius, push in zip(radii, pushes, strict=True)]
 
     def is_crossed(self, circuit: Circuit) -> bool:
         """True of helical wheels, or a worm and its wheel, on axes that neither meet nor are parallel."""
@@ -121,25 +130,26 @@ class ToothForces:
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
 
-    def _parallel(self, circuit: Circuit, at: int, load: float) -> tuple[float, WheelParts]:
-        """At the circles that roll on each other, which shifted involutes have elsewhere than standard ones."""
-        wheel, radius, mesh = self._wheel(circuit, at), self._radius(circuit, at), self.meshes.get(circuit.id)
+    def _rolling_radius(self, circuit: Circuit, at: int) -> float:
+        """Of the circle that rolls on the mate's [mm], which shifted involutes have elsewhere than standard ones."""
+        radius, mesh = self._radius(circuit, at), self.meshes.get(circuit.id)
+        if mesh is None:
+            return radius
+        if mesh.path is None:
+            return radius * (1.0 if mesh.own_size is None else mesh.own_size.stretch)
+        axle = mesh.path.pitch.axle_of(mesh.gears.index(circuit.wheels[at]) + 1)
+        return radius * abs(axle) / ((self._wheel(circuit, at).count or 0) / 2)
+
+    def _parallel(self, circuit: Circuit, at: int, push: float) -> WheelParts:
+        wheel, mesh = self._wheel(circuit, at), self.meshes.get(circuit.id)
         outwards = -1 if wheel.internal else 1
         if mesh is None:
-            force = helical_force(load / radius, wheel.helix, self._angle(circuit))
-            return radius, (force.tangential, force.axial, outwards * force.radial)
-        if mesh.path is None:
-            radius *= 1.0 if mesh.own_size is None else mesh.own_size.stretch
-            return radius, (load / radius, 0.0, None)
-        rolling = abs(mesh.path.pitch.axle_of(mesh.gears.index(circuit.wheels[at]) + 1)) / ((wheel.count or 0) / 2)
-        pushed = load / (radius * rolling)
-        transverse = abs(float(mesh.path.at(np.zeros(1)).psi[0]))
+            force = helical_force(push, wheel.helix, self._angle(circuit))
+            return force.tangential, force.axial, outwards * force.radial
         # one lead at all radii: teeth lean the more the farther out
-        return radius * rolling, (
-            pushed,
-            0.0 - pushed * rolling * tan(wheel.helix),
-            outwards * abs(pushed) * tan(transverse),
-        )
+        lean = tan(wheel.helix) * self._rolling_radius(circuit, at) / self._radius(circuit, at)
+        apart = mesh.separation
+        return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
         """With the friction of teeth that slide along each other."""
@@ -150,14 +160,12 @@ class ToothForces:
         sense = (1 if tan(helix[0]) + tan(helix[1]) >= 0 else -1) * (-1 if drives else 1)
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
-    def _bevel(self, circuit: Circuit, at: int, load: float, crossing: float) -> tuple[float, WheelParts]:
-        """At the middle of the teeth where a width is known, else at the outer pitch circle."""
+    def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
+        """The middle of the teeth where a width is known, else the outer pitch circle."""
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
         cones = PitchSurfaces.cones(own.count or 1, mate.count or 1, crossing)
-        middle = ConeMiddle(cones, _MM * self.modules[circuit.wheels[at]], min(widths, default=0.0))
-        radius = middle.radius(1)
-        return radius, bevel_force(load / radius, middle.cone(1), self._angle(circuit), own.facing)
+        return ConeMiddle(cones, _MM * self.modules[circuit.wheels[at]], min(widths, default=0.0))
 
 
 def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:

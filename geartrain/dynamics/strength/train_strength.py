@@ -22,6 +22,8 @@ from geartrain.dynamics.strength.strength_results import (
 from geartrain.dynamics.strength.tooth_forces import ToothForces
 from geartrain.dynamics.strength.virtual_spurs import VirtualSpurs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
+from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
+from geartrain.errors import GearTrainError
 from geartrain.teeth.disc_mesh import DiscMesh
 from geartrain.teeth.pin_coupling import PinsInHoles
 from geartrain.train import Train
@@ -32,8 +34,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.member_torques import PairTorque
     from geartrain.dynamics.torques.torque_results import Torques
     from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth
-    from geartrain.dynamics.wheel_teeth import WheelTeeth
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.wheel_requirement import CutTooth
     from geartrain.train import GearPair, Material, Wheel
 
 _PINS = "steel"  # what pins of couplings are made of, where the train declares no material
@@ -219,22 +221,45 @@ class StrengthQuestion:
             self._leave_out(gear.name, spurs.why_not)
             return None
         gears = [mesh.gears.index(name) + 1 for name in gear.pair]
+        teeth = [
+            self._teeth_in(mesh, name) if spurs is None else spurs.teeth(gears[at]) for at, name in enumerate(gear.pair)
+        ]
         found = [
             WheelUnderLoad(
                 name,
                 gears[at],
                 wheel.count or 0 if spurs is None else spurs.count(gears[at]),
-                self.teeth[name] if spurs is None else spurs.teeth(gears[at]),
+                cut,
                 self._material_name(wheel),
                 material_named(self.declared, self._material_name(wheel)),
                 float(torque.torques[at]) * self.swings.get(gear.name, 1.0),
                 self._turns(torque, at),
             )
-            for at, (name, wheel) in enumerate(wheels.items())
+            for at, ((name, wheel), cut) in enumerate(zip(wheels.items(), teeth, strict=True))
+            if cut is not None
         ]
         middle = module if spurs is None else module * spurs.middle.shrunk
         swing = self.swings.get(gear.name, 1.0)
-        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs, swing)
+        notes = tuple(
+            f"teeth of '{name}' are those that this pair requires, for the teeth of pair '{other}' do not turn"
+            for name in gear.pair
+            if (other := self._spoilt_elsewhere(mesh, name))
+        )
+        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs, swing, notes)
+
+    def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
+        """Teeth of a wheel as cut for all mates; where faults of another pair prevent that, as this pair requires."""
+        if (cut := self.teeth.get(name)) is not None or not self._spoilt_elsewhere(mesh, name):
+            return cut
+        try:
+            return mesh.requirement(name, 1.0 if mesh.own_size is None else mesh.own_size.scale, CHORD).cut()
+        except GearTrainError:
+            return None
+
+    def _spoilt_elsewhere(self, mesh: GearMesh, name: str) -> str | None:
+        """Another pair of a wheel that is not cut for all mates, whose teeth do not turn."""
+        others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
+        return next((other.name for other in others if other.faults), None)
 
     def _leave_out(self, pair: str, why: str) -> None:
         self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
@@ -255,7 +280,7 @@ class StrengthQuestion:
         for name, wheel in wheels.items():
             if not self._width(wheel):
                 yield f"'{name}' has no `face_width`"
-            if mesh is not None and mesh.own_size is not None and name not in self.teeth:
+            if mesh is not None and mesh.own_size is not None and self._teeth_in(mesh, name) is None:
                 why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
                 yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
 

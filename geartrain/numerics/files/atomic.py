@@ -17,6 +17,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.decimal_text import plural
 
 _KINDS = (
     (stat.S_ISDIR, "a folder"),
@@ -210,8 +211,9 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
     for name in there:
         destination(folder / name, force=True)  # what is no regular file, or read-only, is said to be that
     if there and not force:
-        more = f", and {len(there) - 1} more" if len(there) > 1 else ""
-        what = f"'{there[0]}'{more} exists there already"
+        others = len(there) - 1
+        more = f" and {plural(others, 'other file')} exist" if others else " exists"
+        what = f"'{there[0]}'{more} there already"
         raise GearTrainError(
             Problem(what, "nothing is written over unasked", "give --force, or an empty folder", place)
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -111,7 +111,22 @@ def _completed(
         columns = _kept(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
     if kind.idle:
         columns = _with_idle(kind, bounds, columns, planets, clearance)
-    return _kept(columns, fits(kind, columns))
+    return _kept(columns, fits(kind, columns) & _is_stepped(kind, columns))
+
+
+def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
+    """False for equal steps of a planet that do what a plain planet does.
+
+    They differ from one only where they meet two suns, or two rings, of different counts, which slack allows.
+    """
+    stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
+    for one, other in ((one, other) for link in kind.planets for one, other in combinations(link, 2)):
+        differ = columns[one] != columns[other]
+        for first, second in combinations(kind.members, 2):
+            if {first.mesh, second.mesh} == {one, other} and first.internal == second.internal:
+                differ |= columns[first.wheel] != columns[second.wheel]
+        stepped &= differ
+    return stepped
 
 
 def _with_idle(

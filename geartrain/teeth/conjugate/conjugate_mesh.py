@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import tan
 from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
@@ -73,6 +76,11 @@ class ConjugateMesh(GearMesh):
     def path(self) -> PathOfContact:
         """The path of contact at the design distance."""
         return self.law.path
+
+    @property
+    def separation(self) -> float:
+        """Tangent of the pressure angle at the pitch point."""
+        return abs(tan(float(self.path.at(np.zeros(1)).psi[0])))
 
     @property
     def wheel_pair(self) -> WheelPair:

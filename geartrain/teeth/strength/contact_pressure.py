@@ -66,8 +66,8 @@ class ContactPlace(Result):
         What the place is called.
     position : float
         Past the pitch point, along the pitch line [pitch].
-    couples : int
-        Pairs of teeth that touch then; each carries the same force.
+    couples : float
+        Pairs of teeth that touch then; each carries the same force. For helical teeth, the least mean over the width.
     force : float
         Normal to the flanks [N].
     pressure : float
@@ -78,7 +78,7 @@ class ContactPlace(Result):
 
     where: str
     position: float
-    couples: int
+    couples: float
     force: float
     pressure: float
 

@@ -52,9 +52,9 @@ class LeaningLoad(ContactLoad):
         return least_couples(self.path.contact_ratio, self.overlap)
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Force [N] on one whole tooth across the axes at each displacement, were all others alike; and couples."""
+        """Force [N] on one whole tooth across the axes at each displacement, were all alike; and how many share it."""
         force = self.tangential / self.path.at(X).cos_psi / self.lines
-        return force, np.full(X.shape, max(int(self.lines + 1e-9), 1))
+        return force, np.full(X.shape, self.lines)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
         """Pressure [MPa], force [N] and couples at displacements X.
@@ -79,10 +79,10 @@ class LeaningLoad(ContactLoad):
         worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
         found = [self._at(name, each) for name, each in named.items() if -approach <= each <= recess]
         last = ContactPlace(
-            "worst", float(X[worst] / p), int(counts[worst]), float(force[worst]), float(pressure[worst])
+            "worst", float(X[worst] / p), float(counts[worst]), float(force[worst]), float(pressure[worst])
         )
         return (*found, last)
 
     def _at(self, name: str, X: float) -> ContactPlace:
         pressure, force, counts = self.pressures(np.array([X]))
-        return ContactPlace(name, X / self.path.pitch.p, int(counts[0]), float(force[0]), float(pressure[0]))
+        return ContactPlace(name, X / self.path.pitch.p, float(counts[0]), float(force[0]), float(pressure[0]))

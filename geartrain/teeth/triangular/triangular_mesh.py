@@ -8,6 +8,8 @@ from functools import cached_property
 from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from geartrain.errors import Problem
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import PairSize
@@ -118,6 +120,22 @@ class TriangularMesh(GearMesh):
         sizes = self.law.sizes
         z, R, beta = (sizes.z1, sizes.R1, sizes.beta1) if wheel == self.driver else (sizes.z2, sizes.R2, sizes.beta2)
         return TriangularTooth(z, R * scale, beta)
+
+    @cached_property
+    def separation(self) -> float:
+        """Mean force between the axes over that along the pitch circles, under a constant torque on the driven wheel.
+
+        The normal leans by psi against the pitch line and passes both centres at n1 + n2 = D cos(psi): (31) of
+        docs/strength.md.
+        """
+        sizes, arms = self.law.sizes, self.law.contact.path.couple.normal_arms
+        radius, total, whole = sizes.D * sizes.z2 / (sizes.z1 + sizes.z2), 0.0, 0.0
+        for interval, x, weights in self.law.nodes:
+            if interval.held is None:
+                n1, n2 = arms(interval.phase, x, np)
+                total += float(weights @ (radius / n2 * np.sqrt(1 - ((n1 + n2) / sizes.D) ** 2)))
+                whole += float(weights.sum())
+        return total / whole
 
     @property
     def has_cut_sizes(self) -> bool:

@@ -345,3 +345,13 @@ loads: {{b: {torque * 17 / 24!r} N m}}
         assert one.iso is not None
         assert other.iso is not None
         assert one.iso.stress == pytest.approx(other.iso.stress)
+
+
+def test_an_arbor_is_twisted_by_its_torque_and_bent_by_the_force_of_its_mesh() -> None:
+    """With friction the force of the mesh is more than the driven wheel's torque over its radius."""
+    text = PAIR.replace("links:", "friction: 0.15\nlinks:").replace(
+        "b: {wheels: {w: 51}}", "b: {wheels: {w: 51}, arbor: {diameter: 12 mm, span: 80 mm}}"
+    )
+    driver, driven = geartrain.load(text).strength().arbors
+    assert driven.torsion == pytest.approx(16 * 60e3 / (pi * 12**3))
+    assert driven.force == pytest.approx(driver.force, rel=1e-12)

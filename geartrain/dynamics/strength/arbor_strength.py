@@ -65,7 +65,7 @@ class ArborLoad:
             max(sum(part for part in axial if part > 0), -sum(part for part in axial if part < 0)),
             abs(sum(axial)),
             sum(abs(each.axial) * each.radius for each in own),
-            max((abs(each.tangential) * each.radius for each in own), default=0.0),
+            max((abs(each.torque) * 1e3 for each in own), default=0.0),
         )
 
 

@@ -19,11 +19,14 @@ class WheelForce(Result):
     radius : float
         Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm].
     tangential : float
-        Along that circle, of the sign of its torque.
+        Along that circle, of the sign of its torque. On parallel axes and on bevels both wheels of a pair bear the
+        same, that of the wheel with the greater torque over radius: friction takes part of the other's torque.
     axial : float
         Above 0 along the direction of its axis.
     radial : float or None
         Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known.
+    torque : float
+        On it [N m].
 
     See Also
     --------
@@ -36,6 +39,7 @@ class WheelForce(Result):
     tangential: float
     axial: float
     radial: float | None
+    torque: float
 
 
 @dataclass(frozen=True)

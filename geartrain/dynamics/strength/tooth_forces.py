@@ -74,8 +74,8 @@ class ToothForces:
             parts = [self._skew(circuit, at, loads[at], drives[at]) for at in (0, 1)]
         else:
             return
-        for name, (radius, force) in zip(circuit.wheels, parts, strict=True):
-            yield WheelForce(circuit.id, name, radius, *force)
+        for name, load, (radius, force) in zip(circuit.wheels, loads, parts, strict=True):
+            yield WheelForce(circuit.id, name, radius, *force, load / _MM)
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:

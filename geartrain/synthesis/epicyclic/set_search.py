@@ -44,7 +44,7 @@ _FARTHEST = Fraction(10**18)
 _FINEST = 10**6
 """Greatest denominator of a clearance: lengths in such parts of a module stay whole numbers of a machine word."""
 
-NO_PLACE = "a wheel out of its bounds, a planet without a place between the wheels, or one of equal steps"
+NO_PLACE = "a wheel out of its bounds, a planet without a place, or steps that are equal"
 NO_SPACING = "planets that cannot be put in equally spaced"
 NO_ROOM = "neighbouring planets that touch"
 NO_MOTION = "a mode that does not run"

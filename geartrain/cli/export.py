@@ -146,7 +146,7 @@ def _making(given: Mapping[str, Size], process: str | None, arms: int | None, sh
 def _sheet(text: str) -> tuple[float, float]:
     """Width and height (mm) of what is written as 300x200mm."""
     sides = text.lower().replace("×", "x").split("x")
-    unit = sides[-1].strip().lstrip("0123456789.+-/ ")
+    unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
         raise GearTrainError(Problem(f"'{text}' is no size of a sheet", "", "write it as 300x200mm", "--sheet"))
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)

@@ -32,7 +32,7 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, le
         raise value_error(error, place) from None
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give one between {1 / _MOST:g} and {_MOST:g} in SI units"
-        raise GearTrainError(Problem(f"{text} is beyond all measure", "", fix, place))
+        raise GearTrainError(Problem(f"{text} is beyond all measure", "its square is lost in rounding", fix, place))
     if found.value < 0 and least is not None:
         raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
     if found.value == 0 and least == "above 0":
@@ -100,7 +100,8 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: in
 
 def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
     """What a reader of numbers complains of, as a user reads it."""
-    return GearTrainError(Problem(error.message(), "", str((error.context or {}).get("fix", "")), place))
+    context = error.context or {}
+    return GearTrainError(Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), place))
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:

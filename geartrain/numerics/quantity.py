@@ -10,17 +10,21 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from geartrain.numerics.units import IRRATIONAL, RADIANS_PER_TURN, SPELT, UNITS, nearest_unit, scale, units_of
+from geartrain.numerics.units import (
+    IRRATIONAL,
+    RADIANS_PER_TURN,
+    SPELT,
+    UNITS,
+    base_unit,
+    bounds_of,
+    nearest_unit,
+    scale,
+    units_of,
+)
 
 _MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them would take minutes
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
-_MOST = Fraction("1e300")  # what a float holds, with room for units
-_LEAST_MEASURE = Fraction(1, 10**30)  # of base units: up to the tenth power such a measure is a float
-_IN_FLOATS = (
-    *("length", "angle", "velocity", "inertia", "mass", "density", "pressure"),
-    *("torsional stiffness", "torsional stiffness or stiffness"),
-    *("torsional damping", "torsional damping or damping"),
-)
+_MOST = Fraction("1e300")  # what a float holds, as its inverse does, with room for units
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
@@ -126,12 +130,8 @@ def _not_a_number(raw: object) -> PydanticCustomError:
 
 
 def _within(value: Fraction, text: str) -> Fraction:
-    if abs(value) > _MOST:
-        raise PydanticCustomError(
-            "number",
-            "{text} is beyond all measure",
-            {"text": text, "fix": "write a number below 1e300"},
-        )
+    if value and not 1 / _MOST <= abs(value) <= _MOST:
+        raise _beyond_measure(text, "a number here is 0, or from 1e-300 to 1e300", "write a number in that range")
     return value
 
 
@@ -264,14 +264,17 @@ class Quantity:
 
 def _measured(quantity: Quantity, dimension: str) -> Quantity:
     """What is computed with in floats, where products and squares of it must be floats too."""
-    if dimension in _IN_FLOATS and quantity.value and not _LEAST_MEASURE < abs(quantity.base) < 1 / _LEAST_MEASURE:
-        bounds = f"between {float(_LEAST_MEASURE):g} and {float(1 / _LEAST_MEASURE):g}"
-        raise PydanticCustomError(
-            "number",
-            "{text} is beyond all measure",
-            {"text": quantity.text, "fix": f"write {_one(quantity.dimension or dimension)} {bounds} in base units"},
-        )
-    return quantity
+    low, high = bounds_of(dimension)
+    if not quantity.value or low <= abs(quantity.base) <= high:
+        return quantity
+    noun = _one(quantity.dimension or dimension)
+    unit = "" if quantity.unit is None else f" {base_unit(scale(quantity.unit)[0])}"
+    why = f"{noun} here is from {float(low):g}{unit} to {float(high):g}{unit}"
+    raise _beyond_measure(quantity.text, why, f"write {noun} in that range")
+
+
+def _beyond_measure(text: str, why: str, fix: str) -> PydanticCustomError:
+    return PydanticCustomError("number", "{text} is beyond all measure", {"text": text, "why": why, "fix": fix})
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:

@@ -73,6 +73,14 @@ IRRATIONAL: dict[str, tuple[str, Fraction]] = {
     "rad": ("angle", _TURNS_PER_RADIAN),
     "rad/s": ("speed", _TURNS_PER_RADIAN),
 }
+_EXACT = Fraction(0), Fraction("1e300")
+_FLOATS = Fraction(1, 10**30), Fraction(10**30)  # up to the tenth power such a measure is a float
+_SIZES = Fraction(1, 10**12), Fraction(10**6)  # of bodies, in m or as plain numbers: what can be laid out and drawn
+_BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
+    dimension: _FLOATS
+    for one, other in (("torsional stiffness", "stiffness"), ("torsional damping", "damping"))
+    for dimension in ("angle", "velocity", "inertia", "mass", "density", "pressure", one, f"{one} or {other}")
+}
 SPELT = {
     "Nm": "N m",
     "N*m": "N m",
@@ -132,3 +140,20 @@ def units_of(dimension: str) -> str:
     """All units of a dimension, or of several joined by `or`, for a reader."""
     known = [*UNITS.items(), *IRRATIONAL.items()]
     return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
+
+
+def base_unit(dimension: str) -> str:
+    """The unit in which quantities of a dimension are counted.
+
+    >>> base_unit("length"), base_unit("angle")
+    ('m', 'turn')
+    """
+    return next(unit for unit, (kind, factor) in UNITS.items() if kind == dimension and factor == 1)
+
+
+def bounds_of(dimension: str) -> tuple[Fraction, Fraction]:
+    """Least and greatest magnitude of a quantity other than 0, in base units; "time or length" allows both.
+
+    Sizes of bodies have the narrowest, all that is computed with in floats narrow ones.
+    """
+    return _BOUNDS.get(dimension, _EXACT)

@@ -21,6 +21,7 @@ TargetKind = Literal["number", "things", "time", "speed", "count"]
 
 _MOST_CHARACTERS = 2000
 _SHOWN = 60
+_FARTHEST = Fraction(10**30)  # fifteen stages of 1:100
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _WITH_WORD = re.compile(rf"({_NUMBER}(?:\s*[/:]\s*{_NUMBER})?)\s*(?![eE][+-]?\d)([^\W\d_].*)")
 _DIVISION = re.compile(r"[/:]")
@@ -75,6 +76,12 @@ class TargetRatio(Result):
                 f"a ratio of {_short(fraction_text(self.value))} is wanted",
                 "tooth counts make the magnitude, which is above 0; the sense is told apart",
                 "give a number above 0",
+            )
+        if not 1 / _FARTHEST <= self.value <= _FARTHEST:
+            raise _problem(
+                f"a ratio of {_short(self.label or decimal(self.value, 6))} is wanted",
+                "no train of gears has it: ratios are from 1e-30 to 1e30",
+                "give a nearer one",
             )
 
 
@@ -213,9 +220,11 @@ def _figure(text: str) -> Fraction:
         return Figure.parse(text).value
     except PydanticCustomError as error:
         what, why = f"'{_short(text)}' is no number", error.message()
+        if "why" in (context := error.context or {}):
+            raise _problem(why, context["why"], context["fix"]) from None
         if text[:1].isalpha():
             raise _problem(what, "no period of the table has this name either", suggested_period(text)) from None
-        if text[:1].isdigit() and "zero" not in why:
+        if text[:1].isdigit() and "is not a number" in why:
             why = "a number has at most 400 characters, and an exponent three digits"
         raise _problem(what, why, f"write {_WAYS}") from None
 

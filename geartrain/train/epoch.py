@@ -51,8 +51,11 @@ class Epoch(Declared):
         except ValueError as error:
             raise PydanticCustomError(
                 "date",
-                "{why}",
-                {"why": str(error), "fix": "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC"},
+                "{problem}",
+                {
+                    "problem": str(error),
+                    "fix": "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC",
+                },
             ) from None
         return self
 

@@ -192,7 +192,7 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(error["msg"], f"{_where(loc)} comes in kinds", f"add `{tag}:`", place(loc))
     what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     if "fix" in context:
-        return Problem(f"{_where(loc)}: {error['msg']}", "", context["fix"], place(loc))
+        return Problem(f"{_where(loc)}: {error['msg']}", context.get("why", ""), context["fix"], place(loc))
     shown = repr(error["input"])
     got = f"it is {shown if len(shown) <= 60 else shown[:57] + '...'}"
     if kind in _SHAPES:

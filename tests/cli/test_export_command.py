@@ -107,6 +107,12 @@ def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
         (("--to", "d", "--wheel", "s"), "for one file"),
         (("-o", "x.glb", "--turns", "many"), "no number of turns"),
         (("-o", "x.stl", "--module", "0mm"), "a module of 0 mm"),
+        (("-o", "x.stl", "--module", "1 m"), "a module of 1000 mm cannot be made"),
+        (("-o", "x.stl", "--module", "0.01 mm"), "a module of 0.01 mm cannot be made"),
+        (("--to", "d", "--thickness", "1.5 m"), "a thickness of 1500 mm cannot be made"),
+        (("--to", "d", "--bore", "1.5 m"), "a bore of 1500 mm cannot be made"),
+        (("--to", "d", "--backlash", "1.5 m"), "a backlash of 1500 mm cannot be made"),
+        (("--to", "d", "--sheet", "1x1km"), "a side of a sheet of 1e+06 mm cannot be made"),
         (("-o", "x.stl", "--thickness", "two"), "two"),
     ],
 )
@@ -118,6 +124,7 @@ def test_bad_questions_are_said_with_what_to_do(
     assert isinstance(done.exception, GearTrainError), done.output
     assert what in str(done.exception)
     assert "fix:" in str(done.exception)
+    assert not what.endswith("made") or all(each.place and each.why for each in done.exception.problems)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -128,7 +128,10 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (("teeth", "orrery", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
     (("sphere", "cube"), ("teeth", "radius", "suggest", "best")),
     (("draw", "{pair}", "-o", "{out}/d.svg"), ("turns",)),
-    (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("module:length", "thickness:length", "bore:length")),
+    (
+        ("export", "{pair}", "--to", "{out}/e", "--as", "svg"),
+        ("module:length", "thickness:length", "bore:length", "sheet"),
+    ),
     (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("backlash:length", "turns")),
     (("export", "planetary-24-18-60", "--to", "{out}/e", "--as", "svg", "--module", "1mm"), ("backlash:length",)),
 ]
@@ -177,6 +180,8 @@ def judge(arguments: list[str]) -> str:
 def asked(option: str, value: str) -> list[str]:
     """The option with a value, in the unit of its kind."""
     name, _, kind = option.partition(":")
+    if not name:
+        return [value]
     if kind == "few" and value in ("1e9", "9" * 25):
         value = "7"
     unit = UNITS.get(kind, "")
@@ -217,6 +222,16 @@ KEPT = [
     ("teeth ratio 5.25", "best", "9" * 25),
     ("teeth ratio 5.25", "most-total", "0"),
     ("posterior {pair} --free x=47:49", "seed", "-1"),
+    *(
+        ("export planetary-24-18-60 --to {out}/e", "module:length", value)
+        for value in ("1e3", "1e16", "1e-20", "0.01", "0.05")
+    ),
+    ("export planetary-24-18-60 --to {out}/e --module 1mm", "thickness:length", "1e30"),
+    ("export planetary-24-18-60 --to {out}/e --module 1mm", "bore:length", "1e20"),
+    ("export planetary-24-18-60 --to {out}/e --as svg --module 1mm", "sheet", "1e15x1e15mm"),
+    *(("teeth approximants", "", value) for value in ("1e-320", "1e-400", "1e308", "1e-200/1e200", "1e200/1e-99")),
+    ("teeth ratio", "", "1e-320"),
+    ("teeth set --kind planetary", "", "1e-320"),
 ]
 """What once ended in a traceback, in nonsense or never."""
 

@@ -456,3 +456,12 @@ def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
     (distance,) = (each["floating_point"] for each in stage["attributes"] if each["id"] == "center_distance")
     assert distance == pytest.approx(50, rel=1e-12)
     assert tables(work)["pairs"][0]["distance_mm"] == "50"
+
+
+@pytest.mark.parametrize("sizes", ["module: 1 m", "module: 0.01 mm", "module: 1 mm, thickness: 2 m"])
+def test_wheels_declared_beyond_what_is_made_are_refused_by_their_place(sizes: str) -> None:
+    text = PAIR.format(z1=24, z2=36, form=INVOLUTE).replace("p: 24", f"p: {{teeth: 24, {sizes}}}")
+    work = SolidModel(declared(text), ManufacturingSizes())
+    with pytest.raises(GearTrainError, match="cannot be made") as found:
+        export_files(work, ["svg"])
+    assert all(each.place and each.why and each.fix for each in found.value.problems)

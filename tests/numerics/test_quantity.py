@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geartrain import GearTrain, GearTrainError
 from geartrain.numerics import Figure, Quantity
 
 
@@ -67,7 +70,7 @@ def test_what_is_no_number_is_refused(raw: object) -> None:
         Figure.parse(raw)
 
 
-@pytest.mark.parametrize("raw", ["1e301", "-1e999", "1e200/1e-200", "9" * 302])
+@pytest.mark.parametrize("raw", ["1e301", "-1e999", "1e200/1e-200", "9" * 302, "1e-301", "-1e-999", "1e-200/1e200"])
 def test_what_no_float_holds_is_refused(raw: str) -> None:
     with pytest.raises(ValueError, match="beyond all measure"):
         Figure.parse(raw)
@@ -143,3 +146,57 @@ def test_a_wrong_unit_is_refused(text: str, dimension: str, said: str) -> None:
 def test_a_plain_number_is_welcome_where_only_ratios_are_asked() -> None:
     quantity = Quantity.parse("5/2", "speed", plain=True)
     assert (quantity.value, quantity.unit, quantity.dimension) == (Fraction(5, 2), None, None)
+
+
+LENGTHS = [
+    "{links: {a: {wheels: {x: {module: SIZE}}}}}",
+    "{links: {a: {wheels: {x: {thickness: SIZE}}}}}",
+    "{links: {a: {wheels: {x: {face_width: SIZE}}}}}",
+    "{links: {a: {arbor: {diameter: SIZE, span: 20 mm}}}}",
+    "{links: {a: {arbor: {diameter: 2 mm, span: SIZE}}}}",
+    "{axes: {A: {position: [SIZE, 0, 0]}}}",
+    "{thickness: SIZE}",
+    "{drive: {weight: 1 kg, drum: SIZE}}",
+    "{escapement: {link: a, teeth: 30, beat: 1 s, pendulum: SIZE}}",
+    "{tooth_form: {form: involute, backlash: SIZE}}",
+    "{tooth_form: {form: involute, centre_distance: SIZE}}",
+    "{tooth_form: {form: lantern, pin_diameter: SIZE}}",
+    "{cutting: {eccentricity: SIZE}}",
+]
+
+
+@pytest.mark.parametrize("change", LENGTHS)
+@pytest.mark.parametrize("size", ["1e16 mm", "1e30 mm", "1e-20 mm", "2e9 km"])
+def test_every_key_of_a_size_is_bounded_with_place_reason_and_fix(change: str, size: str) -> None:
+    if "eccentricity" in change and size.startswith("1e-"):
+        return  # an error may be as small as one likes
+    base = GearTrain.declare(yaml.safe_load(PAIR)).declaration.model_dump(mode="json", exclude_unset=True)
+    for key, value in yaml.safe_load(change.replace("SIZE", size)).items():
+        base[key] = merged(base.get(key), value)
+    with pytest.raises(GearTrainError) as found:
+        GearTrain.declare(base)
+    (problem,) = found.value.problems
+    assert "beyond all measure" in problem.what
+    assert "from 1e-" in problem.why
+    assert "write a length in that range" in problem.fix
+
+
+def merged(old: Any, new: Any) -> Any:
+    if not isinstance(new, dict):
+        return new
+    old = old if isinstance(old, dict) else {}
+    return old | {key: merged(old.get(key), value) for key, value in new.items()}
+
+
+PAIR = """
+links: {frame: {}, a: {wheels: {x: {teeth: 20}}}, b: {wheels: {y: 30}}}
+axes: {A: {direction: [0, 0, 1]}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [x, y]}]
+inputs: {a: 1}
+"""
+
+
+def test_distances_that_something_goes_are_no_sizes_of_bodies() -> None:
+    """An odometer may count the way round the Earth."""
+    assert Quantity.parse("40075 km", "time or length", plain=False).base == 40_075_000

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import isfinite, log
+from math import log
 from statistics import median
 
 from geartrain.analysis.gear_train import GearTrain
@@ -25,6 +25,9 @@ _STOCK = (
     *(0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0),
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: sheets as they are sold
+_MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
+"""Sizes (mm) in which trains are made, least and greatest: curves are drawn to 0.001 mm, arbors and plates to match."""
+_SHEET = (1, 1e5)  # mm: sides of sheets
 _NEAR = 1.3  # how much thicker or thinner than 2.5 modules a sheet may be
 
 
@@ -76,17 +79,23 @@ class ManufacturingSizes:
         if self.arms is not None and self.arms < 3:
             what = f"a wheel of {self.arms} arms is none"
             problems.append(Problem(what, "", "give 3 or more, or leave --arms out for whole webs", "--arms"))
-        if self.sheet is not None and not all(isfinite(side) and side > 0 for side in self.sheet):
-            what = f"a sheet of {self.sheet[0]:g} x {self.sheet[1]:g} mm is none"
-            problems.append(Problem(what, "", "give two lengths above 0, such as 300x200mm", "--sheet"))
-        for name in ("module", "thickness", "bore", "backlash"):
+        for name, bounds in _MADE.items():
             value = getattr(self, name)
-            zero = name in ("bore", "backlash")
-            if value is not None and not (isfinite(value) and (value >= 0 if zero else value > 0)):
-                fix = f"give a {name} of 0 or more" if zero else f"give a {name} above 0"
-                problems.append(Problem(f"a {name} of {value:g} mm is no size", "", fix, f"--{name}"))
+            if value is not None and not (value == 0 and name in ("bore", "backlash")):
+                problems += _beyond(f"a {name}", value, bounds, f"--{name}")
+        for side in self.sheet or ():
+            problems += _beyond("a side of a sheet", side, _SHEET, "--sheet")
         if problems:
             raise QuestionError(problems)
+
+
+def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) -> list[Problem]:
+    """A problem for a size (mm) outside what is made."""
+    low, high = bounds
+    if low <= value <= high:
+        return []
+    why = "drawings are exact to 0.001 mm, and arbors and plates have a few millimetres"
+    return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 
 def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
@@ -97,10 +106,22 @@ def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearT
     """
     declared, factor = train.declaration, scale_of(layout, making)
     modules = {name: Fraction(place.module) * Fraction(factor) for name, place in layout.wheels.items()}
+    _check_made(declared, modules, layout)
     if making.module is not None:
         declared = _with_modules(declared, modules)
     declared = _with_backlash(declared, modules, making.backlash)
     return train if declared is train.declaration else GearTrain(declared)
+
+
+def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout) -> None:
+    """Raise `QuestionError` for wheels that are declared too small or too large to be made."""
+    problems: list[Problem] = []
+    for name, module in modules.items():
+        place = declared.place("links", declared.wheels[name][0], "wheels", name)
+        problems += _beyond("a module", float(module), _MADE["module"], place)
+        problems += _beyond("a thickness", layout.wheels[name].thickness, _MADE["thickness"], place)
+    if problems:
+        raise QuestionError(problems)
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 FAMILY = "family.json"
 MOST_TURNING = 200
+_LARGE = 15  # decimal logarithm of choices of counts from which their number is told first
 _STEPS = 1000
 """Of a progress bar."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown
@@ -32,9 +33,11 @@ _PATIENCE = 2.0  # seconds before a progress bar is shown
 def tell_question(problem: ReconstructionProblem, options: RunOptions) -> ExpectedCost:
     """Say what is asked, and what it will cost, before it is looked for."""
     from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
-    from geartrain.synthesis.reconstruction.expected_cost import expect_cost, rough
+    from geartrain.synthesis.reconstruction.expected_cost import count_choices, expect_cost, rough
 
     tell(f"asked: {AskedQuestion.of(problem)}")
+    if (size := count_choices(problem)) >= _LARGE:
+        tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
     expected = expect_cost(problem)
     if expected.placements is None:
         tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in expected.paths.items())}")

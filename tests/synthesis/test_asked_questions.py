@@ -7,6 +7,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
+from commands import ended
 from concrete_trees import exact_dial, sure_arbor
 
 from geartrain import GearTrainError
@@ -77,6 +78,42 @@ def test_the_time_is_that_of_a_part_times_their_number(monkeypatch: pytest.Monke
     assert (len(shares), shares[0], shares[-1]) == (len(skeleton_tasks(TOY)) + 1, 0, 1)
     assert all(one < other for one, other in pairwise(shares))
     assert shares[3] < 0.01  # up to two added wheels takes next to nothing
+
+
+@pytest.mark.parametrize("idlers", [False, True])
+def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
+    idlers: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """1000 wheels of 36 counts: 36^1000 = 10^1556 choices; 10^40 are those of 25 wheels."""
+    monkeypatch.setattr(expected_cost, "timed_part", lambda *_: pytest.fail("timed"))
+    with pytest.raises(GearTrainError) as caught:
+        expect_cost(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
+    (problem,) = caught.value.problems
+    assert "up to 1000 added wheels of 10 to 45 teeth have 1e1556 choices" in problem.what
+    assert "at most 25 with -k" in problem.fix
+
+
+def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """640 s with 3 added wheels and ten times as long with each more: 6.4e16 s, 2e9 years, with 17."""
+
+    def timed(task: SkeletonTask, _: object) -> float:
+        assert task.added <= 4, "what follows is not timed"
+        return 2 + (640 * 10 ** (task.added - 3) / task.parts if task.part < task.parts else 0)
+
+    monkeypatch.setattr(expected_cost, "timed_part", timed)
+    with pytest.raises(GearTrainError) as caught:
+        expect_cost(replace(TOY, additions=Additions(17, 10, 45)))
+    (problem,) = caught.value.problems
+    assert "about 1e9 years" in problem.what
+    assert "each one more 10 times as long" in problem.why
+    assert "at most 9 with -k" in problem.fix  # 6.4e8 s; 6.4e9 s are two hundred years
+
+
+def test_the_command_says_the_size_first_and_refuses_the_absurd() -> None:
+    done = ended("reconstruct", "moon-c-e", "-k", "1000", "--count")
+    assert done.returncode == 2
+    assert "asked: 3 arbors with 4 wheels; 1 dial; at most 1000 added wheels" in done.stderr
+    assert "1e2330 choices" in done.stderr
 
 
 def test_a_search_that_was_expected_finds_the_same() -> None:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from math import floor, log10
 from time import perf_counter
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeleton_tasks import (
+    QUICK,
     SkeletonTask,
     skeleton_tasks,
     timed_part,
@@ -22,6 +24,11 @@ _SAMPLES = {4096: 3, 512: 4, 64: 5}
 """One part in so many is timed, so many of them; then one in fewer, until that is long enough to judge by."""
 _ENOUGH = 0.3
 """Seconds that are long enough, for each number of added wheels."""
+_MOST_CHOICES = 40
+"""Decimal logarithm of the most choices of counts of added wheels; searches of hours have some 1e20."""
+_YEAR = 3.2e7  # s
+_LONGEST = 100 * _YEAR
+"""Seconds in one process; what takes longer is refused."""
 _GOLDEN = (5**0.5 - 1) / 2
 """Its multiples lie evenly between whole numbers: which parts are timed."""
 
@@ -70,14 +77,62 @@ class ExpectedCost(Result):
 def expect_cost(problem: ReconstructionProblem, clock: Callable[[], float] = perf_counter) -> ExpectedCost:
     """What a question will cost; the lists of its paths are made, and kept for the search in this process.
 
-    Raises `QuestionError` if there are too many paths.
+    Raises `QuestionError` if there are too many paths, or the search would not end within a hundred years.
     """
-    paths = total_paths(problem)
-    parted = dict.fromkeys(task.added for task in skeleton_tasks(problem) if task.parts > 1 and all(paths.values()))
-    timed = {added: _sampled(problem, added, clock) for added in parted}
+    _refuse_absurd(problem)
+    parted = dict.fromkeys(task.added for task in skeleton_tasks(problem) if task.parts > 1)
+    timed: dict[int, tuple[int, float]] = {}
+    for added in parted if all(total_paths(problem).values()) else ():
+        timed[added] = _sampled(problem, added, clock)
+        _refuse_endless(problem, [seconds for _, seconds in timed.values()])
     seconds = tuple(timed[added][1] if added in timed else 0.0 for added in range(problem.additions.wheels + 1))
-    return ExpectedCost(
-        paths, total_placements(problem), seconds, max((parts for parts, _ in timed.values()), default=0)
+    parts = max((parts for parts, _ in timed.values()), default=0)
+    return ExpectedCost(total_paths(problem), total_placements(problem), seconds, parts)
+
+
+def count_choices(problem: ReconstructionProblem) -> float:
+    """Decimal logarithm of the number of choices of the counts of as many wheels as may be added."""
+    added = problem.additions
+    return added.wheels * log10(max(added.greatest - added.least + 1, 1))
+
+
+def _refuse_absurd(problem: ReconstructionProblem) -> None:
+    """Raise `QuestionError` for more choices of counts than any search could look through, before anything is done."""
+    added, size = problem.additions, count_choices(problem)
+    if size <= _MOST_CHOICES:
+        return
+    fits = int(added.wheels * _MOST_CHOICES / size)
+    raise QuestionError(
+        Problem(
+            f"up to {added.wheels} added wheels of {added.least} to {added.greatest} teeth have 1e{size:.0f} choices",
+            f"a search takes up to 1e{_MOST_CHOICES}",
+            f"ask for at most {fits} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`, or for fewer counts",
+        )
+    )
+
+
+def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) -> None:
+    """Raise `QuestionError` where times that go on growing as the last two end beyond `_LONGEST`.
+
+    seconds   by number of added wheels, from the first number that is timed on
+    """
+    last, most = QUICK + len(seconds), problem.additions.wheels
+    if len(seconds) < 2 or seconds[-1] < _ENOUGH or seconds[-2] <= 0:
+        return
+    growth = seconds[-1] / seconds[-2]
+    if growth <= 1:
+        return
+    longest = log10(seconds[-1]) + (most - last) * log10(growth)
+    if longest <= log10(_LONGEST):
+        return
+    fits = last + floor((log10(_LONGEST) - log10(seconds[-1])) / log10(growth))
+    raise QuestionError(
+        Problem(
+            f"up to {most} added wheels are asked for, which would take about 1e{longest - log10(_YEAR):.0f} years",
+            f"in one process {last} added wheels take about {rough(seconds[-1]) or 1:g} s, and each one more "
+            f"{growth:.2g} times as long",
+            f"ask for at most {max(fits, last)} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`",
+        )
     )
 
 

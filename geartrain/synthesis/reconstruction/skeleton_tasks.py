@@ -16,7 +16,7 @@ from geartrain.synthesis.reconstruction.skeleton_search import SkeletonSearch
 from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
 from geartrain.synthesis.reconstruction.skeletons import Skeleton, plain_skeleton, skeleton_of
 
-_QUICK = 2
+QUICK = 2
 """Added wheels up to which a search is not worth parting."""
 _PARTS = 24
 
@@ -62,7 +62,7 @@ def skeleton_tasks(problem: ReconstructionProblem, most: int | None = None) -> l
     return [
         SkeletonTask(problem, added, part, parts, most)
         for added in range(problem.additions.wheels + 1)
-        for parts in [1 if added <= _QUICK else _PARTS]
+        for parts in [1 if added <= QUICK else _PARTS]
         for part in range(parts)
     ]
 

@@ -116,7 +116,7 @@ class Answer(FrozenFields, Tabular, Result):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs whose `expect` or `published` figure does not hold."""
+        """Outputs that miss their `expect`, their `published` figure or the tolerance of a target."""
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 

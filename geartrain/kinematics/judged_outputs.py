@@ -223,8 +223,9 @@ class OutputResult(Result):
 
     @property
     def holds(self) -> bool:
-        """False if an `expect` or a `published` figure is not met."""
-        return self.expect_holds is not False and self.published_holds is not False
+        """False if an `expect`, a `published` figure or the tolerance of a target is not met."""
+        judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
+        return False not in judged
 
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:

@@ -168,17 +168,21 @@ def result_words(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """`all 3 expectations and 2 published figures hold`, or how many fail; empty where no figure is declared."""
+    """`all 3 expectations and 2 published figures hold`, or how many fail; empty where no figure is declared.
+
+    The tolerance of a target is such a figure; a target without one is information.
+    """
     results = [result for answer in answers for result in answer.outputs.values()]
     kinds = {
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
         "published figure": [each.published_holds for each in results if each.published_holds is not None],
+        "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
     }
-    named = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
+    named = " and ".join(f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held)
     total = sum(map(len, kinds.values()))
     if failed := sum(held.count(False) for held in kinds.values()):
-        return f"{failed} of {' and '.join(named)} FAIL{'S' if failed == 1 else ''}"
-    return f"{named[0]} holds" if total == 1 else f"all {' and '.join(named)} hold" if named else ""
+        return f"{failed} of {named} FAIL{'S' if failed == 1 else ''}"
+    return f"{named} holds" if total == 1 else f"all {named} hold" if named else ""
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:

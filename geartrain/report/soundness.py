@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
 from geartrain.report.answers import expectations_met, result_words
-from geartrain.report.document import exact, figure
+from geartrain.report.document import exact, figure, ppm
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -153,4 +153,8 @@ def _wanted(result: OutputResult) -> str:
     if result.published_holds is False and result.output.published:
         published = result.output.published
         words.append(f"published {published.value} as {published.as_}, {result_words(result)}")
+    for declared, target in zip(result.output.targets, result.targets, strict=False):  # no result without a speed
+        if target.met is False:
+            off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
+            words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")
     return "; " + ", ".join(words)

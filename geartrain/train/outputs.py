@@ -68,7 +68,8 @@ class Target(Declared):
     )
     tolerance: Share | None = Field(
         None,
-        description="How far off counts as met, such as 20 ppm of the target; of a speed of 0, a plain number of units",
+        description="How far off counts as met, such as 20 ppm of the target; of a speed of 0, a plain number of "
+        "units. `check` fails where it is missed; a target without a tolerance is information",
     )
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")

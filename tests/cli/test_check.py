@@ -30,6 +30,12 @@ EXPECT, PUBLISHED = "  c: {expect: 1/2}", "  b: {published: {value: -1.50, as: i
         (PUBLISHED, "1 published figure holds"),
         (EXPECT + "\n  b: {expect: -2/3}", "all 2 expectations hold"),
         (EXPECT + "\n" + PUBLISHED, "all 1 expectation and 1 published figure hold"),
+        ("  c: {targets: [{speed: 0.4}]}", "nothing expected"),
+        ("  c: {targets: [{speed: 0.501, tolerance: 0.2 %}]}", "1 target tolerance holds"),
+        (
+            EXPECT + "\n  b: {targets: [{speed: -2/3, tolerance: 0}, {speed: 0, tolerance: 1}]}",
+            "all 1 expectation and 2 target tolerances hold",
+        ),
     ],
 )
 def test_every_figure_that_was_looked_at_is_counted(tmp_path: Path, outputs: str, said: str) -> None:
@@ -58,6 +64,27 @@ def test_a_figure_that_fails_is_told_beside_what_was_found(tmp_path: Path, figur
     assert "1 of 1 published figure FAILS" in call("report", path).stdout
     (entry,) = json.loads(call("solve", path, "--json").stdout)["states"]
     assert entry["outputs"]["b"]["published"]["found"] == found.split()[1]
+
+
+@pytest.mark.parametrize(
+    ("target", "missed"),
+    [
+        # c turns at 1/2: 1/(2 * 0.501) - 1 = -1/501
+        ("{speed: 0.501, tolerance: 0.1 %}", "target speed 0.501 missed by -1996.01 ppm (tolerance 0.1 %)"),
+        ("{speed: -1/2, tolerance: 1 %}", "target speed -1/2 missed by -2e+06 ppm (tolerance 1 %)"),
+        ("{speed: 0, tolerance: 0.49}", "target speed 0 missed by 0.5 (tolerance 0.49)"),
+    ],
+)
+def test_a_missed_tolerance_of_a_target_fails_in_every_command(tmp_path: Path, target: str, missed: str) -> None:
+    path = written(tmp_path, f"  c: {{targets: [{target}]}}")
+    done = {verb: call(verb, path) for verb in ("check", "report", "solve")}
+    assert [each.exit_code for each in done.values()] == [1, 1, 1]
+    assert f"output 'c' is 1/2; {missed}" in done["check"].stdout
+    assert "1 of 1 target tolerance FAILS" in done["report"].stdout
+    assert "FAILS" in done["solve"].stdout
+    assert not load(path).solve()
+    relaxed = target[: target.index(", tolerance")] + "}"  # without a tolerance the target is information
+    assert call("check", written(tmp_path, f"  c: {{targets: [{relaxed}]}}")).exit_code == 0
 
 
 def test_a_ratio_that_there_is_not_is_said_to_be_none(tmp_path: Path) -> None:

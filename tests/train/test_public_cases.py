@@ -16,3 +16,15 @@ def test_a_public_train_has_its_published_speeds_or_is_locked_as_published(path:
     result = call("check", path)
     assert result.exit_code == (1 if path.stem in LOCKED else 0), result.output
     assert ("locked: loop" in result.output) == (path.stem in LOCKED)
+
+
+def case(number: str) -> Path:
+    (path,) = CASES.glob(f"{number}-*.yaml")
+    return path
+
+
+def test_a_missed_tolerance_of_a_target_is_a_failure() -> None:
+    """6 h over 6.0874 h is 1 - 0.0143575."""
+    result = call("check", case("05"))
+    assert result.exit_code == 1
+    assert "target period 6 h in either sense missed by -14357.5 ppm (tolerance 1 %)" in result.output

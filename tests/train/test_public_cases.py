@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from commands import call
 
+from geartrain import load
+
 CASES = Path(__file__).parents[1] / "data" / "public_cases"
 LOCKED = {"three-crossed-left-locked", "twisted-ring-10-locked"}
 
@@ -28,3 +30,14 @@ def test_a_missed_tolerance_of_a_target_is_a_failure() -> None:
     result = call("check", case("05"))
     assert result.exit_code == 1
     assert "target period 6 h in either sense missed by -14357.5 ppm (tolerance 1 %)" in result.output
+
+
+def test_a_stage_with_undeclared_profile_shifts_is_a_note() -> None:
+    result = call("check", case("03"))
+    assert result.exit_code == 0
+    assert "the sum of the shifts must be 1.094 [P1]" in result.output
+
+
+def test_shifts_of_that_sum_bring_the_axes_to_their_distance() -> None:
+    text = case("03").read_text(encoding="utf-8") + "tooth_form: {form: involute, shift: [0.5, 0.595]}\n"
+    assert [(found.rule, found.level) for found in load(text).build_findings] == [("P1", "note")]

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from math import radians, sqrt, tan
+from math import acos, atan, cos, sqrt, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding, BuildLevel
 from geartrain.kinematics.buildability.pitch_pairs import SLACK, PitchPair
+from geartrain.kinematics.buildability.ring_mates import PRESSURE
 from geartrain.kinematics.circuits import Tree
 from geartrain.numerics.graphs import RatioSets
 from geartrain.numerics.quantity import millimetres
@@ -149,6 +150,7 @@ class PitchDistances:
         if abs(off) <= _EQUAL * sum(pair.counts) / 2:
             return
         low, high = pair.bounds
+        shifts = _needed_shifts(pair, found)
         rule = "M2" if pair.modules.count(None) == 1 else "P1"
         module = self.module(pair.wheels[0]) or Fraction(1)
         first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
@@ -156,19 +158,20 @@ class PitchDistances:
             f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart by {by}, "
             f"and {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
         )
-        if low <= found <= high:
-            yield BuildFinding("P1", "note", Problem(what, _effect(pair, off, module), _ADJUST, pair.place))
+        move, shift = f"move an axis by {_mm(abs(off) * module)}", f", or {shifts}" if shifts else ""
+        if low <= found <= high or (shifts and pair.form is None):
+            yield BuildFinding("P1", "note", Problem(what, _effect(pair, off, module), move + shift, pair.place))
             return
         why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
             " apart" if off > 0 else ""
         )
         fits = found / wanted * module
-        fix = f"move an axis by {_mm(abs(off) * module)}, " + (
+        fix = f"{move}, " + (
             f"or drop the module: the distance asks for {_mm(fits)}"
             if rule == "M2"
             else f"or give both wheels module {_mm(fits)}"
         )
-        yield BuildFinding(rule, "error", Problem(what, why, fix, pair.place))
+        yield BuildFinding(rule, "error", Problem(what, why, fix + shift, pair.place))
 
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
         """A pair between axes that other pairs join, held against the one that asks for the most different distance."""
@@ -212,8 +215,37 @@ class PitchDistances:
 
 
 _MOST = 50  # pairs between two axes that a further one is held against
-_ADJUST = "move an axis, or shift the profiles"
+_SHIFTS = (-1.0, 2.0)  # sums of shifts (modules) that full teeth of 20 degrees bear, from 20 and 40 teeth on nearly
 _BRIDGE = "shift profiles, give the pairs modules of their own, or change a tooth count"
+
+
+def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
+    """The profile shifts with which involutes run at a distance (modules) without backlash, as a fix; "" if none do.
+
+    inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
+    cos(helix); in a ring z and x of its mate count negative. The rack of the form counts, else one of 20 degrees.
+    """
+    from geartrain.teeth.conjugate.involute_geometry import inv
+
+    normal = PRESSURE if pair.form is None else pair.form.rack_angle
+    if normal is None:
+        return ""
+    slant = pair.declared[0].slant if pair.declared[0].is_helical else 1.0
+    across = atan(tan(normal) * slant)
+    cosine = cos(across) * float(pair.touching / distance)
+    if cosine >= 1:
+        return ""
+    teeth = float(2 * pair.touching) / slant
+    total = (inv(acos(cosine)) - inv(across)) * teeth / (2 * tan(normal))
+    if not _SHIFTS[0] <= total <= _SHIFTS[1]:
+        return ""
+    first, second, what = total / 2, total / 2, "the sum of the shifts"
+    if pair.ring is not None:
+        ring, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
+        first, second, what = 0.0, total, f"that of '{ring}' less that of '{mate}', which `pair` names first,"
+    key = f"shift: [{first:.4g}, {second:.4g}]"
+    key = key if pair.form is not None else f"tooth_form: {{form: involute, {key}}}"
+    return f"declare `{key}`: {what} must be {total:.4g}"
 
 
 def _effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
@@ -223,7 +255,7 @@ def _effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
         return f"they stand {_mm(abs(off) * module)} nearer than teeth without play allow"
     if tight:
         return "teeth cut to the standard jam there"
-    angle = getattr(pair.form, "rack_angle", None) or radians(20)
+    angle = getattr(pair.form, "rack_angle", None) or PRESSURE
     return f"teeth cut to the standard have {_mm(2 * abs(off) * module * Fraction(tan(angle)))} more play there"
 
 

@@ -18,7 +18,6 @@ from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability import BuildFinding
     from geartrain.kinematics.formulas.speed_formulas import OutputFormula
     from geartrain.kinematics.gridlock import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds
@@ -165,13 +164,6 @@ class TrainKinematics:
         from geartrain.kinematics.lint import lint_train
 
         return tuple(lint_train(self.declaration, self.circuits))
-
-    @cached_property
-    def build_findings(self) -> tuple[BuildFinding, ...]:
-        """What of the train cannot be built, and what is unwise, by the declaration alone (docs/buildability.md)."""
-        from geartrain.kinematics.buildability.build_check import check_build
-
-        return tuple(check_build(self.declaration, self.tree, self.circuits))
 
     def equations(self, state: str | None = None) -> WillisSystem:
         """The labelled Willis system of one state (docs/theory.md, 6).

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.train_kinematics import TrainKinematics, of_planets_as_one
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.kinematics.buildability import BuildFinding
+    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
 
@@ -60,6 +62,28 @@ class TrainMotion(TrainKinematics):
         from geartrain.teeth.mesh_faults import find_faults
 
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
+
+    @cached_property
+    def build_findings(self) -> tuple[BuildFinding, ...]:
+        """What of the train cannot be built, and what is unwise, by the declaration alone (docs/buildability.md)."""
+        from geartrain.kinematics.buildability.build_check import check_build
+
+        return tuple(check_build(self.declaration, self.tree, self.circuits, lambda: self._outlines))
+
+    @property
+    def _has_forms(self) -> bool:
+        return any(self.declaration.form_of(gear) for gear in self.declaration.gears)
+
+    @cached_property
+    def _outlines(self) -> Mapping[str, PairOutline]:
+        if not self._has_forms:
+            return {}
+        from geartrain.dynamics.gear_meshes import find_outlines
+
+        try:
+            return find_outlines(self._teeth)
+        except GearTrainError:  # teeth that cannot be made are reported as such
+            return {}
 
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
         """The gear pairs with real teeth as they are driven in one state.

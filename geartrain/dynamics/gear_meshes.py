@@ -8,7 +8,7 @@ at the distance its own law asks for.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -19,6 +19,7 @@ from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
     from geartrain.teeth.pin_coupling import Coupling
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
@@ -122,6 +123,19 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
             found[mesh.name] = size
             for wheel, R in mesh.unit_tips.items():
                 tips.setdefault(wheel, R * size.scale)
+    return found
+
+
+def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
+    """The pairs with real teeth and parallel axes as they are cut, by name."""
+    from geartrain.dynamics.wheel_teeth import CHORD
+    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
+
+    found, named = {}, {mesh.name: mesh for mesh in meshes}
+    for name, size in find_sizes(meshes).items():
+        mesh = named[name]
+        tips = {wheel: mesh.requirement(wheel, size.scale, CHORD).tip for wheel in mesh.gear.pair}
+        found[name] = PairOutline(size.distance, tips)
     return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from fractions import Fraction
-from math import acos, cos, hypot, pi, sin
+from math import acos, asin, atan, ceil, cos, floor, hypot, pi, radians, sin, sqrt, tan
 
 import pytest
 
@@ -131,6 +131,115 @@ def test_a_little_room_is_noted() -> None:
     assert found(train) == [("A3", "note")]
     assert "leave only 0.2899 mm" in words(train)
     assert 2 * (70 * sin(pi / 5) - 41) == pytest.approx(0.2899, abs=5e-5)
+
+
+# ---------------------------------------------------------------------------------------- tips of teeth as they are cut
+
+AROUND = """
+links:
+  frame: {{}}
+  sun: {{wheels: {{s: {sun}}}}}
+  planet: {{wheels: {{p: {planet}}}, copies: {number}}}
+  arm: {{}}
+revolutes: {{main: [frame, sun, arm], P: [arm, planet]}}
+gears: [{pair}]
+inputs: {{sun: 1}}
+"""
+
+
+def around(number: int, sun: object, planet: object, form: str = "", pair: str = "s, p") -> GearTrain:
+    """Equal planets that mesh with a sun only."""
+    form = f", tooth_form: {form}" if form else ""
+    return load(AROUND.format(number=number, sun=sun, planet=planet, pair=f"{{pair: [{pair}]{form}}}"))
+
+
+def cycloidal_tip(z: int, mate: int, arc: float) -> float:
+    """Tip radius (modules) of an epicycloid that runs with a radial dedendum over an arc (pitches).
+
+    The rolling circle, of a quarter of the mate's teeth, has then rolled so far that its tracing point is at the end of
+    a chord 2 rho sin(f) that leaves the common tangent at f = arc pi/(2 rho).
+    """
+    R, rho = z / 2, mate / 4
+    return sqrt(R**2 + 4 * rho * (R + rho) * sin(arc * pi / (2 * rho)) ** 2)
+
+
+def involute_distance(teeth: int, shifts: float, helix: float = 0.0) -> float:
+    """Distance (transverse modules) without backlash, by bisection of inv a_w = inv a_t + 2 tan a_n x/z."""
+    across = atan(tan(radians(20)) / cos(helix))
+    wanted = tan(across) - across + 2 * tan(radians(20)) * shifts / teeth
+    low, high = 0.0, pi / 2
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (middle, high) if tan(middle) - middle < wanted else (low, middle)
+    return teeth / 2 * cos(across) / cos(low)
+
+
+LEAN = radians(20)
+
+
+@pytest.mark.parametrize(
+    ("form", "pair", "tip", "distance"),
+    [
+        ("cycloidal", "s, p", cycloidal_tip(18, 17, 0.5), 17.5),
+        ("{form: cycloidal, arcs: [1, 1/2]}", "s, p", cycloidal_tip(18, 17, 1), 17.5),  # by 0.4412 modules
+        ("{form: cycloidal, addendum: [1, 1.25]}", "s, p", 10.25, 17.5),
+        ("involute", "s, p", 10, 17.5),
+        ("{form: involute, addendum: [1, 1.2]}", "s, p", 10.2, 17.5),
+        ("{form: involute, addendum: [1.4, 1]}", "p, s", 10.4, 17.5),
+        ("{form: involute, shift: [-0.3, 0.3]}", "s, p", 10.3, 17.5),
+        ("{form: involute, shift: [0, 0.5]}", "s, p", 10.5, involute_distance(35, 0.5)),
+        ("{form: involute, shift: [0.6, -0.4]}", "s, p", 9.6, involute_distance(35, 0.2)),
+        ("{form: lantern, pin_diameter: 2.8}", "s, p", 10.4, 17.5),  # pins of the planet
+        ("{form: lantern, pin_diameter: 1.5, addendum: 1.3}", "p, s", 10.3, 17.5),  # the mate of the sun's pins
+        ("{form: circular_arc, addendum: [1, 1.25], radius: 2, thickness: 1}", "s, p", 10.25, 17.5),
+        ("{form: triangular, half_angle: 30 deg, radii: [9.4, 10], centre_distance: 18}", "s, p", 10 * 17.5 / 18, 17.5),
+    ],
+)
+def test_tips_of_neighbours_end_where_declared_teeth_end(form: str, pair: str, tip: float, distance: float) -> None:
+    """Five planets of 18 about a sun of 17: teeth of addendum 1 would have 0.5725 modules of room."""
+    gap = 2 * distance * sin(pi / 5) - 2 * tip
+    train = around(5, 17, 18, form, pair)
+    expected = [] if gap >= 0.2 else [("A3", "note" if gap > 0 else "error")]
+    assert found(train) == expected
+    if expected:
+        assert f"{'leave only' if gap > 0 else 'overlap by'} {abs(gap):.4g} modules" in words(train)
+
+
+def test_tips_of_helical_planets_are_counted_across_the_axis() -> None:
+    """In transverse modules an addendum is 1/cos(helix) times lower; lengths are in mm of 2/cos(20 deg)."""
+    wheels = (f"{{teeth: {z}, module: 2 mm, helix_angle: 20 deg, hand: {hand}}}" for z, hand in
+              ((31, "left"), (39, "right")))  # fmt: skip
+    train = around(5, *wheels, "{form: involute, addendum: 1.06}")
+    gap = 70 * sin(pi / 5) - 39 - 2 * 1.06 * cos(LEAN)
+    assert found(train) == [("A3", "note")]
+    assert f"leave only {gap * 2 / cos(LEAN):.4g} mm" in words(train)
+
+
+@pytest.mark.parametrize("number", [4, 5, 6, 7, 8])
+def test_teeth_that_are_not_declared_may_be_shorter(number: int) -> None:
+    """A note as far down as an addendum of half a module, and the addendum at which they fit is named."""
+    draw, seen = random.Random(number), set()
+    for _ in range(60):
+        sun, planet = draw.randint(8, 30), draw.randint(8, 40)
+        fits = ((sun + planet) * sin(pi / number) - planet) / 2
+        if abs(fits - 0.5) < 1e-6 or abs(fits - 1) < 1e-6:
+            continue
+        expected = [] if fits >= 1.1 else [("A3", "note" if fits > 0.5 else "error")]
+        train = around(number, sun, planet)
+        assert found(train) == expected, (sun, planet)
+        seen.add(fits > 0.5)
+        named = f"unless their addenda are at most {floor(fits * 1000) / 1000:g};"
+        assert (named in words(train)) == (0.5 < fits < 1), (sun, planet, fits)
+    assert seen == {True, False}
+
+
+def test_planets_with_shorter_teeth_have_room_elsewhere() -> None:
+    """Five of 15 about 13: 1/56 turn apart they need 11 steps at addendum 1/2 and 12 at addendum 1, and 5 * 12 > 56."""
+    steps = [ceil(56 * asin((15 + 2 * height) / 28) / pi) for height in (0.5, 1)]
+    assert steps == [11, 12]
+    assert found(planets(5, 13, 15, 43, module=None)) == [("A1", "note"), ("A3", "note")]
+    declared = planets(5, 13, 15, 43, module=None, more="tooth_form: involute")
+    assert found(declared) == [("A1", "error"), ("A3", "error")]
 
 
 MESHING = """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import pi, sin, sqrt
 from pathlib import Path
 
 import pytest
@@ -41,3 +42,23 @@ def test_a_stage_with_undeclared_profile_shifts_is_a_note() -> None:
 def test_shifts_of_that_sum_bring_the_axes_to_their_distance() -> None:
     text = case("03").read_text(encoding="utf-8") + "tooth_form: {form: involute, shift: [0.5, 0.595]}\n"
     assert [(found.rule, found.level) for found in load(text).build_findings] == [("P1", "note")]
+
+
+def test_tips_of_planets_end_where_their_declared_teeth_end() -> None:
+    """15 sin(36 deg) - 2 r, r^2 = R^2 (1 + 3 sin^2(pi/7)) of the epicycloid that half the pitch radius rolls."""
+    room = 15 * sin(pi / 5) - 7 * sqrt(1 + 3 * sin(pi / 7) ** 2)
+    result = call("check", case("01"))
+    assert result.exit_code == 0
+    assert f"the tips of 5 planets 'p7' leave only {room:.4g} modules" in result.output
+
+
+def test_tips_of_teeth_that_are_not_declared_are_a_note() -> None:
+    result = call("check", case("12"))
+    assert result.exit_code == 0
+    assert "overlap by 0.1832 modules unless their addenda are at most 0.908" in result.output
+
+
+@pytest.mark.parametrize(("addendum", "level"), [("0.9", "note"), ("0.92", "error")])
+def test_a_declared_addendum_decides_whether_they_fit(addendum: str, level: str) -> None:
+    text = case("12").read_text(encoding="utf-8") + f"tooth_form: {{form: involute, addendum: {addendum}}}\n"
+    assert [found.level for found in load(text).build_findings if found.rule == "A3"] == [level]

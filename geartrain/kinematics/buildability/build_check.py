@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.buildability.axis_kinds import check_kinds
@@ -12,7 +12,7 @@ from geartrain.kinematics.buildability.clutch_axes import check_clutches
 from geartrain.kinematics.buildability.equal_planets import check_planets
 from geartrain.kinematics.buildability.idle_wheels import check_mates
 from geartrain.kinematics.buildability.pitch_distances import PitchDistances
-from geartrain.kinematics.buildability.pitch_pairs import PitchPair, pitch_pairs
+from geartrain.kinematics.buildability.pitch_pairs import PairOutline, pitch_pairs
 from geartrain.kinematics.buildability.ring_mates import check_rings
 from geartrain.kinematics.buildability.skew_distances import check_skew
 from geartrain.kinematics.circuits import find_circuits, find_tree
@@ -23,7 +23,13 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 
-def check_build(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
+Outlines = Callable[[], Mapping[str, PairOutline]]
+"""The pairs with declared teeth as they are cut, by name; called only where tips of planets are compared."""
+
+
+def check_build(
+    train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
+) -> Iterator[BuildFinding]:
     """All that the declaration alone tells, rule by rule (docs/buildability.md)."""
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, pairs)
@@ -32,19 +38,18 @@ def check_build(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterat
     yield from sizes.findings
     yield from check_skew(train, tree, pairs, sizes)
     yield from check_triangles(sizes)
-    yield from _planets(train, tree, circuits, pairs, sizes)
+    yield from _planets(train, tree, circuits, sizes, outlines)
     yield from check_clutches(train, tree)
     yield from check_mates(train)
 
 
 def _planets(
-    train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair], sizes: PitchDistances
+    train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
 ) -> Iterator[BuildFinding]:
     """Of all planets, also where one is declared for several."""
     if has_copies(train):
         train = with_copies(train, tree)
         tree = find_tree(train)
         circuits = find_circuits(train, tree)
-        pairs = pitch_pairs(train, tree, circuits)
-        sizes = PitchDistances(train, tree, circuits, pairs)
-    yield from check_planets(train, tree, circuits, pairs, sizes)
+        sizes = PitchDistances(train, tree, circuits, pitch_pairs(train, tree, circuits))
+    yield from check_planets(train, tree, circuits, sizes, outlines)

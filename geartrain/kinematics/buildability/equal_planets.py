@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from math import asin, atan2, ceil, cos, pi, sin, sqrt, tau
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import asin, atan2, ceil, cos, floor, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding
+from geartrain.kinematics.buildability.pitch_pairs import SHIFT
 from geartrain.kinematics.buildability.planet_assembly import assembly_number, neighbour_terms, passing_terms
 from geartrain.kinematics.buildability.planet_sets import PlanetSet, TrainAssembly, corresponding
 from geartrain.numerics.vectors import dot, frame, minus
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.build_findings import BuildLevel
     from geartrain.kinematics.buildability.pitch_distances import PitchDistances
-    from geartrain.kinematics.buildability.pitch_pairs import PitchPair
+    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
     from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, Planet
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.train import Train
@@ -23,33 +25,27 @@ _MISS, _LITTLE = 0.1, 0.01  # pitches: more than any play takes up; less than an
 ON_ECCENTRIC = 0.25
 """Of the radius of a wheel: how far its axis may stand from that of its carrier for it to run on an eccentric."""
 _CLEAR = 0.2  # modules that neighbours should leave each other
+_FULL = 1.0  # addendum (modules) of teeth that are not declared
+_STUB = _FULL - float(SHIFT)  # the lowest that these may have
 
 
 def check_planets(
-    train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair], sizes: PitchDistances
+    train: Train,
+    tree: Tree,
+    circuits: Sequence[Circuit],
+    sizes: PitchDistances,
+    outlines: Callable[[], Mapping[str, PairOutline]],
 ) -> Iterator[BuildFinding]:
     """Rules A1 to A3, for sets of two planets and more that mesh with the same central wheels and have equal counts."""
     if len(train.gears) < 2:
         return
-    addenda = _addenda(pairs)
     for one in TrainAssembly(train, frozenset(), tree, tuple(circuits)).sets:
         copies = [copy for copy in one.copies if _is_equal(train, one, copy)]
         if one.planets is None or not copies or not all(mesh.spur for mesh in one.planets.central):
             continue
-        found = _EqualPlanets(train, tree, one, copies, sizes, addenda)
+        found = _EqualPlanets(train, tree, one, copies, sizes, outlines())
         yield from found.assembly()
         yield from found.room()
-
-
-def _addenda(pairs: Sequence[PitchPair]) -> Mapping[str, float]:
-    """Wheel -> the greatest addendum (modules) that its teeth have; 1 where none is declared."""
-    found: dict[str, float] = {}
-    for pair in pairs:
-        declared = getattr(pair.form, "addendum", None)
-        heights = [1.0, 1.0] if declared is None else [float(figure.value) for figure in declared]
-        for wheel, height in zip(pair.wheels, heights, strict=True):
-            found[wheel] = max(found.get(wheel, 0.0), height)
-    return found
 
 
 def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
@@ -67,10 +63,13 @@ class _EqualPlanets:
         one: PlanetSet,
         copies: Sequence[PlanetSet],
         sizes: PitchDistances,
-        addenda: Mapping[str, float],
+        outlines: Mapping[str, PairOutline],
     ) -> None:
         assert one.planets is not None
-        self.train, self.one, self.planet, self.sizes, self.addenda = train, one, one.planets, sizes, addenda
+        self.train, self.one, self.planet, self.sizes, self.outlines = train, one, one.planets, sizes, outlines
+        self.tips: dict[str, float] = {}  # of declared teeth; the outermost, where the pairs of a wheel require several
+        for wheel, tip in (each for outline in outlines.values() for each in outline.tips.items()):
+            self.tips[wheel] = max(tip, self.tips.get(wheel, 0.0))
         self.firsts = [self.planet.link, *(copy.planets.link for copy in copies if copy.planets is not None)]
         self.number = len(self.firsts)
         self.step = assembly_number(self.planet)
@@ -117,7 +116,7 @@ class _EqualPlanets:
 
     def _uneven(self, rule: str) -> BuildFinding:
         """Planets that cannot stand evenly: an error where they have no room elsewhere either."""
-        least = max((self._least_turn(planet) for planet in self.planet.walk()), default=0.0)
+        least = max((self._least_turn(planet, _STUB) for planet in self.planet.walk()), default=0.0)
         steps = max(1, ceil(least * self.step - 1e-9))
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
@@ -160,15 +159,14 @@ class _EqualPlanets:
             for mesh, other in planet.outward:
                 gap = self._passing(planet, other, mesh)
                 if gap is not None and gap < 0:
-                    pair = f"'{planet.own(mesh)}' and the '{other.own(mesh)}'"
-                    what = f"{pair} of the next of {self.number} equal sets overlap"
+                    wheels = planet.own(mesh), other.own(mesh)
+                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets overlap"
                     why = f"their tips would be {-gap:.4g} modules in each other"
-                    fix = "take fewer planets, or change their tooth counts"
-                    yield BuildFinding("A3", "error", Problem(what, why, fix, self.place))
+                    yield self._near(wheels, gap, what, why, "take fewer planets, or change their tooth counts")
 
     def _crowded(self, wheel: str, gap: float) -> BuildFinding:
-        module = self.sizes.module(wheel)
-        far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * float(module):.4g} mm"
+        module = self._module(wheel)
+        far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * module:.4g} mm"
         grave = gap <= 0
         what = f"the tips of {self.number} planets '{wheel}' " + (f"overlap by {far}" if grave else f"leave only {far}")
         why = "neighbours stand 2 a sin(pi/n) apart, less than their tip diameter" + (
@@ -176,20 +174,35 @@ class _EqualPlanets:
         )
         if self.points is not None:
             why = why.replace("2 a sin(pi/n) apart", "where they are placed")
-        problem = Problem(what, why, f"take at most {self._most()}, or smaller planets", self.place)
-        return BuildFinding("A3", "error" if grave else "note", problem)
+        most = self._most() if self.points is not None else min(self._most(), self.number - 1)
+        return self._near((wheel, wheel), gap, what, why, f"take at most {most}, or smaller planets")
+
+    def _near(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
+        """An error where tips overlap; a note where they do not, or where undeclared teeth can be made shorter."""
+        free = sum(wheel not in self.tips for wheel in wheels)
+        fits = _FULL + gap / free if free else 0.0
+        if gap <= 0 and fits >= _STUB:
+            what += f" unless their addenda are at most {floor(1000 * fits) / 1000:g}"
+            fix = f"declare a `tooth_form` with such an `addendum`, {fix}"
+        level: BuildLevel = "error" if gap <= 0 and fits < _STUB else "note"
+        return BuildFinding("A3", level, Problem(what, why, fix, self.place))
+
+    def _module(self, wheel: str) -> float | None:
+        """Transverse module (mm) of a wheel."""
+        module = self.sizes.module(wheel)
+        return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _gap(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
         """Room (modules) between the tips of a wheel of neighbouring planets."""
         tips = self._tips(planet, mesh)
         if self.points is not None and planet is self.planet and number == self.number:
-            module = self.sizes.module(planet.own(mesh))
+            module = self._module(planet.own(mesh))
             if module is None:
                 return None
             near = min(
                 sqrt((x - u) ** 2 + (y - v) ** 2) for at, (x, y) in enumerate(self.points) for u, v in self.points[:at]
             )
-            return near / float(module) - tips
+            return near / module - tips
         reach = self._reach(planet, planet.own(mesh))
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
@@ -199,25 +212,34 @@ class _EqualPlanets:
         reach, count = self._reach(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
-    def _tips(self, planet: Planet, mesh: AssemblyMesh) -> float:
-        """Tip diameter (modules) of a planet's wheel."""
+    def _tips(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
+        """Tip diameter (modules) of a planet's wheel, with this addendum where its teeth are not declared."""
         wheel = planet.own(mesh)
-        return (self.train.wheels[wheel][1].count or 0) + 2 * self.addenda.get(wheel, 1.0)
+        declared = self.tips.get(wheel)
+        return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
+
+    def _apart(self, mesh: AssemblyMesh) -> float:
+        """Twice the distance (modules) at which the wheels of a pair mesh."""
+        outline = self.outlines.get(mesh.name)
+        return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _reach(self, planet: Planet, wheel: str = "") -> float | None:
         """Twice the distance of a planet's axis from the central one, in modules of the wheel where it meets one."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
-        scale = self.sizes.sizes.ratio(("wheel", planet.own(meshes[0])), ("wheel", wheel or planet.own(meshes[0])))
-        return None if scale is None else float(sum(sign * int(part) for sign, part in meshes[0].terms) * scale)
+        own = planet.own(meshes[0])
+        wheel = wheel or own
+        scale = self.sizes.sizes.ratio(("wheel", own), ("wheel", wheel))
+        slants = [self.train.wheels[each][1].slant for each in (own, wheel)]
+        return None if scale is None else self._apart(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
         """Room (modules) between a planet and those that mesh with its neighbours; None where it is not known."""
         A, B = self._reach(planet, planet.own(mesh)), self._reach(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
             return None
-        D = float(sum(sign * int(part) for sign, part in mesh.terms))
+        D = self._apart(mesh)
         if not abs(A - B) <= D <= A + B:
             return None
         tips = self._tips(planet, mesh) + self._tips(other, mesh)
@@ -228,13 +250,13 @@ class _EqualPlanets:
             squares.append(sum(terms))
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
-    def _least_turn(self, planet: Planet) -> float:
-        """The least angle (turns) between neighbours that leaves their tips apart."""
+    def _least_turn(self, planet: Planet, addendum: float = _FULL) -> float:
+        """The least angle (turns) between neighbours that leaves their tips apart; `addendum` as of `_tips`."""
         found = 0.0
         for mesh in _once(planet):
             reach = self._reach(planet, planet.own(mesh))
             if reach:
-                found = max(found, 2 * asin(min(self._tips(planet, mesh) / reach, 1.0)) / tau)
+                found = max(found, 2 * asin(min(self._tips(planet, mesh, addendum) / reach, 1.0)) / tau)
         return found
 
     def _most(self) -> int:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.circuits import Axes, Circuit, Tree
@@ -18,11 +18,20 @@ if TYPE_CHECKING:
 SLACK = Fraction(1, 50)
 """Modules by which a distance may be off in any mesh: less than the play of any teeth that are cut."""
 
-_SHIFT = Fraction(1, 2)  # modules that shifted profiles gain or take without spoiling a pair of involute wheels
+SHIFT = Fraction(1, 2)
+"""Modules that shifted profiles gain or take without spoiling a pair of involute wheels."""
+
 _FREE = Fraction(
     1, 40
 )  # of a distance: what wheels of no declared size may differ by, as if cut at pitches of their own
 _LOOSE = Fraction(1, 20)  # of a distance: teeth that run at any distance and have sizes of their own
+
+
+class PairOutline(NamedTuple):
+    """A pair with declared teeth as it is cut: distance of its axes, tip radius by wheel (transverse modules)."""
+
+    distance: float
+    tips: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,9 +118,9 @@ class PitchPair:
         low = high = SLACK
         if form is None:
             sized = self.modules != (None, None)
-            low = high = low + (_SHIFT if sized else max(_SHIFT, _FREE * wanted))
+            low = high = low + (SHIFT if sized else max(SHIFT, _FREE * wanted))
         elif form.any_distance and form.conjugate:
-            low, high = (low + _SHIFT, high) if self.ring is not None else (low, high + _SHIFT)
+            low, high = (low + SHIFT, high) if self.ring is not None else (low, high + SHIFT)
         elif form.any_distance:
             low = high = _LOOSE * wanted
         return wanted - low, wanted + high

@@ -161,8 +161,10 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tips."""
-        return float(self.flank.r[-1])
+        """Radius of the tips; of pins, of what of them is outermost."""
+        if self.pins is not None and self.has_pins:
+            return self.pins.circle + self.pins.radius
+        return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
         """True if one wheel does for both."""
@@ -176,9 +178,7 @@ class ToothRequirement(WheelRequirement):
         for demand in demands:
             check_flat(demand.pair)
         if self.pins is not None and self.has_pins:
-            return CutTooth(
-                "pins", self.pins.circle + self.pins.radius, self.pins.circle - self.pins.radius, (), self.pins
-            )
+            return CutTooth("pins", self.tip, self.pins.circle - self.pins.radius, (), self.pins)
         return _cut(tuple(dict.fromkeys(demands)))
 
     @property

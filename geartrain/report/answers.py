@@ -178,7 +178,8 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "published figure": [each.published_holds for each in results if each.published_holds is not None],
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
     }
-    named = " and ".join(f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held)
+    each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
+    named = " and ".join(each).replace(" and ", ", ", len(each) - 2)
     total = sum(map(len, kinds.values()))
     if failed := sum(held.count(False) for held in kinds.values()):
         return f"{failed} of {named} FAIL{'S' if failed == 1 else ''}"

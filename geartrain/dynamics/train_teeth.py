@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 from geartrain.dynamics.gear_meshes import find_sizes
@@ -21,6 +22,7 @@ from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT, WORDS, escape_toot
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 from geartrain.teeth.outlines.wave_tooth import WAVE, wave_tooth
 from geartrain.teeth.outlines.wave_tooth import WORDS as WAVE_WORDS
+from geartrain.teeth.outlines.wheel_requirement import PairRequirement, disagreement
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
 
 if TYPE_CHECKING:
@@ -28,12 +30,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.meshing_wheels import DeclaredPair
-    from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.standard_teeth import StandardTeeth
     from geartrain.train import GearPair, Train, Wheel
 
 STANDARD = "standard"
-_SAME = 1e-9  # modules
 
 
 class ToothedTrain(Protocol):
@@ -71,6 +71,7 @@ class PairPlay:
     """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels.
 
     contact_ratio   of conjugate teeth that stand where they are made for; None of others
+    more_contact    what raises it
     """
 
     pair: str
@@ -78,6 +79,7 @@ class PairPlay:
     length: float
     angles: tuple[float, float]
     contact_ratio: float | None = None
+    more_contact: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,14 +113,9 @@ def find_train_teeth(
     return _Toothing(train, places, play, apart).all()
 
 
-@dataclass(frozen=True)
-class _Asked:
-    """What a pair asks of a wheel."""
-
-    pair: str
-    form: str
-    words: str
-    requirement: WheelRequirement
+def find_disagreements(train: ToothedTrain, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
+    """By wheel that lies in a plane, why no teeth suit all of its pairs that declare a form."""
+    return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
 class _Toothing:
@@ -139,7 +136,6 @@ class _Toothing:
                 self.pairs[wheel].append(gear)
         self.waves = {gear.name for gear in self.declared.gears if self._is_wave(gear)}
         self.shaped = {name for name in self.pairs if any(self._mesh(gear) is not None for gear in self.pairs[name])}
-        self.standard = self._standard()
 
     def _wheel(self, name: str) -> Wheel:
         return self.declared.wheels[name][1]
@@ -161,7 +157,9 @@ class _Toothing:
 
     # -------------------------------------------------------------------------------------------- teeth nobody declares
 
-    def _standard(self) -> dict[str, StandardTeeth]:
+    @cached_property
+    def standard(self) -> dict[str, StandardTeeth]:
+        """Of the wheels of pairs without a form."""
         free = (name for name in self.pairs if name not in self.shaped and not self._waved(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
@@ -171,7 +169,7 @@ class _Toothing:
         wheel = self._wheel(name)
         return UndeclaredWheel(wheel.count or 1, wheel.internal)
 
-    def _standard_asked(self, name: str) -> Iterator[_Asked]:
+    def _standard_asked(self, name: str) -> Iterator[PairRequirement]:
         own, teeth = self._gear(name), self.standard[name]
         mates = [(gear, self._mate(gear, name)) for gear in self.pairs[name]]
         if shaped := next(((gear, mate) for gear, mate in mates if mate in self.shaped and self._is_flat(mate)), None):
@@ -181,7 +179,7 @@ class _Toothing:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
             pair = conjugate_pair_of(form, wheels)  # refuses wheels that no teeth fit, before sizes are asked
             required = ToothRequirement(pair, at, CHORD, max(form.bottom_clearance(wheels, at), 0.0))
-            yield _Asked(name_of_pair, STANDARD, teeth.words, required)
+            yield PairRequirement(name_of_pair, STANDARD, teeth.words, required)
 
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
@@ -196,13 +194,13 @@ class _Toothing:
 
     # ------------------------------------------------------------------------------------------------ declared forms
 
-    def _declared_asked(self, name: str) -> Iterator[_Asked]:
+    def _declared_asked(self, name: str) -> Iterator[PairRequirement]:
         """Pairs in one plane; a crown wheel is taken for a spur wheel only where nothing better is to be had."""
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
         for mesh in flat or meshes:
             scale = self.sizes[mesh.name].scale if mesh.name in self.sizes else 1.0
-            yield _Asked(mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scale, CHORD))
+            yield PairRequirement(mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scale, CHORD))
 
     @staticmethod
     def _mate(gear: DeclaredPair, name: str) -> str:
@@ -229,7 +227,7 @@ class _Toothing:
         flat = frozenset(name for name in self.pairs if self._is_flat(name))
         return TrainTeeth(found, problems, likenesses, flat, tuple(self._plays(found)))
 
-    def _asked(self, name: str) -> list[_Asked]:
+    def _asked(self, name: str) -> list[PairRequirement]:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm's wheel"
@@ -240,10 +238,10 @@ class _Toothing:
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
         if not self.pairs[name] and (turning := self._let_through(name)):
-            return [_Asked("", ESCAPEMENT, WORDS, escape_tooth(wheel.count or 1, turning))]
+            return [PairRequirement("", ESCAPEMENT, WORDS, escape_tooth(wheel.count or 1, turning))]
         if waved := self._waved(name):
             tooth = wave_tooth(wheel.count or 1, self._standard_play(name), wheel.internal)
-            return [_Asked(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]
+            return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]
         return list(self._declared_asked(name) if name in self.shaped else self._standard_asked(name))
 
     def _let_through(self, name: str) -> int:
@@ -257,13 +255,24 @@ class _Toothing:
             speed = None
         return -1 if speed is not None and speed < 0 else 1
 
-    def _one(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
-        for other in asked[1:]:
-            if not asked[0].requirement.agrees(other.requirement):
-                raise _at_odds(asked[0], other)
+    def disagreements(self) -> Mapping[str, Problem]:
+        """By wheel with declared teeth, why its pairs do not agree on them."""
+        found = {}
+        for name in self.pairs:
+            try:
+                problem = disagreement(self._asked(name)) if name in self.shaped else None
+            except GearTrainError:
+                continue  # faulty teeth, or teeth in no plane
+            if problem is not None:
+                found[name] = problem
+        return found
+
+    def _one(self, name: str, asked: Sequence[PairRequirement]) -> WheelTeeth:
+        if problem := disagreement(asked):
+            raise GearTrainError(problem)
         return self._cut(name, asked)
 
-    def _cut(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
+    def _cut(self, name: str, asked: Sequence[PairRequirement]) -> WheelTeeth:
         first, *others = asked
         cut = first.requirement.cut([each.requirement for each in others])
         z = self._wheel(name).count or 1
@@ -279,17 +288,20 @@ class _Toothing:
                 radii = [(self._wheel(name).count or 0) / 2 for name in gear.pair]
                 angles = arc / radii[0], arc / radii[1]
                 size = self.places[gear.pair[0]].module
-                yield PairPlay(gear.name, gear.pair, arc * size, angles, self._contact_ratio(gear))
+                yield PairPlay(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
-    def _contact_ratio(self, gear: GearPair) -> float | None:
+    def _contact(self, gear: GearPair) -> tuple[float | None, str]:
+        """Contact ratio of conjugate teeth at their own distance, and what raises it; None of others."""
         mesh = self._mesh(gear)
-        if gear.name in self.waves:
-            return None
-        if gear.name in self.apart or mesh is not None:
-            return mesh.path.contact_ratio if isinstance(mesh, ConjugateMesh) and gear.name not in self.apart else None
+        if gear.name in self.waves or gear.name in self.apart:
+            return None, ""
+        if isinstance(mesh, ConjugateMesh):
+            return mesh.path.contact_ratio, mesh.tooth_form.more_contact
+        if mesh is not None:
+            return None, ""
         first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
         form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
-        return conjugate_pair_of(form, wheels).path.contact_ratio
+        return conjugate_pair_of(form, wheels).path.contact_ratio, form.more_contact
 
     def _play(self, gear: GearPair) -> float | None:
         """Of a pair as it stands, along the pitch circles (modules); None where it does not stand as its law has it."""
@@ -307,23 +319,6 @@ class _Toothing:
         first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
         form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
         return form.play_apart(wheels, gap)
-
-
-def _at_odds(first: _Asked, other: _Asked) -> GearTrainError:
-    tips = [each.requirement.tip for each in (first, other)]
-    if first.words != other.words:
-        how = f"{first.words} teeth and {other.words} teeth"
-    elif abs(tips[0] - tips[1]) > _SAME * tips[0]:
-        how = f"tips {tips[0]:.6g} and {tips[1]:.6g} modules from the axis"
-    else:
-        how = f"{first.words} flanks of two shapes"
-    return GearTrainError(
-        Problem(
-            f"its pairs '{first.pair}' and '{other.pair}' ask for different teeth",
-            f"they want {how}, and a wheel is cut once",
-            "declare teeth that run with both mates, or give each of them a wheel of its own",
-        )
-    )
 
 
 def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrainError:

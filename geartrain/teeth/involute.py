@@ -47,6 +47,7 @@ class Involute(ConjugateToothForm):
     """
 
     any_distance: ClassVar[bool] = True
+    more_contact: ClassVar[str] = "take more teeth, taller ones, or a smaller pressure angle"
 
     form: Literal["involute"] = Field(description="The name of this form")
     pressure_angle: Angle = Field("20 deg", validate_default=True, description="Pressure angle of the rack")

@@ -57,6 +57,9 @@ class ToothForm(BaseModel, ABC):
     conjugate: ClassVar[bool] = False
     """True for teeth designed by a path of contact: for rings and cones too, their roots left to who cuts them."""
 
+    more_contact: ClassVar[str] = "declare longer `arcs`"
+    """What raises the contact ratio of conjugate teeth, as a fix."""
+
     ringed: ClassVar[bool] = False
     """True for teeth whose second wheel is a ring."""
 

@@ -283,6 +283,33 @@ def test_the_readme_begins_with_the_verdict_and_has_a_row_for_every_mesh() -> No
     assert all(0.1 <= float(row[1]) <= 0.105 for row in rows)
 
 
+@pytest.mark.parametrize(
+    ("form", "better", "advice"),
+    [
+        ("form: cycloidal", "form: cycloidal, arcs: 0.6", "declare longer `arcs`"),
+        ("form: uniform_stress", "form: uniform_stress, arcs: 0.6", "declare longer `arcs`"),
+        (
+            "form: involute, addendum: 0.7, pressure_angle: 25 deg",
+            "form: involute, addendum: 0.7",
+            "take more teeth, taller ones, or a smaller pressure angle",
+        ),
+    ],
+)
+def test_what_raises_a_low_contact_ratio_is_a_parameter_of_the_form(form: str, better: str, advice: str) -> None:
+    """A note whose fix cures it: half a pitch on either side is a ratio of 1 exactly, 0.6 are 1.2."""
+    notes = []
+    for each in (form, better):
+        model = declared(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 30}}}}, b: {{wheels: {{w: 40}}}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+gears: [p ~ w]
+inputs: {{a: 1}}
+tooth_form: {{{each}, backlash: 0.05}}
+""")
+        notes.append([found.problem.fix for found in prove_train(model).findings if found.rule == "T3"])
+    assert notes == [[advice], []]
+
+
 def test_what_check_says_stands_in_the_verdict_with_its_rule() -> None:
     """Seven planets stand in two layers where no tips meet; what the declaration says is told all the same."""
     model = declared("""

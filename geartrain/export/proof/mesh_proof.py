@@ -169,9 +169,9 @@ def prove_mesh(play: PairPlay, wheels: tuple[Blank, Blank], turned: TurnedPair) 
         module,
     )
     names, rolls = (wheels[0].wheel, wheels[1].wheel), wheels[1].pins is not None
+    findings = _findings(play, proof, found, turned, names)
     return replace(
-        proof,
-        findings=tuple(each for each in _findings(proof, found, turned, names) if not (rolls and each.rule == "T2")),
+        proof, findings=tuple(each for each in findings if not (rolls and each.rule == "T2"))
     )  # the bottom between two lobes is itself a flank, as near to pins as its play is small
 
 
@@ -195,7 +195,9 @@ def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
     return float(shapely.length(shapely.intersection(circle, material))) / teeth
 
 
-def _findings(proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tuple[str, str]) -> Iterator[BuildFinding]:
+def _findings(
+    play: PairPlay, proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tuple[str, str]
+) -> Iterator[BuildFinding]:
     pair, module = f"pair '{proof.pair}'", proof.module
     if found.place is not None:
         where = turned.words(found.place, names)
@@ -222,7 +224,7 @@ def _findings(proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tupl
             if ratio < _WHOLE
             else "little is left for wear and distance"
         )
-        yield BuildFinding("T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, _MORE))
+        yield BuildFinding("T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, play.more_contact))
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
         yield BuildFinding("T4", "note", Problem(what, "so narrow they burn or break", "shorten the addendum"))
@@ -231,7 +233,6 @@ def _findings(proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tupl
 _STUCK = "it cannot turn"
 _LOOSER = "give more backlash, shorter addenda, or another distance"
 _NEARER = "bring the axes nearer, or take taller teeth"
-_MORE = "take more teeth, taller ones, or a smaller pressure angle"
 
 
 def _error(rule: str, what: str, why: str, fix: str) -> BuildFinding:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import tan
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 class ConjugateDetails(NamedForm, Protocol):
     """What such a mesh asks of its form besides the name: see the methods of the form."""
+
+    more_contact: ClassVar[str]
+    """What raises the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
         """What is free under the mate's tip (modules)."""

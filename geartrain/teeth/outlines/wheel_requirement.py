@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from geartrain.errors import Problem
+
 if TYPE_CHECKING:
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
@@ -82,3 +84,34 @@ class FixedTooth(WheelRequirement):
         """The tooth itself."""
         del others
         return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth, self.pins)
+
+
+@dataclass(frozen=True)
+class PairRequirement:
+    """What a pair requires of a wheel: its name, the form of its teeth and that form in words, and the teeth."""
+
+    pair: str
+    form: str
+    words: str
+    requirement: WheelRequirement
+
+
+def disagreement(asked: Sequence[PairRequirement]) -> Problem | None:
+    """Why one wheel does not do for all its pairs; None where it does."""
+    odd = (other for other in asked[1:] if not asked[0].requirement.agrees(other.requirement))
+    return next((_at_odds(asked[0], other) for other in odd), None)
+
+
+def _at_odds(first: PairRequirement, other: PairRequirement) -> Problem:
+    tips = [each.requirement.tip for each in (first, other)]
+    if first.words != other.words:
+        how = f"{first.words} teeth and {other.words} teeth"
+    elif abs(tips[0] - tips[1]) > SAME_SIZE * tips[0]:
+        how = f"tips {tips[0]:.6g} and {tips[1]:.6g} modules from the axis"
+    else:
+        how = f"{first.words} flanks of two shapes"
+    return Problem(
+        f"its pairs '{first.pair}' and '{other.pair}' ask for different teeth",
+        f"they want {how}, and a wheel is cut once",
+        "declare teeth that run with both mates, or give each of them a wheel of its own",
+    )

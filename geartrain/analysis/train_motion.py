@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.train_kinematics import TrainKinematics, of_planets_as_one
@@ -68,15 +69,21 @@ class TrainMotion(TrainKinematics):
         """What of the train cannot be built, and what is unwise, by the declaration alone (docs/buildability.md)."""
         from geartrain.kinematics.buildability.build_check import check_build
 
-        return tuple(check_build(self.declaration, self.tree, self.circuits, lambda: self._outlines))
+        found = tuple(check_build(self.declaration, self.tree, self.circuits, lambda: self._outlines))
+        if not self._cuts_teeth:
+            return found
+        from geartrain.dynamics.cut_teeth import find_odd_wheels
+
+        return (*found, *find_odd_wheels(self))
 
     @property
-    def _has_forms(self) -> bool:
-        return any(self.declaration.form_of(gear) for gear in self.declaration.gears)
+    def _cuts_teeth(self) -> bool:
+        """True where pairs declare forms, and numpy is there: a page that answers in a browser goes without."""
+        return any(map(self.declaration.form_of, self.declaration.gears)) and find_spec("numpy") is not None
 
     @cached_property
     def _outlines(self) -> Mapping[str, PairOutline]:
-        if not self._has_forms:
+        if not self._cuts_teeth:
             return {}
         from geartrain.dynamics.gear_meshes import find_outlines
 

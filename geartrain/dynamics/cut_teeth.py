@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
-from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth, find_train_teeth
-from geartrain.errors import GearTrainError
+from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth, find_disagreements, find_train_teeth
+from geartrain.errors import GearTrainError, Problem
+from geartrain.kinematics.buildability import BuildFinding
 from geartrain.train import Train, Wheel
 
 
@@ -39,12 +41,28 @@ def find_modules(declared: Train) -> Mapping[str, float]:
 
 def find_cut_teeth(train: ToothedTrain) -> TrainTeeth:
     """The teeth (modules) of all wheels that lie in a plane, and why others have none; none where a form is faulty."""
-    declared = train.declaration
-    places = {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
+    places = _places(train.declaration)
     try:
         return find_train_teeth(train, places)
     except GearTrainError as error:
         return TrainTeeth({}, dict.fromkeys(places, error.problems), {}, frozenset(), ())
+
+
+def find_odd_wheels(train: ToothedTrain) -> Iterator[BuildFinding]:
+    """Rule W3 of a declaration: the pairs of a wheel agree on its teeth."""
+    declared = train.declaration
+    for name, problem in find_disagreements(train, _places(declared)).items():
+        place = declared.place("links", declared.wheels[name][0], "wheels", name)
+        yield BuildFinding("W3", "note", replace(not_cut(name, problem), place=place))
+
+
+def not_cut(wheel: str, problem: Problem) -> Problem:
+    """Why a wheel is not cut, with its name."""
+    return replace(problem, what=f"wheel '{wheel}' is not cut: {problem.what}")
+
+
+def _places(declared: Train) -> Mapping[str, _Place]:
+    return {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:

@@ -331,7 +331,10 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
         from geartrain.export.step_file import left_out
 
         found += left_out(work)
-    return list(dict.fromkeys(found))
+    once: dict[str, Problem] = {}
+    for problem in found:
+        once.setdefault(problem.text, problem)
+    return [*once.values()]
 
 
 def kind_of(name: str) -> str:

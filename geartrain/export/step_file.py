@@ -41,7 +41,7 @@ def to_step(work: SolidModel) -> bytes:
 
 def left_out(work: SolidModel) -> tuple[Problem, ...]:
     """The parts without an exact form."""
-    why = "its teeth lie in no plane, and a likeness in triangles is no exact form"
+    why = "it is a likeness in triangles, not an exact form"
     return tuple(
         Problem(f"'{part.name}' is left out of the STEP file", why, "take the GLB or the STL")
         for part in work.parts

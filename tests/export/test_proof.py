@@ -332,6 +332,15 @@ inputs: {sun: 1}
     assert text.count("the tips of 7 planets") == 1
 
 
+def test_check_and_export_have_one_sentence_for_a_wheel_that_no_tooth_suits() -> None:
+    """A note on the declaration, in the way of what is cut from it, and once among what the files do not show."""
+    (noted,) = geartrain.load("lantern-mill").build_findings
+    assert (noted.rule, noted.level) == ("W3", "note")
+    text = export_files(work("lantern-mill"), ["svg", "stl"])[-1].make().decode()
+    assert f"- {noted.text}\n" in text.split("In the way:")[1].split("Noted:")[0]
+    assert text.count("ask for different teeth") == 2
+
+
 def test_what_is_made_by_hand_is_listed_apart() -> None:
     text = export_files(work("lantern-mill"), ["svg"])[-1].make().decode()
     listed = text.split("to be made by hand:\n\n")[1].split("\n\n")[0].splitlines()

@@ -457,6 +457,34 @@ def test_a_wheel_that_meshes_nothing_is_noted() -> None:
     assert found(spare + "escapement: {link: a, teeth: 30, beat: 1 s}") == [("W1", "note")]
 
 
+# ------------------------------------------------------------------------------------------------------------------- W3
+
+
+@pytest.mark.parametrize(
+    ("counts", "first", "second", "how"),
+    [
+        ((20, 40), "{form: involute}", "{form: involute}", ""),  # one flank for all mates
+        ((20, 40), "{form: involute, backlash: 0.1}", "{form: involute, addendum: [1, 0.9], backlash: 0.1}", ""),
+        ((20, 40), "{form: involute}", "{form: involute, pressure_angle: 25 deg}", "involute flanks of two shapes"),
+        ((20, 40), "{form: involute}", "{form: involute, addendum: [1.2, 1]}", "tips 16 and 16.2 modules"),
+        ((20, 40), "{form: involute}", "{form: cycloidal}", "involute teeth and cycloidal teeth"),
+        # epicycloids that circles of a quarter of the mate's teeth roll
+        ((20, 20), "{form: cycloidal}", "{form: cycloidal}", ""),
+        ((20, 40), "{form: cycloidal, addendum: 0.3}", "{form: cycloidal, addendum: 0.3}", "cycloidal flanks of two"),
+        ((20, 40), "", "{form: cycloidal}", ""),  # a pair without a form asks for nothing
+    ],
+)
+def test_a_wheel_has_teeth_of_one_shape(counts: tuple[int, int], first: str, second: str, how: str) -> None:
+    forms = (f", tooth_form: {form}" if form else "" for form in (first, second))
+    text = CHAIN.format(a=counts[0], c=counts[1], more="")
+    for named, form in zip(("[a, b]", "[b, c]"), forms, strict=True):
+        text = text.replace(f"{{pair: {named}}}", f"{{pair: {named}{form}}}")
+    assert found(text) == ([("W3", "note")] if how else [])
+    if how:
+        assert "wheel 'b' is not cut: its pairs 'a~b' and 'b~c' ask for different teeth; they want" in words(text)
+        assert how in words(text)
+
+
 # ------------------------------------------------------------------------------------------------------- the same words
 
 

@@ -62,3 +62,11 @@ def test_tips_of_teeth_that_are_not_declared_are_a_note() -> None:
 def test_a_declared_addendum_decides_whether_they_fit(addendum: str, level: str) -> None:
     text = case("12").read_text(encoding="utf-8") + f"tooth_form: {{form: involute, addendum: {addendum}}}\n"
     assert [found.level for found in load(text).build_findings if found.rule == "A3"] == [level]
+
+
+def test_a_wheel_with_two_flanks_is_named_by_check_and_report() -> None:
+    sentence = "wheel 'n40' is not cut: its pairs 'n30~n40' and 'n40~n50' ask for different teeth"
+    checked, reported = call("check", case("06")), call("report", case("06"))
+    assert checked.exit_code == reported.exit_code == 0
+    assert f"{sentence}; they want involute flanks of two shapes" in checked.output
+    assert sentence in " ".join(reported.output.split())

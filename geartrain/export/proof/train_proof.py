@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from geartrain.errors import MissingExtraError, Problem
+from geartrain.dynamics.cut_teeth import not_cut
+from geartrain.errors import MissingExtraError
 from geartrain.export.proof.link_freedom import LinkFreedom, prove_freedom
 from geartrain.export.proof.mesh_proof import MeshProof, paired_wheels, prove_mesh, read_wheels
 from geartrain.export.proof.solid_proof import pose_count, prove_solids
@@ -100,7 +101,10 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     names = {pair: (wheels[0].wheel, wheels[1].wheel) for pair, (_, wheels, _) in paired.items()}
     freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
     watch()
-    findings = [*work.sized.build_findings, *_uncut(work), *_frame(work), *cut.findings]
+    uncut = [*_uncut(work)]
+    named = {found.problem.what for found in uncut}  # where they are notes on the declaration too, the error counts
+    findings = [found for found in work.sized.build_findings if found.problem.what not in named]
+    findings += [*uncut, *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
     findings += [*prove_waves(work, cut), *freedom.findings, *prove_solids(work, watch)]
     ranked = sorted(findings, key=lambda found: not found.is_error)
@@ -126,8 +130,7 @@ def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
     for name, problems in blanks.uncut.items():
         flat = name in blanks.flat
         for problem in problems:
-            told = Problem(f"wheel '{name}' is not cut: {problem.what}", problem.why, problem.fix, problem.place)
-            yield BuildFinding("W3", "error" if flat else "note", told)
+            yield BuildFinding("W3", "error" if flat else "note", not_cut(name, problem))
 
 
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.dynamics.cut_teeth import not_cut
 from geartrain.dynamics.train_teeth import PairPlay, find_train_teeth
 from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
@@ -82,7 +83,7 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
     for name, problems in toothed.problems.items():
-        notices += [replace(each, what=f"wheel '{name}': {each.what}", place="") for each in problems]
+        notices += [replace(not_cut(name, each), place="") for each in problems]
     for name, toothing in toothed.wheels.items():
         wheel, blank = train.declaration.wheels[name][1], _blank(toothing, layout.wheels[name])
         if name not in mated and blank.kind == "external":

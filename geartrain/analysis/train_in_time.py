@@ -285,7 +285,7 @@ class TrainInTime(TrainDynamics):
             rate *= problem.way
         heavy = find_link_inertias(self, case, with_inputs=True)
         inertia = {each.link: each.value for each in heavy if each.value}
-        found = find_time_case(self.declaration, case, problem, inertia, rate, restitution, scale)
+        found = find_time_case(self.declaration, case, problem, self.tree, inertia, rate, restitution, scale)
         if yields:
             return YieldingTrain(self.declaration, problem, found, self.tree, case.state, restitution=restitution)
         return TrainModel(self.declaration, problem, found, self.tree, case.state)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Protocol
 from geartrain.dynamics.gear_meshes import find_sizes
 from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
 from geartrain.errors import GearTrainError, Problem
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.numerics.containers import FrozenDict
 from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
@@ -27,6 +28,7 @@ from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lo
 
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.circuits import Tree
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.meshing_wheels import DeclaredPair
@@ -46,6 +48,14 @@ class ToothedTrain(Protocol):
     @property
     def meshes(self) -> tuple[GearMesh, ...]:
         """The gear pairs with real teeth."""
+
+    @property
+    def tree(self) -> Tree:
+        """Its turning pairs."""
+
+    @property
+    def signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels."""
 
     def state_or_first(self, state: str | None) -> str | None:
         """The first state, where none is named."""
@@ -250,7 +260,8 @@ class _Toothing:
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
             return 0
         try:
-            speed = self.train.solve(self.train.state_or_first(None)).speeds.get(link)
+            speeds = self.train.solve(self.train.state_or_first(None)).speeds
+            speed = relative_speed(link, self.train.tree.top[link], speeds.get, self.train.signs)
         except GearTrainError:
             speed = None
         return -1 if speed is not None and speed < 0 else 1

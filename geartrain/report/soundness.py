@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.report.answers import expectations_met, result_words
 from geartrain.report.document import exact, figure, ppm
 
@@ -116,22 +117,29 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
-    """States in which the link of the escapement turns at another speed than its beat gives it."""
+    """States in which the link of the escapement turns at another speed than its beat gives it.
+
+    Pallets ride on the link that bears the escape wheel: its speed relative to that link counts.
+    """
     declared = train.declaration
     escapement = declared.escapement
     if escapement is None:
         return
+    bearer = train.tree.top[escapement.link]
+    seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         second = _turns_a_second(declared, answer)
         if not answer.verdict or second is None:
             continue
-        speed = abs(Fraction(answer[escapement.link]) * second)
+        speeds = {link: Fraction(answer[link]) for link in (escapement.link, bearer)}
+        speed = abs(relative_speed(escapement.link, bearer, speeds.__getitem__, train.signs) * second)
         if abs(speed - escapement.speed) > escapement.speed / 10**9:
             state = f"state {answer.state}: " if answer.state is not None else ""
             beat = f"half a tooth of {escapement.teeth} every {escapement.beat} is {figure(escapement.speed)} turn/s"
             yield (
                 f"{declared.place('escapement')}: {state}{beat}, and '{escapement.link}' is to turn at {figure(speed)} "
-                f"turn/s: its beat would be {figure(1 / (2 * escapement.teeth * speed)) if speed else 'endless'} s"
+                f"turn/s{seen}: its beat would be "
+                f"{figure(1 / (2 * escapement.teeth * speed)) if speed else 'endless'} s"
             )
 
 

@@ -166,6 +166,8 @@ class Drive(Declared):
 class Escapement(Declared):
     """It lets one link pass by half a tooth a beat, and no more: a limit from one side.
 
+    The angle is relative to the link that bears the escape wheel, on which its pallets ride.
+
     See Also
     --------
     Train : holds it as `escapement`
@@ -202,7 +204,7 @@ class Escapement(Declared):
 
     @property
     def speed(self) -> Fraction:
-        """Mean speed of its link [turn/s]: half a tooth a beat."""
+        """Mean speed of its link relative to the one that bears it [turn/s]: half a tooth a beat."""
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:

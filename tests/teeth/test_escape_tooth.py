@@ -73,6 +73,31 @@ def test_the_escape_wheel_of_a_train_leans_the_way_it_turns(name: str) -> None:
     assert scene.profiles[drawn.profile].form == "escapement"
 
 
+# a pinion of 12 in a ring of 120, carried round at 1: relative to its carriage it turns 10 times as fast as the ring
+@pytest.mark.parametrize(("ring", "speed", "passed"), [("9/10", 0, -1), ("19/20", 0.5, -0.5), ("11/10", 2, 1)])
+def test_a_carried_escape_wheel_leans_the_way_it_turns_relative_to_its_carriage(
+    ring: str, speed: float, passed: float
+) -> None:
+    train = load(
+        f"""
+frame: plate
+links:
+  plate: {{}}
+  ring: {{wheels: {{r: {{teeth: 120, internal: true}}}}}}
+  carriage: {{}}
+  escape: {{wheels: {{e: 12, points: 20}}}}
+revolutes: {{C: [plate, ring, carriage], E: [carriage, escape]}}
+gears: [r ~ e]
+inputs: {{carriage: 1, ring: {ring}}}
+escapement: {{link: escape, teeth: 20, beat: 1 s}}
+"""
+    )
+    assert train.solve()["escape"] == speed
+    (blank,) = (each for each in SolidModel(train, ManufacturingSizes()).blanks.wheels.values() if each.teeth == 20)
+    leaning = lean(blank.contours[0].points[:4], blank.tip_radius, blank.root_radius, 1 if passed > 0 else -1)
+    assert leaning == pytest.approx(6.0, abs=1e-9)
+
+
 def test_a_wheel_without_mate_is_a_disc_where_no_escapement_names_it() -> None:
     train = load("price-1974")
     work = SolidModel(train, ManufacturingSizes())

@@ -11,7 +11,10 @@ from geartrain.dynamics.pair_speeds import radians_per_second
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.kinematics.circuits import Tree
     from geartrain.numerics.quantity import Quantity
     from geartrain.train import Drive, StateCase, Train
 
@@ -53,7 +56,7 @@ class TimeCase:
     load          torques on links (N m)
     restitution   of pairs
     clearance     of pins in their slots (m)
-    escapements   by link: angle (rad) and time (s) of a beat
+    escapements   by link: angle (rad) about the link that bears it, and time (s) of a beat
     """
 
     drive: PowerInput
@@ -71,6 +74,7 @@ def find_time_case(
     train: Train,
     case: StateCase,
     problem: MotionProblem,
+    tree: Tree,
     inertia: Mapping[str, float],
     rate: float | None = None,
     restitution: float | None = None,
@@ -82,16 +86,17 @@ def find_time_case(
     """
     links = {name: link for name, link in train.links.items() if name != train.frame}
     given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
-    turning = rate if rate is not None else _declared_rate(train, case, problem, scale)
     escapement = train.escapement
+    passed = None if escapement is None else problem.seen_ratio(escapement.link, tree.top[escapement.link])
+    turning = rate if rate is not None else _declared_rate(train, case, problem, passed, scale)
     bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
     if escapement is not None:
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
     drive = _power_input(train, case, None if rate is not None else case.drive, problem, turning)
-    if drive.kind == "rate":
-        _refuse_rate_beyond_beats(train, problem, drive)
+    if drive.kind == "rate" and passed:
+        _refuse_rate_beyond_beats(train, problem, drive, passed)
     return TimeCase(
         drive,
         turning,
@@ -109,29 +114,34 @@ def find_time_case(
     )
 
 
-def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput) -> None:
-    """Raises `QuestionError` where a speed is kept at which an escapement would have to let more than a tooth pass."""
+def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
+    """Raises `QuestionError` where a speed is kept at which an escapement would have to let more than a tooth pass.
+
+    passed   speed of the escape wheel relative to the link that bears it, over the lead's
+    """
     beats = train.escapement
     if beats is None or not problem.ratio(drive.link):
         return
-    per_turn = abs(float(problem.ratio(beats.link) / problem.ratio(drive.link)))
+    per_turn = abs(float(passed / problem.ratio(drive.link)))
     speed, most = abs(drive.rate) / tau, float(beats.speed)
     if speed * per_turn > most * (1 + _EQUAL):
         what = f"'{drive.link}' is kept at {speed:.6g} turn/s, which its escapement does not let pass"
         why = f"'{beats.link}' may make {most:.6g} turn/s in the mean, and would make {speed * per_turn:.6g}"
         lead = problem.lead
-        slow = most / abs(float(problem.ratio(beats.link)))
+        slow = most / abs(float(passed))
         fix = f"ask for {slow:.6g} turn/s of '{lead}' or less, or give no rate, but a `drive` by a weight or a spring"
         raise QuestionError(Problem(what, why, fix))
 
 
-def _declared_rate(train: Train, case: StateCase, problem: MotionProblem, scale: float | None) -> float:
+def _declared_rate(
+    train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
+) -> float:
     """Speed of the lead (rad/s): a declared rate, the escapement's, that of a hand, or else `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.lead])
-    if train.escapement is not None and problem.ratio(train.escapement.link):
-        return problem.way * tau * float(train.escapement.speed / abs(problem.ratio(train.escapement.link)))
+    if train.escapement is not None and passed:
+        return problem.way * tau * float(train.escapement.speed / abs(passed))
     hand = None if case.drive is None else case.drive.hand
     if hand is not None and hand.rate is not None:
         return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))

@@ -305,9 +305,10 @@ class TrainModel:
 
     def _stops(self) -> Iterator[Stop]:
         for link, (pitch, beat) in self.case.escapements.items():
-            way = -1 if self.typical(link) < 0 else 1
+            base = self.tree.top[link]  # pallets ride on what bears the escape wheel
+            way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
-            yield Stop(link, _sparse(way * self._form(link)), pitch, beat, restitution)
+            yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
 
     def _springs(self) -> Iterator[Spring]:
         drive = self.case.drive

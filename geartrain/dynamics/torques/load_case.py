@@ -112,6 +112,11 @@ class LoadCase:
         """What bears the axis that a link turns about, however its coaxial joints are declared."""
         return self.tree.top.get(link, link)
 
+    def reacts_on(self, link: str) -> str:
+        """What takes the reaction of a torque asked for at a link: pallets ride on what bears the escape wheel."""
+        escapement = self.train.escapement
+        return self.train.frame if escapement is None or link != escapement.link else self.bearer(link)
+
     def turn(self, circuit: Circuit) -> Fraction | None:
         """Speed of a circuit's first link seen from its carrier: where it is 0 no power flows between the two."""
         return self.relative(circuit.i, circuit.carrier)

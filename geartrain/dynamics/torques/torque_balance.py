@@ -9,7 +9,7 @@ driver's power in that frame times 1 - eta: never negative.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
@@ -124,6 +124,7 @@ class TorqueBalance:
     links     all links but the frame
     known     external torque by link: loads and friction of bearings; links not named have none
     unknown   links whose external torque is asked for
+    reactions by such a link, what takes the reaction of its torque if not the frame, and that of a torque of 1
     held      links held to the frame; `locks`, pairs of links that turn together, with the senses of both axes
     ties      groups of meshes with equal multipliers, as of equal planets
     shares    declared parts of the torque on a wheel
@@ -137,6 +138,7 @@ class TorqueBalance:
     locks: tuple[tuple[tuple[str, int], tuple[str, int]], ...] = ()
     ties: tuple[tuple[str, ...], ...] = ()
     shares: tuple[LoadShares, ...] = ()
+    reactions: Mapping[str, tuple[str, int]] = field(default_factory=dict)
 
     @cached_property
     def columns(self) -> tuple[TorqueUnknown, ...]:
@@ -146,7 +148,11 @@ class TorqueBalance:
         for mesh in self.meshes:
             groups.setdefault(tied.get(mesh.id, (mesh.id,)), []).append(mesh)
         one = Fraction(1)
-        outside: list[Iterable[tuple[str, Fraction]]] = [((link, one),) for link in (*self.unknown, *self.held)]
+        outside: list[Iterable[tuple[str, Fraction]]] = [
+            ((link, one), *((base, Fraction(own)) for base, own in (self.reactions.get(link, ("", 0)),) if own))
+            for link in self.unknown
+        ]
+        outside += [((link, one),) for link in self.held]
         outside += [((a, Fraction(s)), (b, Fraction(-t))) for (a, s), (b, t) in self.locks]
         plain = [TorqueUnknown({0: _row((self._at[link], value) for link, value in each if link in self._at)})
                  for each in outside]  # fmt: skip

@@ -53,9 +53,7 @@ class CompiledTurn:
         train, contacts = self.train, self.arrays.contacts
         values = found.values
         torque = values[train.asked_columns]
-        rows = [train.motion.links[link] for link in train.outside]
-        senses = np.array([train.setting.sense(link) for link in train.outside], dtype=float)
-        speeds = senses[:, None] * found.speed[rows]
+        speeds = train.outside_speeds(found.speed)
         acting = np.zeros_like(speeds)
         acting[: len(train.asked)] = torque
         for link, load in train.loads.items():

@@ -105,13 +105,18 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
-    whole = generic_balance(build_balance(setting, known, question.asked.links))
+    bases = {link: setting.reacts_on(link) for link in question.asked.links}
+    reactions = {
+        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items() if base != frame
+    }
+    balanced = replace(build_balance(setting, known, question.asked.links), reactions=reactions)
+    whole = generic_balance(balanced)
     balance = without_pairs(whole, idle_pairs(whole))
     busy = replace(
         setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
     )
     links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
-    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, question.asked.links)
+    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, *bases.items())
     teeth = {mesh.name: mesh for mesh in problem.teeth}
     motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
     positions = PositionMotion(motion, followed_pairs(busy, teeth))
@@ -152,7 +157,9 @@ class _Answer:
     def _asked(self, of: str | None) -> _Asked:
         train = self.run.train
         row = train.asked.index(of) if of in train.asked else 0
-        return _Asked(row, -1 if train.setting.speeds[train.asked[row]] < 0 else 1)
+        link, setting = train.asked[row], train.setting
+        speed = setting.relative(link, setting.reacts_on(link)) or 0
+        return _Asked(row, -1 if setting.sense(link) * speed < 0 else 1)
 
     def _mean(self, own: _Asked) -> float:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span

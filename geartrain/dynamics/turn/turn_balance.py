@@ -201,10 +201,13 @@ class TurnBalance:
         scale = np.max(np.abs(motion.speeds), axis=0, initial=0.0)
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
-    def _own_speed(self, motion: LinkMotion, link: str) -> Floats:
-        """Speed of a link about its own axis."""
-        found: Floats = self.setting.sense(link) * motion.speeds[self.motion.links[link]]
-        return found
+    def outside_speeds(self, speeds: Floats) -> Floats:
+        """Of the links outside about their own axes, relative to what takes the reactions of their torques."""
+        setting, row = self.setting, self.motion.links
+        bases = [setting.reacts_on(link) if link in self.asked else setting.train.frame for link in self.outside]
+        senses = np.array([setting.sense(link) for link in self.outside], dtype=float)
+        against: Floats = speeds[[row[base] for base in bases]]
+        return senses[:, None] * (speeds[[row[link] for link in self.outside]] - against)
 
     # -------------------------------------------------------------------------------------------------- the balance
 
@@ -280,7 +283,7 @@ class TurnBalance:
         """At each position the solution in which least power is asked for; with -1 the one in which most is."""
         if len(layers) == 1:
             return layers[0]
-        speeds = np.array([self._own_speed(state.motion, link) for link in self.asked])
+        speeds = self.outside_speeds(state.motion.speeds)[: len(self.asked)]
         power = [way * (each.values[self.asked_columns] * speeds).sum(axis=0) for each in layers]
         which = np.argmin([np.where(each.valid, p, np.inf) for each, p in zip(layers, power, strict=True)], axis=0)
         found = layers[0].copy()
@@ -301,7 +304,7 @@ class TurnBalance:
         motion, size = state.motion, len(state.motion.turns)
         torque = np.where(best.valid, best.values[self.asked_columns], np.nan)
         worst = self._extreme(layers, state, -1)
-        speeds = np.array([self._own_speed(motion, link) for link in self.outside])
+        speeds = self.outside_speeds(motion.speeds)
         acting = np.zeros_like(speeds)
         acting[: len(self.asked)] = torque
         for link, load in self.loads.items():

@@ -69,6 +69,8 @@ class HangingParts:
             return None
         index = next(at for at, body in enumerate(self.scene.bodies) if body.id == escapement.link)
         body = self.scene.bodies[index]
+        if body.parent != self.frame:
+            return None  # pallets ride on a carriage, which takes no pendulum round
         wheels = (each for each in self.scene.wheels if each.body == index and each.teeth == escapement.teeth)
         wheel = next(wheels, None)
         if wheel is None or abs(dot(body.direction, normal)) < 1 - 1e-6:

@@ -26,8 +26,6 @@ INERTIA, DRAG, RATE, TURNS = 1e-5, 1e-3, 32.0, 2
 _LAW = PinToSlotTransmission(10, 2)
 FLANKS = SlackPin(_LAW, 0.4, -1), SlackPin(_LAW, 0.4, 1)
 """The slot's side that drives, and the other."""
-APART = 1e-5
-"""rad: from which gap flanks count as apart."""
 _STICKS = 1e-7  # of the driver's speed: what comes back slower touches on
 _MOST = 20_000  # events
 
@@ -102,10 +100,7 @@ class _EventRun:
         times = np.linspace(found.t[0], found.t[-1], 2001)
         q = found.sol(times)[0]
         gaps = np.minimum(q - FLANKS[0].angle(RATE * times), FLANKS[1].angle(RATE * times) - q)
-        over = gaps[:-1] - APART, gaps[1:] - APART
-        # of each stretch the part that lies above, as if straight
-        share = np.clip(np.maximum(*over) / np.maximum(np.abs(over[1] - over[0]), 1e-300), 0, 1)
-        self.apart += float(share.mean()) * (times[-1] - times[0])
+        self.apart += float(times[-1] - times[0])
         self.gap = max(self.gap, float(gaps.max()))
         self.t, self.q, self.v = float(found.t[-1]), *map(float, found.y[:, -1])
         for side in range(2):
@@ -176,7 +171,7 @@ def yielding(restitution: float, stiffness: float, steps: int, fast: bool = True
 
 
 def _plan(steps: int) -> StepPlan:
-    return StepPlan(2 * pi / RATE / steps, 0, TURNS * steps, TURNS * steps, APART)
+    return StepPlan(2 * pi / RATE / steps, 0, TURNS * steps, TURNS * steps)
 
 
 def _told(run: SimulatedRun) -> PairRun:

@@ -56,7 +56,6 @@ class TrainInTime(TrainDynamics):
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
         samples: int | None = None,
-        apart: float = 1e-5,
         fast: bool | None = None,
         on_done: Callable[[float], object] = lambda _: None,
         model: Literal["rigid", "compliant"] = "rigid",
@@ -89,8 +88,6 @@ class TrainInTime(TrainDynamics):
             Pairs left out, so that real teeth do not contradict each other around a loop.
         samples : int, optional
             Samples that are kept; by default 12 in the shortest period of a pair, 40000 at most.
-        apart : float
-            Gap from which teeth count as apart [rad of the driven side].
         fast : bool, optional
             Whether kernels are compiled, by the extra `fast`; by default if the run is long and numba is installed.
         on_done : callable
@@ -114,14 +111,14 @@ class TrainInTime(TrainDynamics):
         """
         from geartrain.dynamics.time.time_study import TimeStudy
 
-        check_numbers(turns=turns, skip=skip, restitution=restitution, apart=apart)
+        check_numbers(turns=turns, skip=skip, restitution=restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
         case = self._case(state)
         seen = self._seen_in_time(case, outputs)
         speed = _radians_a_second(rate)
         found = self._in_time(case, without, speed, restitution, model == "compliant")
-        return TimeStudy(found, seen, turns, skip, steps, samples, apart, fast).run(on_done)
+        return TimeStudy(found, seen, turns, skip, steps, samples, fast).run(on_done)
 
     @of_planets_as_one
     def simulation(

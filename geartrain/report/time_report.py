@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _SURE = 1e-9  # an account that closes to less says nothing more
 _STILL = 1e-9  # rad: rounding of angles
+_CLOSE = 0.01  # error of steps that is asked for
 
 
 @dataclass(frozen=True)
@@ -290,20 +291,42 @@ def _energy(run: TimeRun) -> Section:
 
 def _settled(run: TimeRun) -> Section:
     means = [each for each in run.figures if each.kind == "mean"]
-    loose = [each.name for each in run.figures if not each.settled]
-    text = ["Each figure by steps of length h, and of h/2; told elsewhere is the second."]
-    if loose:
-        text.append(f"Not settled: {', '.join(loose)}. More `--steps` may settle means; extremes need not settle.")
+    text = ["Each figure by steps of length h, and of h/2, which is used elsewhere."]
+    if any(each.interval is not None for each in means):
+        text.append(
+            "The mean of a longer run lies within ± of that of h/2 with a confidence of 95 %, by blocks of whole turns."
+        )
     else:
-        text.append("All agree.")
+        text.append("How far means of a longer run differ is not known: that takes 5 turns or more.")
+    text += _unsettled(run)
     if any(each.apart for each in run.contacts):
         text.append(
             "Robust are means over many turns: shares of time apart, torque, power. Chaotic are single flights and "
             "blows, and so extremes, angles at one moment, and which teeth part when: another start gives others."
         )
     rows = [_compared(each) for each in (*means, *(each for each in run.figures if each.kind == "extreme"))]
-    header = ("figure", "unit", "h", "h/2", "kind", "settled")
-    return Section("What settled", text, (Table(header, cut([row for row in rows if row is not None])),))
+    header = ("figure", "unit", "h", "h/2", "±", "kind", "settled")
+    return Section("What settled", text, (filled_table(header, cut([row for row in rows if row is not None]), 2),))
+
+
+def _unsettled(run: TimeRun) -> Iterator[str]:
+    """Figures that depend on the length of steps or of the run, by how much, and what to ask for instead."""
+    loose = [each for each in run.figures if not each.settled]
+    if not loose:
+        yield "All agree."
+        return
+    yield f"NOT SETTLED: {', '.join(each.name for each in loose)}."
+    sizes = {each.name: abs(each.fine - each.coarse) / abs(each.fine) for each in loose if each.unit and each.fine}
+    name = max(sizes, key=lambda each: sizes[each], default=None)
+    if name is not None and sizes[name] > _CLOSE:
+        steps = tau / abs(run.rate) / run.step / 2 * sizes[name] / _CLOSE
+        yield (
+            f"The error of their steps is estimated by h against h/2, at most {percent_text(sizes[name])} ({name}): "
+            f"`--steps {float(f'{steps:.2g}'):.0f}` brings it to {percent_text(_CLOSE)}, unless the motion is chaotic, "
+            "where extremes need not settle."
+        )
+    if any((each.interval or 0.0) > abs(each.fine - each.coarse) for each in loose):
+        yield "Where ± is the greater, ask for more `--turns`: four times as many halve it."
 
 
 def _compared(each: SettledFigure) -> tuple[str, ...] | None:
@@ -312,11 +335,13 @@ def _compared(each: SettledFigure) -> tuple[str, ...] | None:
         "N m": (1e3, "N mm", 0.0),
         "W": (1e3, "mW", 0.0),
         "": (100.0, "%", 0.0),
+        "rad/s": (1.0, "rad/s", 0.0),
     }[each.unit]
     if max(abs(each.coarse), abs(each.fine)) <= least:
         return None
     values = (figure(scale * value, 5) for value in (each.coarse, each.fine))
-    return (each.name, unit, *values, each.kind, "yes" if each.settled else "no")
+    interval = "" if each.interval is None else figure(scale * each.interval, 2)
+    return (each.name, unit, *values, interval, each.kind, "yes" if each.settled else "no")
 
 
 def _inertia(found: Sequence[LinkInertia]) -> Section:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 TOLERANCE = 1e-4
 """Within which angles of a page are those of the simulation (rad)."""
+_TOUCHES = 1e-9  # rad: gaps that are rounding of angles
 _FLAT = 1e6  # of times over angles: what is off a line is then off upwards
 
 
@@ -70,8 +71,8 @@ class ShownSamples:
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
-        on_front = (front <= back) | (front <= self.run.apart)  # without play a pair is on both
-        code = np.where(np.minimum(front, back) > self.run.apart, 2, np.where(on_front, 0, 1))
+        on_front = (front <= back) | (front <= _TOUCHES)  # without play a pair is on both
+        code = np.where(np.minimum(front, back) > _TOUCHES, 2, np.where(on_front, 0, 1))
         changes = np.concatenate(([0], 1 + np.flatnonzero(np.diff(code))))
         return changes, "".join("dca"[each] for each in code[changes])
 

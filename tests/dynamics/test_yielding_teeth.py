@@ -193,7 +193,7 @@ def test_stiff_teeth_part_as_rigid_ones() -> None:
     errors, shares = [], []
     for k, n in ((40.0, 2000), (160.0, 4000)):
         c = 2 * damping_ratio(0.0) * sqrt(k * J)
-        run = yielding(model, StepPlan(tau / rate / n, 0, n, n, 1e-5), k, c)
+        run = yielding(model, StepPlan(tau / rate / n, 0, n, n), k, c)
         errors.append(run.counts[0, GAP] - 0.0762169)
         shares.append(run.counts[0, TIME_APART] / n)
     # teeth that are pressed in spring back: as 1/k
@@ -349,6 +349,20 @@ def test_damping_for_a_restitution_throws_a_body_back_so_fast(restitution: float
     zeta = damping_ratio(restitution)
     run = yielding(model, StepPlan(2e-5, 0, 5000, 5000), 1e5, 2 * zeta * sqrt(1e5 * 2))
     assert run.speeds[-1, 1] == pytest.approx(restitution, abs=2e-3)
+
+
+@pytest.mark.parametrize("zeta", [0.6, 1.0, 2.0])
+@pytest.mark.parametrize("steps", [40, 160])
+def test_damping_alone_makes_the_peak_where_flanks_meet_whatever_the_step(zeta: float, steps: int) -> None:
+    # a body flies at 1 rad/s into a flank that stands: from a damping ratio of 1/2 on its torque only falls from c
+    still = tabled_angle(Wave(0.0, 0.0))
+    pair = ContactPair("wall", {0: 1.0}, {1: 1.0}, (0.0, 0.01), still, tabled_angle(Wave(0.0, 9.0)))
+    start = np.array([1.0, -1.0])
+    model = ContactModel(np.diag([0.0, 2.0]), np.zeros((2, 2)), np.zeros(2), {0: 1.0}, start, [pair], start=start)
+    step, damping = tau / sqrt(1e5 / 2) / steps, 2 * zeta * sqrt(1e5 * 2)
+    run = yielding(model, StepPlan(step, 0, 40 * steps, 40 * steps), 1e5, damping)
+    assert run.peaks is not None
+    assert run.peaks[0] == pytest.approx(damping, rel=1e-9)
 
 
 def test_an_escapement_is_refused_before_anything_is_run() -> None:

@@ -32,7 +32,8 @@ class StepEquations(NamedTuple):
     w, g, known     of a driven coordinate: its speed is w v + known, its row is handed on by g
     v, P, drive     speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates
     ahead, middle   speeds that say where laws are read; mean speeds of the step
-    gap, closing    of both flanks: k without restitution, and speeds of closing before the step (rad/s)
+    gap, closing    of both flanks: k without restitution, and speeds of closing before the step (rad/s);
+                    `stop_closing`, at which stops are met in it
     before          what touched, and what was stopped, before the step
     """
 
@@ -53,6 +54,7 @@ class StepEquations(NamedTuple):
     middle: Floats
     gap: Floats
     closing: Floats
+    stop_closing: Floats
     before: Ints
 
 
@@ -61,14 +63,13 @@ class StepRules(NamedTuple):
 
     step     length of a step (s); `stride`, steps from one sample to the next
     creep    speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)
-    apart    gap from which teeth count as apart (rad); `rounds`, guesses that are tried in a step
+    rounds   guesses that are tried in a step
     """
 
     step: float
     stride: int
     creep: float
     slack: float
-    apart: float
     rounds: int
 
 

@@ -33,6 +33,8 @@ class ContactState(NamedTuple):
     touching   flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1
     ratio      speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 in a blow
     steady     impulse of each pair in its last step without blow
+    flown      steps for which each pair has been apart; `stop_rate`, (stops, 2), speeds at each stop a step ago, and
+               when it was last left
     """
 
     clock: Floats
@@ -44,6 +46,8 @@ class ContactState(NamedTuple):
     ratio: Floats
     struck: Ints
     steady: Floats
+    flown: Ints
+    stop_rate: Floats
 
 
 class RunRecord(NamedTuple):

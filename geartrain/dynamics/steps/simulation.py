@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -30,7 +31,9 @@ from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from geartrain.dynamics.contacts.tooth_yield import ToothYield
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Ints
+
+    _Mark = tuple[Floats, Floats, Floats]
 
 _CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
 _SLACK = 1e-11  # of that speed
@@ -42,14 +45,14 @@ _ROUNDS = 60  # guesses tried in a step, and six more for each contact and beari
 class StepPlan(NamedTuple):
     """How a model is stepped: length of a step (s), steps not counted, steps counted, steps from sample to sample.
 
-    apart   gap from which teeth count as apart (rad)
+    block   steps of each of the equal parts of what is counted whose figures are kept; 0 for none
     """
 
     step: float
     skip: int
     steps: int
     stride: int
-    apart: float = 1e-5
+    block: int = 0
 
 
 @dataclass
@@ -59,6 +62,7 @@ class SimulatedRun:
     turned   angles of the coordinates over what is counted (rad)
     pressed  by how much the energy stored in teeth that yield has grown (J)
     peaks    greatest torque of each pair whose teeth yield (N m)
+    blocks   the run's parts of `plan.block` steps: their counts, energies and angles turned through
     """
 
     plan: StepPlan
@@ -75,6 +79,7 @@ class SimulatedRun:
     turned: Floats
     pressed: float = 0.0
     peaks: Floats | None = None
+    blocks: tuple[SimulatedRun, ...] = ()
 
 
 def simulate(
@@ -124,13 +129,19 @@ def simulate(
     skipped = go(skip, False)
     start, before = _kinetic(system, state), state.angle.copy()
     pressed = _stored(system, model.laws, state, yields)
-    counted = go(plan.steps, True) if skipped == skip else 0
+    ends = [*range(0, plan.steps, plan.block or plan.steps or 1), plan.steps]
+    marks, counted = [_mark(record, state)], 0
+    for begin, end in pairwise(ends if skipped == skip else ()):
+        counted += (done := go(end - begin, True))
+        marks.append(_mark(record, state))
+        if done < end - begin:
+            break
     pressed = _stored(system, model.laws, state, yields) - pressed
     record.energy[STEP] -= pressed
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])
-    return SimulatedRun(
+    found = SimulatedRun(
         plan._replace(steps=counted),
         record.angles[:done, order],
         record.speeds[:done, order],
@@ -146,6 +157,23 @@ def simulate(
         pressed,
         None if teeth is None else teeth.peak,
     )
+    if plan.block:
+        found.blocks = tuple(
+            _part(found, at, *each, order) for at, each in enumerate(pairwise(marks[: 1 + counted // plan.block]))
+        )
+    return found
+
+
+def _mark(record: RunRecord, state: ContactState) -> _Mark:
+    """Counts, energies and angles up to now."""
+    return record.counts.copy(), record.energy.copy(), state.angle.copy()
+
+
+def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark, order: Ints) -> SimulatedRun:
+    """One block of a run, between two marks."""
+    counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
+    plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
+    return replace(run, plan=plan, counts=counts, energy=energy, turned=turned[order], blocks=())
 
 
 def check_convergence(state: ContactState, record: RunRecord, step: float) -> None:
@@ -162,7 +190,7 @@ def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duratio
     fastest = fastest or 1.0
     slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + fastest * duration) / plan.step)
     rounds = _ROUNDS + 6 * (len(model.pairs) + len(model.stops) + len(model.bearings))
-    return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, plan.apart, rounds)
+    return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, rounds)
 
 
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
@@ -196,6 +224,8 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
         ratio,
         np.zeros(pairs + len(model.stops), dtype=np.int64),
         np.zeros(pairs),
+        np.zeros(pairs, dtype=np.int64),
+        np.zeros((len(model.stops), 2)),
     )
 
 
@@ -233,6 +263,7 @@ def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
         np.zeros(n),
         np.zeros((pairs, 2)),
         np.zeros((pairs, 2)),
+        np.zeros(stops),
         np.zeros(pairs + stops, dtype=np.int64),
     )
 

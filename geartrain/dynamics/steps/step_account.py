@@ -18,6 +18,7 @@ from geartrain.dynamics.steps.run_record import (
     GAP,
     IMPACTS,
     IMPULSE,
+    OPEN,
     RUBBED,
     STEP,
     TIME_APART,
@@ -100,7 +101,7 @@ def count_contacts(
         if system.two_sided[m] == 0:
             ahead = rules.step * (rate_q - here.ratio[m, 0] * rate_S - here.gap[m, 0])
             behind = rules.step * (here.ratio[m, 1] * rate_S - rate_q - here.gap[m, 1])
-            count_gap(counts, ahead, behind, rules.apart)
+            count_gap(counts, ahead, behind, find_flight(state.touching, here, m))
         now = state.touching[m]
         if now == 0:
             state.steady[m] = 0.0
@@ -133,13 +134,28 @@ def count_contacts(
 
 
 @kernel
-def count_gap(counts: Floats, ahead: float, behind: float, apart: float) -> None:
-    """Whether teeth are apart or nearer to the coast flank, and the greatest gap, from both gaps of a pair (rad)."""
-    if ahead > apart and behind > apart:
-        counts[TIME_APART] += 1.0
-    elif behind < ahead:
-        counts[TIME_COAST] += 1.0
+def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> None:
+    """Time apart and on the coast flank, and the greatest gap, from both gaps of a pair (rad).
+
+    flight   share of the step in which no flank touches
+    """
+    counts[TIME_APART] += flight
+    if behind < ahead:
+        counts[TIME_COAST] += 1.0 - flight
     counts[GAP] = max(counts[GAP], min(ahead, behind))
+
+
+@kernel
+def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
+    """Share of the step in which no flank of a pair touches: of one that is met and kept, up to where it is met."""
+    if touching[m] == OPEN:
+        return 1.0
+    side = touching[m] - 1
+    if here.before[m] != OPEN or here.closing[m, side] <= 0.0:
+        return 0.0
+    if here.bound[m, side] > here.gap[m, side]:
+        return 1.0  # it bounces, and is apart before and after
+    return float(min(max(-here.gap[m, side] / here.closing[m, side], 0.0), 1.0))
 
 
 @kernel
@@ -187,8 +203,9 @@ def count_stops(
             record.energy[BLOWS] += taken
             counts[BLOW_COUNT] += 1.0
             counts[BLOW_ENERGY] += taken
-            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], start)
-            note_impact(record, state.clock[0], pairs + m, start, taken, here.P[pairs + m])
+            closing = here.stop_closing[m]
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], closing)
+            note_impact(record, state.clock[0], pairs + m, closing, taken, here.P[pairs + m])
         else:
             # a stop that moves on and is met again within one step: all that it takes is of that blow
             # (its closing speed is that of the step at least)

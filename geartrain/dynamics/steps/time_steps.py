@@ -11,7 +11,7 @@ once and, should that not settle, least index first, from the guess of the step 
 
 from __future__ import annotations
 
-from math import floor
+from math import floor, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 FARTHEST = 1000.0  # rad in a step: beyond, it is no motion but an error that grows
+_SHORT = 2  # steps apart after which flanks stay in contact whatever their restitution
 _AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
 _NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
 _JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before
@@ -84,6 +85,7 @@ def run_steps(
         for m in range(len(system.stiff)):
             state.ratio[m, 0] = here.ratio[m, 0]
             state.ratio[m, 1] = here.ratio[m, 1]
+            state.flown[m] = 0 if state.touching[m] != OPEN else state.flown[m] + times
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
             state.angle[d] += rules.step * here.v[d]
@@ -218,12 +220,15 @@ def find_bounds(
             rate = sign * (dq - ratio * dS)
             here.gap[m, side] = lack
             here.closing[m, side] = -rate
+            here.ratio[m, side] = ratio
             bounce = -system.restitution[m] * rate
-            # without restitution the position alone counts: a jump of the ratio within the step is no flight
-            if bounce > 0.0 and rate < lack < bounce:
+            # without restitution the position alone counts: a jump of the ratio within the step is no flight. Bounces
+            # follow each other ever faster, and those as short as steps end in contact
+            bounces = bounce > 0.0 and rate < lack < bounce
+            long = state.flown[m] > _SHORT
+            if bounces and (long or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)):
                 lack = bounce
             here.bound[m, side] = lack
-            here.ratio[m, side] = ratio
             here.arm[m, side] = ratio
             if system.rubbing[m, 2 * side + way] >= 0:
                 more, _ = value_and_slope(laws, system.rubbing[m, 2 * side + way], at)
@@ -268,8 +273,18 @@ def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquat
         for x in range(system.stop_at[m], system.stop_at[m + 1]):
             room -= system.stop_c[x] * state.angle[system.stop_of[x]]
             rate += system.stop_c[x] * state.speed[system.stop_of[x]]
-        bound = room / step
-        # without restitution the position alone counts: held short of its stop it would come to it by a second blow
-        if rate > bound and rate > 0.0 and system.stop_restitution[m] > 0.0:
-            bound = min(bound, -system.stop_restitution[m] * rate)
-        here.stop_bound[m] = bound
+        here.stop_bound[m] = room / step
+        if state.stopped[m] != 0:
+            # met at its place in the step before, by the speed found there, and left in this one
+            back = system.stop_restitution[m] * here.stop_closing[m]
+            if back > 0.0:
+                here.stop_bound[m] = min(room / step, -back)
+            here.stop_closing[m] = 0.0
+            state.stop_rate[m, 1] = rate
+        else:
+            # an even acceleration gives v0^2 at the stop that was left at v0, in one step without it: in these steps
+            # v0^2 = v^2 + a (h v + h v0 + 2 room)
+            gain = rate - state.stop_rate[m, 0]
+            square = rate * rate + gain * (rate + state.stop_rate[m, 1] + 2.0 * room / step)
+            here.stop_closing[m] = sqrt(max(square, 0.0)) if rate > 0.0 else 0.0
+        state.stop_rate[m, 0] = rate

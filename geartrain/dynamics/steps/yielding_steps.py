@@ -29,6 +29,7 @@ from geartrain.dynamics.steps.run_record import (
     FRICTION,
     IMPACTS,
     IMPULSE,
+    OPEN,
     PIVOTS,
     RUBBED,
     SAMPLES,
@@ -214,7 +215,7 @@ def count_yielding(
         if system.two_sided[m] == 0:
             ahead = teeth.gap[m, 0] + rules.step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
             behind = teeth.gap[m, 1] + rules.step / 4 * (here.ratio[m, 1] * rate_S - rate_q)
-            count_gap(counts, ahead, behind, rules.apart)
+            count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
             for side in range(2):
                 opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
                 count_straightened(state, here, record, teeth, m, side, rules.step / 4 * opening)
@@ -239,6 +240,9 @@ def count_yielding(
                 counts[CHANGES] += 1.0
             counts[BLOW_COUNT] += 1.0
             counts[BLOW_SPEED] = max(counts[BLOW_SPEED], -sign * rate)
+            # where flanks meet, damping alone pushes: within the first step that falls off again
+            met = sign * (here.ratio[m, side] * start_S - start_q)
+            teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
             teeth.impact[m] = record.numbers[IMPACTS]
             note_impact(record, state.clock[0] + rules.step / 2, m, -sign * rate, 0.0, 0.0)
         if 0 <= teeth.impact[m] < len(record.impacts):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import repeat
 from math import tau
@@ -42,6 +42,7 @@ from geartrain.dynamics.time.run_parts import (
     SpectrumPeak,
 )
 from geartrain.dynamics.time.time_run import TimeRun
+from geartrain.numerics.batch_means import batch_half_width
 from geartrain.numerics.labelled_array import labelled_array
 
 if TYPE_CHECKING:
@@ -49,8 +50,9 @@ if TYPE_CHECKING:
     from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan
     from geartrain.numerics.arrays import Floats
 
-_AGREE = 0.05  # of a figure; `_SHARE`, of a share of time
-_SHARE = 0.005
+_AGREE = {"mean": 0.05, "extreme": 0.01}  # of a figure
+_SHARE, _ANGLE = 0.005, 1e-6  # of a share of time; rad
+_Figure = tuple[str, str, float, Literal["mean", "extreme"]]
 
 
 @dataclass(frozen=True)
@@ -179,7 +181,8 @@ class RunFigures:
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }
-        counted = self.run.drive[self.time > self.plan.step * self.plan.skip]
+        begin, end = (self.plan.step * each for each in (self.plan.skip, self.plan.skip + self.plan.steps))
+        counted = self.run.drive[(self.time > begin) & (self.time < end + self.plan.step / 2)]
         if not others or not len(counted):
             return 0.0
         torques = counted.mean(axis=0)
@@ -220,13 +223,24 @@ class RunFigures:
             for name, each in counted.items()
         )
 
-    def figures(self) -> Iterator[tuple[str, str, float, Literal["mean", "extreme"]]]:
-        """What is compared between runs."""
+    def means(self) -> Iterator[_Figure]:
+        """Means over the run."""
         yield "torque of the drive", "N m", self.torque, "mean"
         yield "power of blows", "W", self.energy.blows / self.duration, "mean"
         for each in self.contacts:
             yield f"{each.name} apart", "", each.apart, "mean"
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
+
+    def intervals(self) -> list[float | None]:
+        """Half the 95 % interval of each mean; None of runs of few turns."""
+        blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
+        return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
+
+    def extremes(self) -> Iterator[_Figure]:
+        """Greatest values of the run."""
+        for each in self.contacts:
+            if each.blows:
+                yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
             if each.peak is not None:
                 yield f"{each.name} peak torque", "N m", each.peak, "extreme"
         for lead in self.leads:
@@ -250,7 +264,6 @@ class RunFigures:
         """The result, this run being the finer one; None for a coarse one without a finer."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
-        figures = () if coarse is None else zip(coarse.figures(), self.figures(), strict=True)
         pairs = self.names[: len(self.of.model.pairs)]
         outputs = [name for name, _, _ in self.outputs]
         return TimeRun(
@@ -279,15 +292,23 @@ class RunFigures:
             self.energy,
             self.leads,
             {name: tuple(self._peaks(name)) for name, _, _ in self.outputs},
-            tuple(_compared(*pair) for pair in figures),
+            () if coarse is None else tuple(self._compared(coarse)),
             self.run.numbers[UNSOLVED],
             self.of.notes,
             coarse is not None,
             "rigid" if self.of.yields is None else "compliant",
             self.of.assumed,
             max((self.of.case.restitution.get(name, 0.0) for name in self.names), default=0.0),
-            self.plan.apart,
         )
+
+    def _compared(self, coarse: RunFigures) -> Iterator[SettledFigure]:
+        """Every figure beside that of a run of longer steps."""
+        coarse_extremes = {each[0]: each for each in coarse.extremes()}
+        rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
+        rows += [(coarse_extremes.get(each[0], (*each[:2], 0.0, each[3])), each, None) for each in self.extremes()]
+        for one, other, interval in rows:
+            name, unit, value, kind = other
+            yield SettledFigure(name, unit, one[2], value, kind, _settled(one, other, interval), interval)
 
     def _impacts(self) -> ImpactList:
         time, which, speed, energy, impulse = (_frozen(each) for each in self.run.impacts.T.copy())
@@ -308,14 +329,11 @@ class RunFigures:
         return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
 
 
-def _compared(
-    coarse: tuple[str, str, float, Literal["mean", "extreme"]], fine: tuple[str, str, float, Literal["mean", "extreme"]]
-) -> SettledFigure:
-    name, unit, one, kind = coarse
-    other = fine[2]
-    near = _SHARE if not unit else 1e-6 if unit == "rad" else 0.0
-    settled = bool(abs(one - other) <= max(_AGREE * max(abs(one), abs(other)) if unit else 0.0, near))
-    return SettledFigure(name, unit, one, other, kind, settled)
+def _settled(one: _Figure, other: _Figure, interval: float | None) -> bool:
+    _, unit, value, kind = one
+    share = _AGREE[kind] * max(abs(value), abs(other[2])) if unit else _SHARE
+    near = max(share, _ANGLE if unit == "rad" else 0.0)
+    return bool(max(abs(value - other[2]), interval or 0.0) <= near)
 
 
 def _frozen(values: Floats) -> Floats:

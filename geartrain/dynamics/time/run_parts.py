@@ -182,7 +182,7 @@ class OutputLead(Result):
 
 @dataclass(frozen=True)
 class SettledFigure(Result):
-    """A figure by steps of length h and h/2.
+    """A figure by steps of length h and h/2, with what the length of the run leaves open.
 
     Attributes
     ----------
@@ -195,7 +195,10 @@ class SettledFigure(Result):
     kind : {"mean", "extreme"}
         A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic.
     settled : bool
-        Whether both agree: to 5 %, a share of time to 0.005, an angle to 1e-6 rad if that is more.
+        Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that is
+        more; and whether the interval of a mean is as narrow.
+    interval : float or None
+        Half the 95 % interval of a mean, from blocks of whole turns; None of an extreme, and of fewer than 5 turns.
 
     See Also
     --------
@@ -208,6 +211,7 @@ class SettledFigure(Result):
     fine: float
     kind: Literal["mean", "extreme"]
     settled: bool
+    interval: float | None = None
 
 
 @dataclass(frozen=True)

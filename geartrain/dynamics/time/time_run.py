@@ -87,8 +87,6 @@ class TimeRun(Tabular, Pictured, Result):
         What nothing declares and was estimated.
     restitution : float
         The greatest of those of the contacts.
-    apart : float
-        Gap from which teeth count as apart [rad of the driven side].
 
     See Also
     --------
@@ -164,7 +162,6 @@ class TimeRun(Tabular, Pictured, Result):
     model: Literal["rigid", "compliant"] = "rigid"
     assumed: tuple[str, ...] = ()
     restitution: float = 0.0
-    apart: float = 0.0
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """The angles of a link [rad], or the course of a pair."""

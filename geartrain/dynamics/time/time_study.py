@@ -33,6 +33,7 @@ _A_BEAT = 50  # samples of an escapement
 _MOST_SAMPLES = 40_000
 _FEWEST_SAMPLES = 500  # of a run: what is left out before it is counted in whole samples
 _MOST_STEPS = 2_000_000_000
+_MOST_BLOCKS = 20  # whole turns or several, whose figures are compared
 _MASSLESS = 1e-6  # of all inertias: what turns so light is in balance at every moment
 _SLOW = 7e-5  # s: a step of one contact in plain Python
 
@@ -44,7 +45,6 @@ class TimeStudy:
     turns, skip   of the lead: counted, and left out before
     steps         of the coarser run in a turn of the lead; None for what its teeth ask
     samples       kept of the whole run; None for what a spectrum asks
-    apart         gap from which teeth count as apart (rad)
     fast          whether kernels are compiled; None decides by the work
     """
 
@@ -54,7 +54,6 @@ class TimeStudy:
     skip: float = 1.0
     steps: int | None = None
     samples: int | None = None
-    apart: float = 1e-5
     fast: bool | None = None
 
     def __post_init__(self) -> None:
@@ -99,7 +98,9 @@ class TimeStudy:
         samples = self.samples or min(_MOST_SAMPLES, max(_FEWEST_SAMPLES, ceil(often * (self.turns + self.skip))))
         stride = max(1, (steps + skip) // finer // max(samples, 2)) * finer
         skip -= skip % stride
-        return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, self.apart)
+        # a block ends with a sample, and is at most a sample off whole turns
+        block = round(ceil(self.turns / _MOST_BLOCKS) * self.per_turn * finer / stride) * stride
+        return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, block)
 
     @property
     def is_fast(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import isclose
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
@@ -123,8 +124,7 @@ def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, in
         _outline(axes, before)
     axes.set_ylim(0, 1.08 * max([*chances.values(), *before.values()]))
     axes.set_yticks([])
-    best = max(chances, key=lambda count: chances[count])
-    axes.set_title(f"{best}: {_percent(chances[best])}", fontsize=SMALL, color=BLACK, pad=3)
+    axes.set_title(_modes(chances), fontsize=SMALL, color=BLACK, pad=3)
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
     if wheel in likely.declared:
@@ -174,8 +174,15 @@ def _ticks(axis: Any, span: tuple[int, int]) -> None:
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
-def _percent(chance: float) -> str:
-    return f"{100 * chance:.3g} %"
+def _modes(chances: Chances) -> str:
+    """The mode and its probability; all modes where several counts are equally likely: "49-52: 10 % each"."""
+    largest = max(chances.values())
+    modes = sorted(count for count, chance in chances.items() if isclose(chance, largest))
+    percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
+    if len(modes) == 1:
+        return f"{modes[0]}: {percent}"
+    some = "" if len(modes) == span else f"{len(modes)} of "
+    return f"{some}{modes[0]}-{modes[-1]}: {percent} each"
 
 
 def _summed(keys: NDArray[np.int64], share: Floats) -> dict[tuple[int, ...], float]:

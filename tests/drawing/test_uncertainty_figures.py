@@ -209,6 +209,16 @@ def test_a_corner_shows_every_chance_at_its_counts() -> None:
     assert not panels[0, 2].axison
 
 
+def test_a_panel_names_every_mode_of_its_wheel() -> None:
+    """50 is declared and 49 to 52 are equally likely: none of the four is preferred in the title."""
+    equal = CountProbabilities.of({"w": range(47, 55)}, [1, 2, 7, 7, 7, 7, 2, 1], {"w": 50})
+    # 0.1 + 0.2 is not 0.3 in floats, and 21 and 23 are equally likely nevertheless
+    apart = CountProbabilities.of({"w": [21, 22, 23, 23]}, [0.3, 0.1, 0.1, 0.2])
+    single = CountProbabilities.of({"w": [21, 22]}, [3, 1])
+    titles = [corner_figure(likely).axes[0].get_title() for likely in (equal, apart, single)]
+    assert titles == ["49-52: 20.6 % each", "2 of 21-23: 42.9 % each", "21: 75 %"]
+
+
 def test_settling_shows_estimates_their_widths_and_the_truth() -> None:
     n = np.array([10.0, 100.0, 1000.0])
     value = np.array([0.3, 0.2, 0.21])

@@ -457,6 +457,22 @@ def test_two_runs_do_not_share_a_journal(tmp_path: Path) -> None:
     with Journal(tmp_path / "journal", {}), pytest.raises(QuestionError, match="another run is writing"):
         Journal(tmp_path / "journal", {})
     Journal(tmp_path / "journal", {}).close()
+    assert list(tmp_path.iterdir()) == [tmp_path / "journal"], "the lock goes with the run"
+
+
+def test_a_process_that_writes_a_journal_keeps_others_out_on_every_system(tmp_path: Path) -> None:
+    """The lock is that of filelock, which locks on Windows too; it is held by another process here."""
+    lock = "from filelock import FileLock; lock = FileLock({!r}); lock.acquire(); print('held', flush=True); input()"
+    code = lock.format(str(tmp_path / "journal.lock"))
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, "-c", code], text=True, **pipes) as holder:
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == "held\n"
+        with pytest.raises(QuestionError, match="another run is writing"):
+            Journal(tmp_path / "journal", {})
+        holder.kill()
+    with Journal(tmp_path / "journal", {}) as journal:
+        assert list(run(abs, [-1], None, journal)) == [1]
 
 
 def test_a_journal_goes_when_the_run_is_whole_and_only_then(tmp_path: Path) -> None:

@@ -17,8 +17,8 @@ import json
 import os
 import re
 from array import array
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from time import monotonic
 from types import TracebackType
@@ -26,7 +26,6 @@ from typing import Any
 from zlib import crc32
 
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.numerics.work.file_lock import lock
 
 _START = b'{"geartrain journal":1,'
 _LINE = re.compile(rb'\{"crc":"([0-9a-f]{8})",("task":(\d{1,12}),"mark":"([0-9a-f]*)","result":(.*)\})\n')
@@ -79,19 +78,17 @@ class Journal:
         if self.path.exists() and not self.path.is_file():
             raise _refused("the file is no journal", "it is no regular file", "remove it, or name another", self.path)
         try:
-            self._file = self.path.open("a+b", buffering=0)  # whatever was read last, what is written goes to the end
-            try:
-                self._reader = self.path.open("rb")
+            with ExitStack() as opened:
+                # whatever was read last, what is written goes to the end
+                self._file = opened.enter_context(self.path.open("a+b", buffering=0))
+                self._reader = opened.enter_context(self.path.open("rb"))
+                opened.enter_context(_only_writer(self.path))
                 self._open(header, plain, resume)
-            except BaseException:
-                self._shut()
-                raise
+                self._shut = opened.pop_all().close
         except OSError as error:
             raise _trouble(self.path, error) from None
 
     def _open(self, header: bytes, question: Any, resume: bool) -> None:
-        if not lock(self._file.fileno()):
-            raise _refused("another run is writing this journal", "two at once would mix", "wait for it", self.path)
         end = self._whole(question, resume)
         self._file.truncate(end)
         if not end:
@@ -206,11 +203,6 @@ class Journal:
                 self._sync()
             self._shut()
 
-    def _shut(self) -> None:
-        self._file.close()
-        if hasattr(self, "_reader"):
-            self._reader.close()
-
     def finish(self) -> None:
         """The run is whole and its result is safe: remove the file. Raises `GearTrainError`."""
         self.close()
@@ -224,6 +216,25 @@ class Journal:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
         self.close()
+
+
+@contextmanager
+def _only_writer(path: Path) -> Iterator[None]:
+    """Lock a journal for this process, by a file beside it; the lock ends with the process, whatever ends that."""
+    from filelock import FileLock, Timeout
+
+    lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)
+    try:
+        lock.acquire()
+    except Timeout:
+        raise _refused("another run is writing this journal", "two at once would mix", "wait for it", path) from None
+    try:
+        yield
+    finally:
+        # Unix: removed while locked, so that nobody locks a file that is about to go; Windows removes it on release
+        with suppress(OSError):
+            Path(lock.lock_file).unlink()
+        lock.release()
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:

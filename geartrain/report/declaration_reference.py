@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from geartrain.report.json_shapes import DefaultsAsWritten
 from geartrain.train import Train
 
 _URL = "https://json-schema.org/draft/2020-12/schema"
@@ -38,7 +39,7 @@ def schema() -> dict[str, Any]:
 
 
 def _models() -> dict[str, Any]:
-    found: dict[str, Any] = _without_sections(Train.model_json_schema(by_alias=True))
+    found: dict[str, Any] = _without_sections(Train.model_json_schema(schema_generator=DefaultsAsWritten))
     return found
 
 

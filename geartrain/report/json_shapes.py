@@ -18,8 +18,11 @@ from importlib import import_module
 from types import ModuleType, NoneType, UnionType
 from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, Union, get_args, get_origin, is_typeddict
 
+from pydantic.json_schema import GenerateJsonSchema
+
 from geartrain.numerics.long_float import LongFloat
 from geartrain.numerics.plain_data import Key, Result, keys_of, whole
+from geartrain.numerics.quantity import Figure, Quantity
 
 Schema = dict[str, Any]
 
@@ -67,7 +70,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
     if is_typeddict(kind):
         return _typed_dict(kind)
     if hasattr(kind, "model_json_schema"):
-        return dict(kind.model_json_schema())
+        return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
     if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # one of its own
         return shape_of(_returned(kind.to_dict))
     return _record(kind, keys_of(kind))
@@ -180,3 +183,13 @@ def _imports(module: ModuleType) -> dict[str, str]:
     """Where names come from that a module imports, be it for annotations alone."""
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
+
+
+class DefaultsAsWritten(GenerateJsonSchema):
+    """Numbers and quantities as a declaration writes them, where pydantic would write out their fields."""
+
+    def encode_default(self, dft: Any) -> Any:
+        """A default value as JSON."""
+        if isinstance(dft, tuple):
+            return [self.encode_default(each) for each in dft]
+        return str(dft) if isinstance(dft, Figure | Quantity) else super().encode_default(dft)

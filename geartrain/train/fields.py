@@ -51,7 +51,7 @@ class Declared(BaseModel):
         return copy
 
 
-def _count(raw: object) -> int:
+def read_count(raw: object) -> int:
     """A tooth count: a positive integer up to 10^12."""
     try:
         # True is an int of Python's; a text of thousands of digits would take minutes to read
@@ -120,7 +120,7 @@ Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
 Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
 """Parts by name, frozen."""
-Count = Annotated[int, BeforeValidator(_count)]
+Count = Annotated[int, BeforeValidator(read_count)]
 Boolean = Annotated[bool, BeforeValidator(_boolean)]
 Nothing = BeforeValidator(_empty_for_nothing)
 
@@ -165,7 +165,10 @@ def _tell_friction(friction: Any) -> Any:
 
 def _read_tooth_form(raw: Any) -> Any:
     """A name alone is the form with all its defaults."""
-    return tooth_forms().validate_python({"form": raw} if isinstance(raw, str) else raw)
+    form = tooth_forms().validate_python({"form": raw} if isinstance(raw, str) else raw)
+    # of a union, pydantic builds the members' validators only; writing a form needs its serializer
+    type(form).model_rebuild()
+    return form
 
 
 @cache

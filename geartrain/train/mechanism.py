@@ -49,6 +49,7 @@ from geartrain.train.fields import (
     Id,
     Status,
     also,
+    read_count,
     short_for,
     side,
 )
@@ -206,7 +207,7 @@ class Link(Declared):
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
         {}, validate_default=True, description="The wheels fixed on this link, by id"
     )
-    copies: Annotated[Count, Field(le=MOST_COPIES)] = Field(
+    copies: Annotated[int, Field(le=MOST_COPIES), BeforeValidator(read_count)] = Field(
         1, description="So many equal links, evenly spaced about the axis of the carrier that bears this one"
     )
     inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(

@@ -125,6 +125,28 @@ def test_the_declarations_in_the_package_satisfy_its_own_json_schema() -> None:
         assert problems == [], f"{name}: {problems[:3]}"
 
 
+def test_every_default_of_the_schema_can_be_written_in_a_declaration() -> None:
+    """Each default satisfies the schema of its own field, and each keyword is one of JSON Schema."""
+    jsonschema = pytest.importorskip("jsonschema")
+    from geartrain.report.declaration_reference import schema
+
+    found = schema()
+    defaults = [
+        (f"{kind}.{name}", field)
+        for kind, part in [("Train", found), *found["$defs"].items()]
+        for options in [part, *part.get("anyOf", ())]
+        for name, field in options.get("properties", {}).items()
+        if "default" in field and field["default"] is not None
+    ]
+    for name, field in defaults:
+        validator = jsonschema.Draft202012Validator({"$defs": found["$defs"], **field})
+        assert not list(validator.iter_errors(field["default"])), f"{name}: {field['default']}"
+    assert dict(defaults)["Material.poisson"]["default"] == "0.3"
+    assert dict(defaults)["Link.copies"]["maximum"] == 360
+    keywords = {key for _, field in defaults for key in field}
+    assert keywords <= {*jsonschema.Draft202012Validator.VALIDATORS, *("default", "description", "title", "examples")}
+
+
 def as_core_yaml(data: object) -> object:
     """Texts as an editor's YAML 1.2 reader types them: integers, decimals, true, false and nothing."""
     if isinstance(data, dict):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -441,3 +443,14 @@ def test_a_tooth_form_may_be_named_alone() -> None:
             assert read(name) == wanted
     with pytest.raises(DeclarationError, match="involute"):
         read("involut")
+
+
+def test_a_tooth_form_that_was_just_read_can_be_written() -> None:
+    """pydantic before 2.14 builds a member of a union without its serializer, and cannot write it."""
+    code = """
+import geartrain
+form = geartrain.load("moon-triangular").declaration.tooth_form
+print(type(type(form).__pydantic_serializer__).__name__)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "SchemaSerializer\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tomllib
@@ -84,6 +85,27 @@ def test_what_is_missing_is_told_with_what_it_weighs() -> None:
     for extra in project["optional-dependencies"].keys() - {"all", "dev", "site"}:
         (told,) = MissingExtraError("it", extra, "this").problems
         assert told.fix == f"pip install 'geartrain[{extra}]' # {max(round(measured[extra][1]), 1)} MB"
+
+
+def test_a_missing_package_skips_tests_by_name_and_fails_where_all_are_installed(tmp_path: Path) -> None:
+    (tmp_path / "conftest.py").write_text((ROOT / "tests/conftest.py").read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "test_it.py").write_text(
+        "import pytest\n\n\ndef test_it():\n    pytest.importorskip('no_such_package', reason='not there')\n"
+        "@pytest.mark.slow\ndef test_more():\n    pass\n",
+        encoding="utf-8",
+    )
+    for required, code, said in (("", 0, "1 skipped: not there"), ("1", 1, "No module named 'no_such_package'")):
+        done = subprocess.run(
+            [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", tmp_path, tmp_path],
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, "GEARTRAIN_REQUIRE_EXTRAS": required},
+            cwd=tmp_path,
+        )
+        assert done.returncode == code, done.stdout
+        assert said in done.stdout
+        assert "1 skipped: slow: run with --slow" in done.stdout
 
 
 def test_the_same_report_in_markdown_needs_no_extra(tmp_path: Path) -> None:

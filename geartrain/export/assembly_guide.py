@@ -11,6 +11,7 @@ from geartrain.export.assembly_pictures import picture_path
 from geartrain.export.assembly_steps import assembly_steps
 from geartrain.export.parts_list import ListedPart, parts_list
 from geartrain.export.proof.verdict_text import proof_lines, verdict_lines
+from geartrain.numerics.markdown_text import markdown_text
 from geartrain.scene.parts.arbor_columns import SHAKE
 
 if TYPE_CHECKING:
@@ -103,4 +104,4 @@ def _steps(work: SolidModel, pictures: bool) -> Iterator[str]:
 
 
 def _cell(text: str) -> str:
-    return printable(text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;"))
+    return printable(markdown_text(text).replace("|", "\\|").replace("\n", " "))

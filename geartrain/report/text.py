@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from io import StringIO
 from typing import TYPE_CHECKING
 
 from geartrain.errors import printable
+from geartrain.numerics.markdown_text import markdown_text
 from geartrain.report.document import Branch, Document, Table
 from geartrain.report.table_strips import column_widths, gap_of, strips
 
@@ -28,7 +28,8 @@ def to_markdown(documents: Sequence[Document]) -> str:
     Returns
     -------
     str
-        CommonMark with tables in pipes. What a user wrote is text in it: no HTML, no further cells.
+        CommonMark with tables in pipes. What a user wrote is text in it: no HTML, no further cells, and no links but
+        relative ones and those of http, https and mailto.
 
     Examples
     --------
@@ -41,28 +42,19 @@ def to_markdown(documents: Sequence[Document]) -> str:
     return "\n".join(line for document in documents for line in _markdown(document))
 
 
-_TAG = re.compile(r"<(?=[A-Za-z/!?])")
-_ENTITY = re.compile(r"&(?=#?\w+;)")
-
-
-def _plain(text: str) -> str:
-    """Text that Markdown would take for HTML, as text."""
-    return _TAG.sub("&lt;", _ENTITY.sub("&amp;", text))
-
-
 def _line(text: str) -> str:
-    """The same on one line, for a heading or a cell."""
-    return " ".join(_plain(text).split())
+    """Text on one line, for a heading or a cell."""
+    return " ".join(markdown_text(text).split())
 
 
 def _markdown(document: Document) -> Iterator[str]:
     yield from (f"# {_line(document.title)}", "")
     for paragraph in document.lead:
-        yield from (_plain(paragraph), "")
+        yield from (markdown_text(paragraph), "")
     for section in document.sections:
         yield from (f"## {_line(section.title)}", "")
         for paragraph in section.paragraphs:
-            yield from (_plain(paragraph), "")
+            yield from (markdown_text(paragraph), "")
         if section.branches:
             yield from (*_list(section.branches), "")
         for table in section.tables:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import urlsplit
 from xml.etree import ElementTree
 
 import pytest
 from commands import LOCKED, call, without
+from markdown_it import MarkdownIt
 
 from geartrain import GearTrainError, load
 from geartrain.report import (
@@ -23,7 +25,7 @@ from geartrain.report import (
     to_html,
     to_markdown,
 )
-from geartrain.report.document import Document, Section
+from geartrain.report.document import Branch, Document, Section, Table
 from geartrain.report.html_page import inline, is_web
 
 SVG = (
@@ -158,6 +160,63 @@ def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[.
 )
 def test_only_addresses_of_the_web_become_links(url: str, right: bool) -> None:
     assert is_web(url) is right
+
+
+LIVE = (
+    *("[a](http://example.org/x?y=1#z)", "[a](HTTPS://example.org)", "[a](mailto:somebody@example.org)"),
+    *("[a](trains/worm.yaml)", "[a](#source-x)", "[a](/x:y)", "![a](picture.svg)", "[a]\n\n[a]: https://example.org"),
+)
+DEAD = (
+    *("[a](javascript:alert(1))", "[a](JaVaScRiPt:alert(1))", "[a](< javascript:alert(1)>)", "[a](<javascript:x y>)"),
+    *("[a](&#106;avascript:alert(1))", "[a](javascript&colon;alert(1))", "[a](&#x6A;avascript:alert(1))"),
+    *("[a](  javascript:alert(1))", "[a](\njavascript:alert(1))", "[a](java\tscript:alert(1))", "[a](\x01javascript:x)"),
+    *("[a](javascript\\:alert(1))", "[a](\\javascript:alert(1))", "[a](java\nscript:alert(1))"),
+    *("[a](data:text/html,<script>alert(1)</script>)", "![a](data:image/svg+xml;base64,PHN2Zz4=)", "[a](vbscript:x)"),
+    *("<javascript:alert(1)>", '<a href="javascript:alert(1)">a</a>', "<a\nhref=javascript:x>a</a>", "[a](file:///etc)"),
+    *("[a]\n\n[a]: javascript:alert(1)", "[a]\n\n[a]:\n  <javascript:alert(1)>", "[a][b]\n\n[b]: data:text/html,x"),
+    *("[![a](picture.svg)](javascript:alert(1))", "[a](b [c](javascript:alert(1))", "[a] [b](javascript:alert(1) 'c')"),
+)
+
+
+def rendered(text: str) -> Iterator[str]:
+    """What two readers of Markdown that check no address make of it."""
+    markdown = pytest.importorskip("markdown")
+    reader = MarkdownIt("commonmark", {"html": True}).enable("table")
+    reader.validateLink = lambda url: True  # type: ignore[method-assign]
+    yield reader.render(text)
+    yield markdown.markdown(text, extensions=["tables"])
+
+
+def addresses(text: str) -> set[str]:
+    """Schemes of what a browser would follow or load, or "" where there is none; it drops blanks within."""
+    found = [
+        (tag, re.sub(r"[\x00-\x20]", "", str(attrs[key])))
+        for page in rendered(text)
+        for tag, attrs in Read(page).elements
+        for key in ("href", "src")
+        if key in attrs
+    ]
+    return {urlsplit(address).scheme for _, address in found}
+
+
+@pytest.mark.parametrize("text", LIVE)
+def test_a_note_may_lead_to_the_web_to_mail_and_to_files_beside_it(text: str) -> None:
+    document = Document("A note", [text], [Section("Wheels", [text])])
+    assert addresses(to_markdown([document])) == addresses(text) != set()
+    assert addresses(text) <= {"http", "https", "mailto", ""}
+
+
+@pytest.mark.parametrize("text", DEAD)
+def test_no_other_address_of_a_note_is_followed(text: str) -> None:
+    assert addresses(text) - {"http", "https", "mailto", ""} or "script" in text, "the readers check nothing"
+    branch, table = Branch(text), Table(("a", text), [(text, "b")])
+    document = Document(text, [text], [Section(text, [text], [table], [branch])])
+    assert addresses(to_markdown([document])) <= {"http", "https", "mailto", ""}
+
+
+def test_prose_with_brackets_stays_as_it_is() -> None:
+    text = "As in [3]: wheels of 2:1 (see [4](page)), `f[x](y)`, speeds [1, 2]: both; [5](notes 2)."
+    assert text in to_markdown([Document("A note", [text], [])])
 
 
 def test_what_a_user_writes_stays_text_and_the_only_script_is_known_by_its_hash(

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError
+from geartrain.viewer.viewer_page import own_script_only
 
 if TYPE_CHECKING:
     from tornado.web import Application
@@ -138,12 +139,15 @@ class LiveServer:
 
         live = self
         shell = files(__package__).joinpath("live.html").read_text(encoding="utf-8")
+        policy = self._policy(shell)
 
         class Shown(RequestHandler):
             def get(self, name: str) -> None:
                 pages = live.pages
                 text = shell if not name else "" if pages is None else getattr(pages, name)
                 self.set_header("Cache-Control", "no-store")
+                if not name:  # the two within have policies of their own
+                    self.set_header("Content-Security-Policy", policy)
                 self.finish(text)
 
         class Changes(WebSocketHandler):
@@ -164,3 +168,10 @@ class LiveServer:
         application = Application(log_function=lambda handler: None)
         application.add_handlers(r"(127\.0\.0\.1|localhost)", [(r"/(report|view|)", Shown), (r"/changes", Changes)])
         return application
+
+    def _policy(self, shell: str) -> str:
+        """What the outer page may do: run its script, show the two pages of this server, and listen to it."""
+        script = shell.partition("<script>")[2].partition("</script>")[0]
+        port = self._sockets[0].getsockname()[1]
+        reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"
+        return f"{own_script_only(script)}; img-src data:; {reached}"

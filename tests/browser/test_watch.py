@@ -61,7 +61,7 @@ def served(file: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
 
 
 def follow(page: Page, version: int) -> None:
-    page.wait_for_function(f"document.body.dataset.version === '{version}'", timeout=60_000)
+    page.locator(f"body[data-version='{version}']").wait_for(state="attached", timeout=60_000)
 
 
 def test_the_page_follows_the_file_and_keeps_crank_and_camera(
@@ -94,6 +94,29 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     told.wait_for(state="hidden")
     report.get_by_text("Second").first.wait_for()
     assert not errors
+    page.close()
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
+def test_the_outer_page_runs_its_own_script_and_reaches_its_own_server_only(
+    browser: Browser, served: tuple[str, subprocess.Popen[str]], host: str
+) -> None:
+    page = browser.new_page()
+    broken: list[str] = []
+    page.on("console", lambda message: broken.append(message.text) if message.type == "error" else None)
+    answer = page.goto(served[0].replace("127.0.0.1", host))
+    assert answer is not None
+    assert "default-src 'none'" in answer.headers["content-security-policy"]
+    follow(page, 1)
+    assert not broken, "nothing that the page needs is forbidden"
+    page.evaluate("document.body.append(Object.assign(document.createElement('script'), {text: 'window.ran = true'}))")
+    page.evaluate("document.body.insertAdjacentHTML('beforeend', '<img src=/report onerror=window.ran=true>')")
+    assert page.evaluate("fetch('/report').then(() => true, () => false)") is False
+    assert page.evaluate(
+        "new Promise(done => { const line = new WebSocket('ws://127.0.0.1:9'); line.onerror = () => done(true) })"
+    )
+    assert page.evaluate("window.ran") is None
+    assert len([each for each in broken if "Content Security Policy" in each]) >= 3
     page.close()
 
 

@@ -169,10 +169,20 @@ LIVE = (
 DEAD = (
     *("[a](javascript:alert(1))", "[a](JaVaScRiPt:alert(1))", "[a](< javascript:alert(1)>)", "[a](<javascript:x y>)"),
     *("[a](&#106;avascript:alert(1))", "[a](javascript&colon;alert(1))", "[a](&#x6A;avascript:alert(1))"),
-    *("[a](  javascript:alert(1))", "[a](\njavascript:alert(1))", "[a](java\tscript:alert(1))", "[a](\x01javascript:x)"),
+    *(
+        "[a](  javascript:alert(1))",
+        "[a](\njavascript:alert(1))",
+        "[a](java\tscript:alert(1))",
+        "[a](\x01javascript:x)",
+    ),
     *("[a](javascript\\:alert(1))", "[a](\\javascript:alert(1))", "[a](java\nscript:alert(1))"),
     *("[a](data:text/html,<script>alert(1)</script>)", "![a](data:image/svg+xml;base64,PHN2Zz4=)", "[a](vbscript:x)"),
-    *("<javascript:alert(1)>", '<a href="javascript:alert(1)">a</a>', "<a\nhref=javascript:x>a</a>", "[a](file:///etc)"),
+    *(
+        "<javascript:alert(1)>",
+        '<a href="javascript:alert(1)">a</a>',
+        "<a\nhref=javascript:x>a</a>",
+        "[a](file:///etc)",
+    ),
     *("[a]\n\n[a]: javascript:alert(1)", "[a]\n\n[a]:\n  <javascript:alert(1)>", "[a][b]\n\n[b]: data:text/html,x"),
     *("[![a](picture.svg)](javascript:alert(1))", "[a](b [c](javascript:alert(1))", "[a] [b](javascript:alert(1) 'c')"),
 )

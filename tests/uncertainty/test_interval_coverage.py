@@ -68,7 +68,7 @@ def plan_of(chances: dict[str, float], outputs: list[str]) -> TrialPlan:
         "revolutes": joints,
         "gears": gears,
         "inputs": {"input": 1},
-        "outputs": dict.fromkeys(outputs, {}),
+        "outputs": {name: {} for name in outputs},
         "tooth_form": {"form": "involute", "backlash": "0.2 mm"},
     }
     return find_trial_plan(GearTrain.declare(data), ())

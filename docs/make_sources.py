@@ -30,8 +30,11 @@ def lead() -> Iterator[str]:
     yield ""
     yield "- **reproduced**: equal within half a unit of the last digit printed; an equation at many places; words"
     yield "  where what they say was found so;"
+    yield "- **declared**: equal, but only read off the shipped train or table, which has it from the source: nothing is"
+    yield "  computed;"
     yield "- **erratum**: it is not, and the link leads to a proof that `python docs/make_errata.py` runs;"
-    yield "- **out of scope**: nothing that geartrain computes, with the reason."
+    yield "- **out of scope**: nothing that geartrain computes, with the reason; a reason that is not of the source itself"
+    yield "  is worked out like a row."
     yield ""
     yield "A command is given with the place of the value in its JSON. A call is an expression of Python, with the"
     yield "names of the source's module in `docs/sources/`; `python docs/make_sources.py 'Sorge Eq. (12)'` works out"
@@ -66,7 +69,8 @@ def cells(source: Source, row: Row) -> tuple[str, ...]:
     verdict = f"[{ERRATUM}](errata.md#{row.section or source.section})" if row.erratum else row.verdict
     if row.why:
         verdict += f": {row.why}"
-    by = "" if row.way is None else row.way.text
+    way = row.way or row.check
+    by = "" if way is None else way.text
     return row.place, row.claim, row.printed, row.ours, by, verdict
 
 

@@ -11,7 +11,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.kinematics.graph import adjacency_labels
 from geartrain.train.periods import period_table
-from sources.row import Digits, Exactly, Finding, Holds, Row, Source, Statements, outside
+from sources.row import Digits, Exactly, Finding, Holds, Row, Source, Statements, declared, outside
 from sources.ways import Command
 
 SECTION = "the-antikythera-train-of-pennestri-valentini-and-petti-2002"
@@ -120,7 +120,9 @@ def introduction() -> Iterator[Row]:
     yield outside("Abstract", "design knowledge of the Greeks, first differential gear", HISTORY)
     yield outside("History", "the find: 1900, 42 m deep, one mile east of Pinakakia; ship of 80-50 B.C.", HISTORY)
     yield outside("Description", "Pappos, Heron, Cicero, Archimedes, Al-Biruni, Willis 1837", HISTORY)
-    yield outside("Description, sheets", "bronze of 2.0 to 2.3 mm", "a measure of the find; no thickness enters speeds")
+    yield _OWN.outside(
+        "Description, sheets", "bronze of 2.0 to 2.3 mm", "no thickness enters speeds", "same_speeds('thickness: 2 mm')"
+    )
     yield outside(
         "Fig. 1",
         "plan by Price, with dimensions in cm",
@@ -163,7 +165,7 @@ def structure() -> Iterator[Row]:
         name, _, teeth = entry.partition("=")
         erratum, section = ("Only 60 gives the speeds", "z18-15-or-60") if entry == "z18=15" else ("", "")
         expression = f"count('{name.capitalize()}')"
-        yield exact(f"Tooth list, {name}", "teeth", teeth, expression, erratum, section=section)
+        yield declared(exact(f"Tooth list, {name}", "teeth", teeth, expression, erratum, section=section))
     for link, entries in enumerate(TABLE_7, 1):
         yield exact(
             f"Table 7, row {link}",
@@ -173,6 +175,24 @@ def structure() -> Iterator[Row]:
             "Row 18 of the matrix holds" if link == 18 else "",
             section="table-7" if link == 18 else "",
         )
+
+
+def same_speeds(more: str) -> Finding:
+    """Whether the train has the same speeds where it declares something more."""
+    found = geartrain.load(f"extends: pennestri-2002\n{more}\n").solve()
+    return Finding(dict(found.speeds) == dict(paper().solve().speeds), "the speeds are the same")
+
+
+def no_wheel(name: str) -> Finding:
+    """Whether Price's train and the equations of the listing are without a wheel."""
+    used = name in price().declaration.wheels or any(f"Z{name}" in text for text in EQUATIONS)
+    return Finding(not used, f"there is no wheel {name}")
+
+
+def price_months() -> Finding:
+    """Synodic months a year, of Price's train and of the paper's."""
+    ours = abs(speed(17))
+    return Finding(price_ratio() == ours, f"both {ours}")
 
 
 def caption() -> str:
@@ -240,20 +260,23 @@ def speeds() -> Iterator[Row]:
             Digits(),
             "| 6 | 16/9 | 1.7777 |" if link == 6 else "",
             section="table-4-digit-by-digit" if link == 6 else "",
+            echo=link in (1, 2),  # the frame and the input
         )
     for entry in LETTERS.split():
         name, _, teeth = entry.partition("=")
         place, claim = f"Maple, Z({name})", "teeth, in Price's letters"
         if name == "EK":
-            yield outside(place, claim, "Price's train has no wheel EK, and no equation of the listing uses it", teeth)
+            why = "Price's train has no wheel EK, and no equation of the listing uses it"
+            yield _OWN.outside(place, claim, why, "no_wheel('EK')", teeth)
         else:
             wrong = ("| 48 | 75/16 |", PRICE) if name == "A" else ("", "")
-            yield exact(place, claim, teeth, f"count('{name}', price())", erratum=wrong[0], section=wrong[1])
+            expression = f"count('{name}', price())"
+            yield declared(exact(place, claim, teeth, expression, erratum=wrong[0], section=wrong[1]))
     for entry in MAPLE.split():
         name, _, teeth = entry.partition("=")
-        yield exact(f"Maple, {name}", "teeth, in the paper's numbers", teeth, f"count('{name}')")
-    yield exact("Maple, n[1]", "the frame", "0", "speed(1)")
-    yield exact("Maple, n[2]", "the input", "5", "speed(2)")
+        yield declared(exact(f"Maple, {name}", "teeth, in the paper's numbers", teeth, f"count('{name}')"))
+    yield declared(exact("Maple, n[1]", "the frame", "0", "speed(1)"))
+    yield declared(exact("Maple, n[2]", "the input", "5", "speed(2)"))
     for number, text in enumerate(EQUATIONS, 1):
         yield exact(f"Maple, eq{number}", f"{text} = 0", "0", f"maple('{text}')")
 
@@ -345,7 +368,7 @@ def years_and_months() -> Iterator[Row]:
         "an astronomer's datum, the mean year of 1900; shipped is that of 2000, 365.242190402 d",
         "365.242199",
     )
-    yield digits("Table 5, synodic month", "days", "29.53059", "period('month_synodic_J2000')")
+    yield declared(digits("Table 5, synodic month", "days", "29.53059", "period('month_synodic_J2000')"))
     yield digits(
         "Table 5, sidereal month",
         "days",
@@ -416,10 +439,10 @@ def results() -> Iterator[Row]:
 
 def missing_parts() -> Iterator[Row]:
     """Table 6 and what it is for."""
-    yield exact("Missing parts, N", "teeth of wheel N", "64", "count('N', price())")
+    yield declared(exact("Missing parts, N", "teeth of wheel N", "64", "count('N', price())"))
     yield digits("Missing parts, speed of N", "turns a year", "0.25", "speed(8)")
-    yield exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()")
-    yield digits("Footnote 2, days", "its days", "6585.32", "period('saros_223_synodic_modern')")
+    yield declared(exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()"))
+    yield declared(digits("Footnote 2, days", "its days", "6585.32", "period('saros_223_synodic_modern')"))
     yield words("Footnote 2, years", "18 years and about 11 days", "saros_of_years()")
     yield words("Fig. 4", "N drives O1, O2 beside it drives X", "fig_4()")
     for planet, rows in {"venus": ("32 50 40", "31 52 43", "32 48 41"), "mars": ("30 50 57", "31 48 53"),
@@ -450,10 +473,11 @@ def missing_parts() -> Iterator[Row]:
         "arrangement()",
         why="kept in [missing parts](missing-parts.md); `geartrain teeth train pennestri-2002-missing`",
     )
-    yield outside(
+    yield _OWN.outside(
         "Conclusion",
         "months more accurate than Price thought",
-        "follows from 236/19, an erratum above: Price's train has the same speeds",
+        "follows from 236/19, an erratum above: Price's train has the same speed",
+        "price_months()",
     )
 
 

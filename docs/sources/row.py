@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
@@ -12,8 +12,15 @@ from typing import Any
 
 from sources.ways import Call, Way
 
-REPRODUCED, ERRATUM, OUTSIDE = "reproduced", "erratum", "out of scope"
-VERDICTS = (REPRODUCED, ERRATUM, OUTSIDE)
+REPRODUCED, DECLARED, ERRATUM, OUTSIDE = "reproduced", "declared", "erratum", "out of scope"
+VERDICTS = (REPRODUCED, DECLARED, ERRATUM, OUTSIDE)
+NOT_COMPUTED = (
+    *("history", "a guess at history", "a measurement", "fits to measurements", "an astronomer's datum"),
+    *("the copy has no pictures", "no values", "definitions", "a definition", "an assumption", "an argument"),
+    *("a method, not a result", "a proof", "a local proof", "given by the note as wrong", "not teeth", "left open"),
+    *("that paper is not among the sources", "a choice of the note", "oil is not computed"),
+)
+"""How a reason begins that speaks of the source only; any other one has a `check`."""
 
 
 @dataclass(frozen=True)
@@ -146,6 +153,8 @@ class Row:
     erratum   words of docs/errata.md that show what is wrong; empty where nothing is
     why       out of scope: why; else a remark
     section   the heading of docs/errata.md with the proof, where it is not that of the source
+    echo      whether ours is only read off what the shipped train or table declares
+    check     out of scope: gives a `Finding` that bears out the reason
     """
 
     place: str
@@ -156,6 +165,8 @@ class Row:
     erratum: str = ""
     why: str = ""
     section: str = ""
+    echo: bool = False
+    check: Way | None = None
 
     @cached_property
     def value(self) -> Any:
@@ -167,25 +178,32 @@ class Row:
         """One of `VERDICTS`, as declared; `stands` says whether the value bears it out."""
         if self.way is None:
             return OUTSIDE
-        return ERRATUM if self.erratum else REPRODUCED
+        return ERRATUM if self.erratum else DECLARED if self.echo else REPRODUCED
 
     @property
     def stands(self) -> bool:
-        """Reproduced: the value agrees; erratum: it does not; out of scope: there is a reason."""
+        """Reproduced, declared: the value agrees; erratum: it does not; out of scope: the reason is true."""
         if self.way is None:
-            return bool(self.why)
+            return self.why.startswith(NOT_COMPUTED) if self.check is None else bool(self.check.value())
         agrees = self.judge.accepts(self.printed, self.value)
         return not agrees and self.judge.mends(self.value) if self.erratum else agrees
 
     @property
     def ours(self) -> str:
-        """The value for the page."""
-        return "" if self.way is None else self.judge.shows(self.printed, self.value)
+        """The value for the page; out of scope: what bears out the reason."""
+        if self.way is None:
+            return "" if self.check is None else str(self.check.value().text)
+        return self.judge.shows(self.printed, self.value)
 
 
 def outside(place: str, claim: str, why: str, printed: str = "") -> Row:
-    """A statement that geartrain does not answer, and why."""
+    """A statement that nothing can be computed for, and why: one of `NOT_COMPUTED`."""
     return Row(place, claim, printed, why=why)
+
+
+def declared(row: Row) -> Row:
+    """A row whose value is only read off what is declared."""
+    return replace(row, echo=True)
 
 
 @dataclass(frozen=True)
@@ -197,6 +215,10 @@ class Statements:
     def call(self, expression: str) -> Call:
         """The way to a value."""
         return Call(expression, self.names)
+
+    def outside(self, place: str, claim: str, why: str, check: str, printed: str = "") -> Row:
+        """A statement that geartrain does not answer; the expression gives a `Finding` that bears out the reason."""
+        return Row(place, claim, printed, why=why, check=self.call(check))
 
     def words(
         self, place: str, claim: str, expression: str, erratum: str = "", why: str = "", section: str = ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sources import smith
+from sources import smith, smith_axes
 from sources.row import Equal, Mended, Row, Source, Statements, outside
 from sources.smith import BOTH, ONCE, TWICE
 
@@ -14,22 +14,22 @@ DATUM = "a measurement that the note quotes, not computed"
 
 _OF_SMITH = Statements(vars(smith))
 words, equation, digits = _OF_SMITH.words, _OF_SMITH.equation, _OF_SMITH.digits
+_OF_AXES = Statements(vars(smith_axes))
 
 
 def introduction() -> Iterator[Row]:
     """Sections 1 to 7."""
     yield outside("Eq. (1)", "friction is mu times the normal force", "an assumption; `friction` of a train is this mu")
-    yield outside(
-        "Theorem 1",
-        "only cones with one apex and parallel cylinders roll without sliding along a curve",
-        "a proof on surfaces; trains here have parallel or meeting axes, and worms apart",
+    yield _OF_AXES.words(
+        "Theorem 1", "only cones with one apex and parallel cylinders roll without sliding along a curve", "rolling()"
     )
-    yield outside(
+    yield _OF_AXES.words(
         "Section 2, efficiencies",
-        "97-99.7 % for bevel and spur wheels, 50-95 % for others",
-        DATUM + "; of teeth alone, without bearings and oil: `geartrain mesh involute --teeth 24 36 --friction 0.05`",
+        "97-99.7 % for bevel and spur wheels, 50-95 % for worms and crossed helices",
+        "efficiencies()",
+        why="bearings and oil, which measured efficiencies include, are not counted",
     )
-    yield outside("Section 2, hyperboloids", "the general case, with its generatrix", "crossed axes are not built here")
+    yield _OF_AXES.words("Section 2, hyperboloids", "the general case, with its generatrix", "generatrix()")
     yield outside("Section 3", "terms", "definitions; the [glossary](glossary.md) has ours")
     for kind, number in (("spur", 2), ("bevel", 3)):
         yield equation(
@@ -70,10 +70,11 @@ def introduction() -> Iterator[Row]:
     yield words("Section 7, force", "involutes alone transmit a constant force", "steady_force()")
     yield words("Section 7, spacing", "involutes alone run well at other distances", "spacing()")
     yield words("Section 7, contacts", "more than 1.4 contacts on the mean have been made", "contact_number()")
-    yield outside(
+    yield _OF_AXES.outside(
         "Section 7, few teeth",
         "cycloids work with one or two teeth",
-        "geartrain wants three teeth a wheel at least, and says so",
+        "conjugate teeth are made of three teeth a wheel or more here",
+        "fewest_teeth()",
     )
 
 
@@ -150,10 +151,11 @@ def conjugates() -> Iterator[Row]:
             f"same_flank('{shape}')",
         )
     yield words("Section 9, not Don Juan", "the gear of theorem 8 is not", "not_one_flank()")
-    yield outside(
+    yield _OF_AXES.outside(
         "Section 9, steady heat",
         "a gear whose rate of heat is constant could be had",
-        "the note gives it no use; no such form is offered",
+        "no such form is offered, for the note gives it no use",
+        "no_steady_heat()",
     )
 
 
@@ -326,7 +328,7 @@ def work_and_stress() -> Iterator[Row]:
     yield words(
         "Section 17, involutes", "c falls with sqrt(r - r0), stress grows with (r - r0)^(-1/4)", "involute_root()"
     )
-    yield outside("Footnote 8", "stress of two balls", "teeth touch along lines here")
+    yield _OF_AXES.equation("Footnote 8", "stress of two balls", "two_balls()")
 
 
 def heat_and_optima() -> Iterator[Row]:
@@ -354,7 +356,12 @@ def heat_and_optima() -> Iterator[Row]:
                 f"Problem {number}, {kind}", f"{name}, {kind}: the gear is found", f"uniform('{form}', '{kind}')"
             )
     yield outside("Theorem 10, existence", "that a best shape exists", "an argument; the closed form answers it")
-    yield outside("Section 20", "n contacts: other constants in other pieces", "the shapes are for one pair in contact")
+    yield _OF_AXES.outside(
+        "Section 20",
+        "n contacts: other constants in other pieces",
+        "these shapes are made for one pair in contact here",
+        "one_pair()",
+    )
     for shape, tilt in (("stress", 45), ("temperature", 80)):
         yield words(
             f"Section 21, {shape}",

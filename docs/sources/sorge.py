@@ -547,7 +547,11 @@ def from_command() -> Iterator[Row]:
 
 def power_loss() -> Iterator[Row]:
     """Section IV."""
-    yield outside("IV, other losses", "supports, air drag and others are left aside", "so they are here")
+    yield outside(
+        "IV, other losses",
+        "supports, air drag and others are left aside",
+        "a choice of the note; links of a train may declare `bearing` friction and `drag`",
+    )
     yield words(
         "IV, pressure angle", "beta + alpha_1, beta - alpha_2: quite larger than in modern gears", "pressure_angles()"
     )
@@ -773,7 +777,7 @@ def conclusions() -> Iterator[Row]:
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
-        "a guess at history; blows themselves are in `--inertia --rate`",
+        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance 1.01 --inertia '20 g cm2' --rate 1rpm`",
     )
     yield words(
         "VI, losses",

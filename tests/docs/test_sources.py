@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import re
+import shlex
 from collections import Counter
 from fractions import Fraction
+from typing import Any
 
 import make_sources
 import pytest
 from places import DOCS
-from sources.row import Digits, Equal, Exactly, Finding, Holds, Mended, Row, Source
+from sources.row import DECLARED, Digits, Equal, Exactly, Finding, Holds, Mended, Row, Source
 from sources.ways import Call
+from typer.main import get_command
+
+from geartrain.cli import app
 
 ROWS = [pytest.param(source, row, id=f"{source.name} {row.place}") for source in make_sources.SOURCES
         for row in source.rows]  # fmt: skip
@@ -68,8 +74,41 @@ def value(thing: object) -> Call:
         (Row("p", "c", "", value((0.0, 0.0)), Mended(), "named"), False),
         (Row("p", "c", "", value(Finding(False, "no")), Holds()), False),
         (Row("p", "c"), False),
-        (Row("p", "c", why="a photograph"), True),
+        (Row("p", "c", why="a photograph"), False),
+        (Row("p", "c", why="history: a photograph"), True),
+        (Row("p", "c", why="nobody has it", check=value(Finding(True, "nobody"))), True),
+        (Row("p", "c", why="nobody has it", check=value(Finding(False, "somebody"))), False),
+        (Row("p", "c", "1.25", value(1.25), Digits(), echo=True), True),
+        (Row("p", "c", "1.25", value(1.26), Digits(), echo=True), False),
     ],
 )
 def test_a_row_stands_only_where_its_value_bears_it_out(row: Row, stands: bool) -> None:
     assert row.stands is stands
+
+
+READ_OFF = re.compile(r"`(count\('\w+'(, price\(\))?\)|period\('\w+'\)|months_of_saros\(\)|speed\([12]\))`")
+"""Expressions that read tooth counts, periods, and the speeds of the frame (1) and of the input (2)."""
+
+
+def test_what_is_only_read_off_a_declaration_is_not_called_reproduced() -> None:
+    rows = [row for source in make_sources.SOURCES for row in source.rows if row.way is not None and not row.erratum]
+    read = {row.place for row in rows if READ_OFF.fullmatch(row.way.text)} | {"Table 4, w1", "Table 4, w2"}
+    assert {row.place for row in rows if row.verdict == DECLARED} == read
+    assert len(read) > 90
+
+
+def test_every_command_of_a_reason_is_one_that_geartrain_understands() -> None:
+    commands = {
+        command
+        for source in make_sources.SOURCES
+        for row in source.rows
+        for command in re.findall(r"`geartrain ([^`]+)`", row.why)
+    }
+    assert len(commands) > 10
+    for command in sorted(commands):
+        context, words = None, shlex.split(command)
+        verb: Any = get_command(app)
+        while hasattr(verb, "resolve_command"):
+            context = verb.make_context(None, list(words), parent=context)
+            _, verb, words = verb.resolve_command(context, [*context._protected_args, *context.args])
+        verb.make_context(command, list(words), parent=context)

@@ -78,7 +78,7 @@ def efficiencies() -> Finding:
         f"{100 * max(near):.1f} %; worms and crossed helices of 5 to 45 deg lead {100 * min(crossed):.1f} to "
         f"{100 * max(crossed):.1f} %, above 95 % where friction is less than {limit:.4f}"
     )
-    return Finding(min(near) > 0.97 and 0.5 < min(crossed) and max(crossed) < 0.97 < min(near), text)
+    return Finding(min(crossed) > 0.5 and max(crossed) < 0.97 < min(near), text)
 
 
 def two_balls() -> float:

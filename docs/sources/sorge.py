@@ -777,7 +777,8 @@ def conclusions() -> Iterator[Row]:
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
-        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance 1.01 --inertia '20 g cm2' --rate 1rpm`",
+        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance 1.01 "
+        "--inertia '20 g cm2' --rate 1rpm`",
     )
     yield words(
         "VI, losses",

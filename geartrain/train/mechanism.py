@@ -58,8 +58,7 @@ from geartrain.train.materials import ArborSizes, FaceWidth
 from geartrain.train.short_forms import JOINT_SCHEMA
 from geartrain.train.tooth_counts import Teeth
 
-MOST_COPIES = 360
-"""More planets have room on no carrier."""
+MOST_COPIES = 360  # more planets have room on no carrier
 
 
 class Source(Declared):

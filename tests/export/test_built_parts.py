@@ -248,6 +248,15 @@ def test_the_list_of_parts_has_all_of_them_and_masses_of_their_volumes() -> None
     assert all(f"{part.name}" in guide for part in work.parts)
 
 
+def test_a_readme_follows_no_script_from_a_title() -> None:
+    train = GearTrain.declare(
+        {**_read(LOCKED), "title": "[worn](JavaScript:alert(1)) <b>&#106;</b> [source](trains/a.yaml)"}
+    )
+    files = {each.path: each for each in export_files(SolidModel(train, ManufacturingSizes()), ["svg"])}
+    guide = files["README.md"].make().decode()
+    assert r"[worn]\(JavaScript:alert(1)) &lt;b>&amp;#106;&lt;/b> [source](trains/a.yaml)" in guide
+
+
 def test_what_cannot_be_built_is_named_with_what_is_in_the_way() -> None:
     said = " ".join(each.what for each in notices(workpiece("price-1974"), ["svg"]))
     assert "axis 'A' has no bearings" in said

@@ -42,11 +42,11 @@ class Soundness:
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
         if whole:
+            yield from (f"note {found}" for found in train.build_findings if not found.is_error)
             yield from (f"note {self.file}: {line}" for line in train.gridlock.lines())
         if self.whole and train.is_placed and train.closure.kind in ("misses", "unclear"):
             yield f"note {self.file}: {train.closure.text}"
         if whole:
-            yield from (f"note {found}" for found in train.build_findings if not found.is_error)
             for remark in train.remarks:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             if self.whole:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.yaml_nodes import YamlNode, texts
@@ -13,7 +13,10 @@ _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """The child laid over its parent, as a new node. Raises `DeclarationError` for removals that remove nothing."""
+    """The child laid over its parent, as a new node.
+
+    Raises `DeclarationError` for removals that remove nothing, and for wheels of the parent on another link.
+    """
     base = {key: node for key, node in parent.mapping.items() if key not in _NOT_INHERITED}
     keys = {key: parent.keys[key] for key in base}
     root = YamlNode(base, child.place, keys)
@@ -31,7 +34,26 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
             result[key] = _overlay_list(old, node, _identity(key))
         else:
             result[key] = node
-    return YamlNode(result, child.place, keys)
+    merged = YamlNode(result, child.place, keys)
+    if problems := list(_on_another_link(root, child, merged)):
+        raise DeclarationError(problems)
+    return merged
+
+
+def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
+    """Wheels that a child declares on another link than its parent, where they still are."""
+    owner = {wheel: link for link, part in _child(parent, "links").items() for wheel in _child(part, "wheels")}
+    for link, part in _child(child, "links").items():
+        for wheel in _child(part, "wheels"):
+            old = owner.get(wheel, link)
+            if old != link and wheel in _child(merged, "links", old, "wheels"):
+                yield Problem(
+                    f"the parent has wheel '{wheel}' on link '{old}'",
+                    f"it is declared again on link '{link}', and wheel ids are unique over the train",
+                    f"to change the parent's wheel, write it under `{old}`: `links: {{{old}: {{wheels: {{{wheel}: "
+                    "...}}}`; give an additional wheel another id",
+                    child.place_of(("links", link, "wheels", wheel)),
+                )
 
 
 def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:

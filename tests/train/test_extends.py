@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from commands import call
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.train.declaration_files import shipped
@@ -340,3 +341,37 @@ def test_the_catalogue_of_shipped_trains_cannot_be_emptied() -> None:
     with pytest.raises(AttributeError):
         shipped().clear()  # type: ignore[attr-defined]
     assert "planetary" in shipped()
+
+
+def test_a_wheel_of_the_parent_declared_on_another_link_is_refused_with_the_link_to_write_it_under(
+    child: Child,
+) -> None:
+    message = refusal(child, "links:\n  w: {wheels: {w: 80}}")
+    assert "child.yaml:3: the parent has wheel 'w' on link 'b'" in message
+    assert "to change the parent's wheel, write it under `b`: `links: {b: {wheels: {w: ...}}}`" in message
+    assert "rename" not in message
+    assert child("links: {b: {wheels: {w: 80}}}").solve()["b"] == -3  # as the message says
+
+
+def test_a_wheel_that_the_child_takes_from_its_parent_may_be_put_on_another_link(child: Child) -> None:
+    for removal in (
+        "remove: {wheels: [x]}\nlinks: {a: {wheels: {x: 15}}}",
+        "links: {b: {wheels: {x: null}}, a: {wheels: {x: 15}}}",
+    ):
+        assert child(removal + "\ngears: [{id: second, pair: [x, y]}]").solve()["c"] == Fraction(-12 * 15, 40)
+
+
+def test_a_wheel_on_another_link_is_found_in_grandchildren(child: Child, tmp_path: Path) -> None:
+    child("links: {b: {wheels: {w: 80}}}")
+    path = tmp_path / "grandchild.yaml"
+    path.write_text("extends: child.yaml\nlinks: {a: {wheels: {w: 90}}}\n", encoding="utf-8")
+    with pytest.raises(GearTrainError, match=r"grandchild\.yaml:2: the parent has wheel 'w' on link 'b'"):
+        load(path)
+
+
+def test_an_added_wheel_that_meshes_nothing_is_the_first_line_of_check(child: Child, tmp_path: Path) -> None:
+    child("links: {c: {wheels: {z: 80}}}\naxes: {A: {position: [0 mm, 0 mm, 0 mm]}}\ngears: [{id: more, pair: [p, y]}]")
+    result = call("check", tmp_path / "child.yaml")
+    lines = [line for line in result.output.splitlines() if not line.startswith("FAIL")]
+    assert len(lines) > 1
+    assert lines[0].startswith(f"note {tmp_path / 'child.yaml'}:2: wheel 'z' 80 meshes nothing")

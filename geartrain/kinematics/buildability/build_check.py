@@ -31,6 +31,7 @@ def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
     """All that the declaration alone tells, rule by rule (docs/buildability.md)."""
+    yield from check_mates(train)  # first: a wheel that a child adds without a pair changes no speed of its parent
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, pairs)
     yield from check_rings(pairs)
@@ -40,7 +41,6 @@ def check_build(
     yield from check_triangles(sizes)
     yield from _planets(train, tree, circuits, sizes, outlines)
     yield from check_clutches(train, tree)
-    yield from check_mates(train)
 
 
 def _planets(

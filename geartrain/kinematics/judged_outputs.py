@@ -227,6 +227,17 @@ class OutputResult(Result):
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
         return False not in judged
 
+    @property
+    def differs_in_sign(self) -> bool:
+        """True if the opposite speed would meet every figure that this one does not meet."""
+        if self.holds or self.speed is None:
+            return False
+        ratio = None if self.ratio is None else -self.ratio
+        expected = self.expect_holds is not False or _expect_holds(self.output, -self.speed)
+        return bool(
+            expected and (self.published_holds is not False or _published_holds(self.output, -self.speed, ratio))
+        )
+
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
     """A product as a float, or None where float64 has none."""

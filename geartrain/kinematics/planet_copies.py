@@ -117,7 +117,11 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
         if part.copies == 1:
             if bearer in train.links and train.links[bearer].copies > 1:
                 what = f"'{link}' turns on '{bearer}', of which there are {train.links[bearer].copies}"
-                fix = f"write `copies: {train.links[bearer].copies}` for it too"
+                fix = (
+                    f"write `copies: {train.links[bearer].copies}` for it too; or, where all bear one '{link}', let it "
+                    "turn on an added link of the carrier's axis, joined by "
+                    f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
+                )
                 yield Problem(what, "each of those would bear one", fix, train.place("links", link))
             continue
         if bearer is None or bearer == train.frame:

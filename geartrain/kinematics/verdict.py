@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.numerics.plain_data import Result
+
+MOST_NAMES = 12
+
+
+def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
+    """The first names, and how many more there are.
+
+    >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
+    ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
+    """
+    if len(names) <= MOST_NAMES + 1:
+        return mark.join(names)
+    return f"{mark.join(names[:MOST_NAMES])} and {len(names) - MOST_NAMES} more"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +59,8 @@ class Loop(Result):
         return self.product == 1
 
     def __str__(self) -> str:
-        pairs, product = ", ".join(self.pairs), abridged_text(self.product)
-        return f"loop {' - '.join(self.links)} (pairs {pairs}; ratio product {product})"
+        pairs, product = abridged_names(self.pairs), abridged_text(self.product)
+        return f"loop {abridged_names(self.links, ' - ')} (pairs {pairs}; ratio product {product})"
 
 
 VerdictKind = Literal["determined", "free", "locked", "contradictory"]

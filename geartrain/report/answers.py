@@ -142,17 +142,18 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
     declared = train.declaration
     of = result.of if result.relative_to == declared.frame else f"{result.of} seen from {result.relative_to}"
     expect, published = result.output.expect, result.output.published
+    sign = "; only the sign differs" if result.differs_in_sign else ""
     return (
         result.name,
         of + (" (sum of joint speeds)" if result.bookkeeping else ""),
         exact(result.speed),
         figure(result.speed),
         exact(result.ratio) if result.ratio is not None and result.ratio != result.speed else "",
-        "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected",
+        "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected{sign}",
         ""
         if published is None
         else f"{published.value} {published.as_}"
-        + ("" if result.published_holds else f" FAILS: {result_words(result)}"),
+        + ("" if result.published_holds else f" FAILS: {result_words(result)}{sign}"),
         _as_read(declared, result),
     )
 

@@ -165,4 +165,4 @@ def _wanted(result: OutputResult) -> str:
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")
-    return "; " + ", ".join(words)
+    return "; " + ", ".join(words) + ("; only the sign differs" if result.differs_in_sign else "")

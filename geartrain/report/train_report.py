@@ -12,7 +12,7 @@ from geartrain.errors import GearTrainError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE
-from geartrain.kinematics.verdict import Loop
+from geartrain.kinematics.verdict import Loop, abridged_names
 from geartrain.numerics.decimal_text import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
@@ -303,4 +303,5 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def _loop(loop: Loop) -> str:
-    return f"loop {' - '.join(loop.links)} by {', '.join(loop.pairs)}, ratio product {abridged_text(loop.product)}"
+    links, pairs = abridged_names(loop.links, " - "), abridged_names(loop.pairs)
+    return f"loop {links} by {pairs}, ratio product {abridged_text(loop.product)}"

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from geartrain.errors import DeclarationError, Problem
-from geartrain.train.yaml_nodes import YamlNode
+from geartrain.train.yaml_nodes import YamlNode, texts
 
 JOINT_SCHEMA = {
     "type": "object",
@@ -21,11 +21,9 @@ _MARK = "~"
 
 
 def has_short_forms(data: Mapping[str, Any]) -> bool:
-    """True of plain data with any."""
-    gears = data.get("gears")
-    return isinstance(data.get("revolutes"), Mapping) or (
-        isinstance(gears, list | tuple) and any(isinstance(each, str) for each in gears)
-    )
+    """True of plain data with any, and of data with lists where a pair belongs."""
+    pairs = (each for key in ("gears", "revolutes") if isinstance(data.get(key), list | tuple) for each in data[key])
+    return isinstance(data.get("revolutes"), Mapping) or any(isinstance(each, str | list | tuple) for each in pairs)
 
 
 def written_out(root: YamlNode) -> YamlNode:
@@ -35,7 +33,7 @@ def written_out(root: YamlNode) -> YamlNode:
     """
     joints, gears = root.mapping.get("revolutes"), root.mapping.get("gears")
     changed: dict[str, YamlNode] = {}
-    problems: list[Problem] = []
+    problems = [*_lists("gears", gears, "{} ~ {}"), *_lists("revolutes", joints, "{{pair: [{}, {}], axis: A}}")]
     if joints is not None and isinstance(joints.value, dict):
         changed["revolutes"] = YamlNode(list(_joints(joints, problems)), joints.place)
     if gears is not None and any(isinstance(each.value, str) for each in gears.items):
@@ -43,6 +41,17 @@ def written_out(root: YamlNode) -> YamlNode:
     if problems:
         raise DeclarationError(problems)
     return YamlNode({**root.mapping, **changed}, root.place, root.keys) if changed else root
+
+
+def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
+    """One problem for all pairs that are written as bare lists."""
+    listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
+    if listed:
+        names = [*texts(listed[0]), "a", "b"][:2]
+        several = len(listed) > 1
+        what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
+        fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
+        yield Problem(what, "a pair has its own form", fix, listed[0].place)
 
 
 def _joints(joints: YamlNode, problems: list[Problem]) -> Iterator[YamlNode]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 from pydantic import Field, model_validator
@@ -28,22 +29,25 @@ class Teeth(Declared):
         None, fail_fast=True, description="Relative weight of each count in range or choices"
     )
     source: str | None = Field(None, description="Key of the source")
-    search: tuple[Count, Count] | None = Field(None, description="The count is to be found within these bounds")
+    search: tuple[Count, ...] | None = Field(
+        None,
+        min_length=2,
+        fail_fast=True,
+        description="The count is to be found: within two bounds, inclusive, or among three or more counts",
+    )
     note: str | None = Field(None, description="A remark for the reader")
 
     @model_validator(mode="after")
     def _makes_sense(self) -> Teeth:
         bounds = self.range or self.search
-        if bounds and bounds[0] > bounds[1]:
+        if bounds and len(bounds) == 2 and bounds[0] > bounds[1]:
             raise PydanticCustomError(
                 "teeth",
                 "the range {low} to {high} is empty",
                 {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"},
             )
         if self.value is None and self.search is None:
-            raise PydanticCustomError(
-                "teeth", "the tooth count has no value", {"fix": "give `value`, or `search` bounds"}
-            )
+            raise PydanticCustomError("teeth", "the tooth count has no value", {"fix": "give `value`, or `search`"})
         counts = self.allowed
         if self.value is not None and counts and self.value not in counts:
             raise PydanticCustomError(
@@ -69,6 +73,13 @@ class Teeth(Declared):
         return tuple(range(self.range[0], self.range[1] + 1))
 
     @property
+    def searched(self) -> Sequence[int]:
+        """The counts of `search`, ascending; empty without it."""
+        if self.search is None:
+            return ()
+        return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
+
+    @property
     def chances(self) -> dict[int, Fraction]:
         """The chance of each count before anything else is known, as its `weights` say, ascending; the sum is 1.
 
@@ -81,8 +92,8 @@ class Teeth(Declared):
         {63: Fraction(1, 4), 64: Fraction(3, 4)}
         """
         counts = self.allowed
-        if not counts and self.search is not None:
-            counts = tuple(range(self.search[0], self.search[1] + 1))
+        if not counts:
+            counts = tuple(self.searched)
         weights = [Fraction(1)] * len(counts) if self.weights is None else [figure.value for figure in self.weights]
         whole, found = sum(weights), dict.fromkeys(sorted(counts), Fraction(0))
         for count, weight in zip(counts, weights, strict=True):  # a count may be listed twice

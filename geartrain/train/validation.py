@@ -135,8 +135,8 @@ def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
 
 
 def _name(kind: Any) -> tuple[Any, ...]:
-    """The name by which a union chooses a tooth form or a law, alone in a tuple; nothing for other models."""
-    field = kind.model_fields.get("form") or kind.model_fields.get("law")
+    """The names by which a union chooses a tooth form, a law or a coupling; nothing for other models."""
+    field = next((kind.model_fields[key] for key in ("form", "law", "kind") if key in kind.model_fields), None)
     return get_args(field.annotation) if field else ()
 
 

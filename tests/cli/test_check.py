@@ -91,6 +91,26 @@ def test_a_missed_tolerance_of_a_target_fails_in_every_command(tmp_path: Path, t
     assert call("check", written(tmp_path, f"  c: {{targets: [{relaxed}]}}")).exit_code == 0
 
 
+@pytest.mark.parametrize(
+    ("outputs", "sign"),
+    [
+        ("b: {expect: 2/3}", True),
+        ("b: {expect: 1/3}", False),
+        ("b: {published: {value: 0.667, as: speed}}", True),  # within the digits printed
+        ("b: {published: {value: 1.50, as: input/output}}", True),
+        ("b: {published: {value: 1.51, as: input/output}}", False),
+        ("b: {expect: 2/3, published: {value: -0.667, as: speed}}", True),
+        ("b: {expect: 2/3, published: {value: 0.6, as: speed}}", False),
+        ("frame: {expect: 1}", False),
+    ],
+)
+def test_a_miss_of_the_sign_only_is_said_to_be_one(tmp_path: Path, outputs: str, sign: bool) -> None:
+    path = written(tmp_path, f"  {outputs}")
+    done = call("check", path)
+    assert done.exit_code == 1
+    assert ("only the sign differs" in done.stdout) == sign
+
+
 def test_a_ratio_that_there_is_not_is_said_to_be_none(tmp_path: Path) -> None:
     path = tmp_path / "t.yaml"
     path.write_text(

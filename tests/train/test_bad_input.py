@@ -8,10 +8,12 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import GearTrainError, errors, load
+from geartrain.report.soundness import find_soundness
 from geartrain.train import references
 from geartrain.train import validation as explain
 from geartrain.train import yaml_nodes as nodes
@@ -350,3 +352,78 @@ class TestMappings:
     def test_a_declaration_has_links_and_a_frame(self, data: dict[object, object]) -> None:
         with pytest.raises(GearTrainError):
             load(data)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("count", [1, 3, 40])
+def test_pairs_that_are_lists_are_answered_once_with_the_form_to_write(refused: Refuse, count: int) -> None:
+    listed = "".join("  - [p, w]\n" for _ in range(count))
+    (problem,) = refused(changed("  - {pair: [p, w]}\n", listed)).problems
+    assert problem.place.endswith(":9")
+    assert problem.what == ("an entry of `gears` is a list" if count == 1 else f"{count} entries of `gears` are lists")
+    assert "write `p ~ w`" in problem.fix
+
+
+def test_turning_pairs_that_are_lists_are_answered_once(refused: Refuse) -> None:
+    text = SOUND.replace("{pair: [frame, a], axis: A}", "[frame, a]").replace(
+        "{pair: [frame, b], axis: B}", "[frame, b]"
+    )
+    (problem,) = refused(text).problems
+    assert problem.what == "2 entries of `revolutes` are lists"
+    assert "`{pair: [frame, a], axis: A}`" in problem.fix
+
+
+def test_pairs_that_are_lists_in_plain_data_are_answered_alike() -> None:
+    data = yaml.safe_load(SOUND) | {"gears": [("p", "w")]}
+    with pytest.raises(GearTrainError, match=r"an entry of `gears` is a list(.|\n)*write `p ~ w`"):
+        load(data)
+
+
+def test_a_missing_revolutes_is_one_error(refused: Refuse) -> None:
+    links = "".join(f"  l{at}: {{wheels: {{w{at}: {20 + at}}}}}\n" for at in range(13))
+    gears = ", ".join(f"w{at} ~ w{at + 1}" for at in range(12))
+    (problem,) = refused(f"links:\n  frame: {{}}\n{links}gears: [{gears}]\ninputs: {{l0: 1}}\n").problems
+    assert problem.what == "no turning pair is declared"
+    assert "`revolutes:`" in problem.fix
+    assert "{A: [frame, l0]}" in problem.fix
+
+
+def refusal(text: str) -> str:
+    """The message of a refused text; nothing of one that is accepted."""
+    try:
+        load(text)
+    except GearTrainError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("kind", ["pin_and_slot", "pin_follower", "pins_in_holes", "parallel"])
+def test_a_key_of_another_coupling_is_never_suggested_for_itself(kind: str) -> None:
+    for key in ("pin_radius", "offset", "pins", "pin_diameter", "clearance", "pin_mass"):
+        text = f"{SOUND}couplings: [{{kind: {kind}, pin: a, slot: b, {key}: 1 mm}}]\n"
+        if message := refusal(text):
+            assert f"did you mean '{key}'" not in message
+
+
+def test_a_link_borne_by_several_is_refused_with_both_ways_to_declare_it(refused: Refuse) -> None:
+    error = refused(
+        "links: {frame: {}, in: {wheels: {s: 20}}, crank: {wheels: {g: 40}, copies: 3}, disc: {}, out: {}}\n"
+        "revolutes: {A: [frame, in, out], C: [out, crank], D: [crank, disc]}\ngears: [s ~ g]\ninputs: {in: 1}\n"
+    )
+    (problem,) = error.problems
+    assert "`copies: 3`" in problem.fix
+    assert "`{kind: parallel, pin: crank, slot: added}`" in problem.fix
+    assert load("rv-reducer").solve()  # the train that the fix names
+
+
+def test_a_long_locked_loop_is_abbreviated() -> None:
+    count = 2017
+    links = ", ".join(f"a{at}: {{wheels: {{w{at}: {20 + at % 7}}}}}" for at in range(count))
+    axes = ", ".join(f"X{at}: [frame, a{at}]" for at in range(count))
+    gears = ", ".join(f"w{at} ~ w{(at + 1) % count}" for at in range(count))
+    train = load(f"links: {{frame: {{}}, {links}}}\nrevolutes: {{{axes}}}\ngears: [{gears}]\ninputs: {{a0: 1}}\n")
+    verdict = train.solve().verdict
+    assert verdict.kind == "locked"
+    assert len(verdict.loops[0].links) == count
+    assert "and 2005 more" in verdict.text
+    lines = list(find_soundness(train, "long").lines())
+    assert max(map(len, lines)) < 1000

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from math import pi, sin, sqrt
 from pathlib import Path
 
@@ -70,3 +71,25 @@ def test_a_wheel_with_two_flanks_is_named_by_check_and_report() -> None:
     assert checked.exit_code == reported.exit_code == 0
     assert f"{sentence}; they want involute flanks of two shapes" in checked.output
     assert sentence in " ".join(reported.output.split())
+
+
+def test_a_figure_without_the_sign_of_the_speed_is_said_to_differ_in_sign_only() -> None:
+    path = CASES / "08-ratio-in-magnitude.yaml"
+    for verb in ("check", "report"):
+        result = call(verb, path)
+        assert result.exit_code == 1
+        assert "found -25000; only the sign differs" in " ".join(result.output.split())
+
+
+def test_counts_to_search_may_be_a_list() -> None:
+    path = CASES / "09-list-of-counts.yaml"
+    found = json.loads(call("teeth", "train", path, "--shift", "1", "--json").stdout)
+    # 1/2 (15/60 + 19/57) = 7/24, and its mirror image
+    wanted = [{"a": 15, "b": 19, "c": 60, "d": 57}, {"a": 19, "b": 15, "c": 57, "d": 60}]
+    assert [solution["teeth"] for part in found["parts"] for solution in part["solutions"]] == wanted
+
+
+def test_a_finger_of_one_tooth_is_noted_and_its_mean_ratio_is_right() -> None:
+    result = call("check", CASES / "10-finger-and-star.yaml")
+    assert result.exit_code == 0
+    assert "wheel 'finger' has one tooth, which cannot drive continuously" in result.output

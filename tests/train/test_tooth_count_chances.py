@@ -22,6 +22,7 @@ THIRDS = Fraction(1, 3)
         ({"value": 20, "choices": [22, 20, 22], "weights": [1, "2", "0.5"]}, {20: Fraction(4, 7), 22: Fraction(3, 7)}),
         ({"value": 20, "choices": [22, 20, 22]}, {20: THIRDS, 22: 2 * THIRDS}),
         ({"search": [30, 31]}, {30: Fraction(1, 2), 31: Fraction(1, 2)}),
+        ({"search": [60, 19, 57, 19]}, {19: THIRDS, 57: THIRDS, 60: THIRDS}),
         ({"value": 30, "range": [30, 31], "search": [40, 50]}, {30: Fraction(1, 2), 31: Fraction(1, 2)}),
         ({"value": 20}, {}),
     ],

@@ -208,7 +208,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     name = next(name for name, wheel in zip(pair, wheels, strict=True) if wheel.count is None)
     return Problem(
         f"wheel '{name}' has no tooth count yet",
-        "it is declared with `search` bounds only, and a train is solved with numbers",
+        "only `search` is declared, and a train is solved with numbers",
         "add a `value` beside `search`",
         train.place("links", train.wheels[name][0], "wheels", name),
     )

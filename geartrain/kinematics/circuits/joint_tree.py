@@ -54,6 +54,8 @@ class Tree(FrozenFields):
 @collector_paused()
 def find_tree(train: Train) -> Tree:
     """Root the turning pairs at the frame. Raises `DeclarationError` where they form no tree."""
+    if not train.revolutes and len(train.links) > 1:
+        raise DeclarationError(_no_joints(train))
     joints: dict[str, list[tuple[str, str, int]]] = {link: [] for link in train.links}
     for at, joint in enumerate(train.revolutes):
         first, second = joint.pair
@@ -104,6 +106,16 @@ def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, a
         "joints of one label are coaxial",
         "give the second axis a label of its own",
         train.place("revolutes", at),
+    )
+
+
+def _no_joints(train: Train) -> Problem:
+    link = next(link for link in train.links if link != train.frame)
+    return Problem(
+        "no turning pair is declared",
+        f"every link but '{train.frame}' turns on an axis that another link carries",
+        f"add `revolutes:` with an entry for each axis, such as `{{A: [{train.frame}, {link}]}}`",
+        train.place("revolutes") if "revolutes" in train.model_fields_set else train.place("links"),
     )
 
 

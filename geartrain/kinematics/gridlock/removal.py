@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from geartrain.kinematics.verdict import Loop
+from geartrain.kinematics.verdict import MOST_NAMES, Loop, abridged_names
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.numerics.plain_data import Result
 
 RemovalMethod = Literal["one", "loops", "matching", "search", "greedy"]
 _WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "greedy")
-_SHOWN = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +76,9 @@ class MeshRemoval(Result):
     def __str__(self) -> str:
         if len(self.meshes) == 1 and self.choices:
             one = self.choices[0]
-            return f"disengage {one}" if len(self.choices) == 1 else f"disengage one of {_some(self.choices)}"
+            return f"disengage {one}" if len(self.choices) == 1 else f"disengage one of {abridged_names(self.choices)}"
         many = len(self.meshes)
-        text = f"disengage {many} meshes: {_some(self.meshes)}" if many > 1 else f"disengage {self.meshes[0]}"
+        text = f"disengage {many} meshes: {abridged_names(self.meshes)}" if many > 1 else f"disengage {self.meshes[0]}"
         return f"{text}; {self._why()}"
 
     def _why(self) -> str:
@@ -136,10 +135,7 @@ class LockedSubgraph(Result):
             why = "each wheel would turn against itself, and at another speed"
         else:
             why = f"each wheel would turn at two speeds, {abridged_text(loop.product)} of each other"
-        return (
-            f"loop {_some(loop.links, ' - ')} (pairs {_some(loop.pairs)}; ratio product {abridged_text(loop.product)}) "
-            f"does not close: {why}"
-        )
+        return f"{loop} does not close: {why}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +184,7 @@ class Gridlock(Result):
     def __str__(self) -> str:
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
-    def lines(self, most: int = _SHOWN) -> Iterator[str]:
+    def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
         """What is wrong and what to do, a sentence each; nothing for a train that moves.
 
         Parameters
@@ -203,21 +199,14 @@ class Gridlock(Result):
         if len(self.jams) > most:
             yield f"gridlock: {len(self.jams) - most} more parts of the train are locked by loops of their own"
         if self.held:
-            yield (
-                f"gridlock: {_some(self.held)} {'stands' if len(self.held) == 1 else 'stand'} still, held by meshes "
-                f"about several carriers together{'' if self.jams else ', each loop of which closes'}"
-            )
+            stand = "stands" if len(self.held) == 1 else "stand"
+            closing = "" if self.jams else ", each loop of which closes"
+            by = f"held by meshes about several carriers together{closing}"
+            yield f"gridlock: {abridged_names(self.held)} {stand} still, {by}"
         if self.release is not None:
             yield f"to free the train, {self.release}"
         elif not self.moves:
             yield "no set of meshes is known to free it: pins in slots hold it, or there are too many meshes to try"
-
-
-def _some(names: Sequence[str], mark: str = ", ") -> str:
-    """The first names, and how many more there are."""
-    if len(names) <= _SHOWN + 1:
-        return mark.join(names)
-    return f"{mark.join(names[:_SHOWN])} and {len(names) - _SHOWN} more"
 
 
 def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:

@@ -11,7 +11,7 @@ from math import gcd, lcm
 from typing import NamedTuple
 
 from geartrain.kinematics.components import ReducedSystem
-from geartrain.kinematics.verdict import Loop, Verdict
+from geartrain.kinematics.verdict import Loop, Verdict, abridged_names
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
 from geartrain.train import StateCase
@@ -141,13 +141,13 @@ def _name(
     prescriptions = tuple(dict.fromkeys(stated.declared for stated, _ in used))
     chords = [reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"]
     loops = tuple(parts.loop(chord) for chord in chords)
-    shut = f"{'; '.join(map(str, loops))} {'does' if len(loops) == 1 else 'do'} not close"
+    shut = f"{abridged_names([*map(str, loops)], '; ')} {'does' if len(loops) == 1 else 'do'} not close"
     if len(inputs) == 1:
         link = inputs[0][0].split(" = ")[0]
         if loops:
             text = f"{shut}, so {moving[0]} cannot turn"
         else:
-            by = " and ".join(held) if held else f"the pairs {', '.join(_pairs(reduced, given, structural))}"
+            by = " and ".join(held) if held else f"the pairs {abridged_names(_pairs(reduced, given, structural))}"
             text = f"input '{link}' is locked to the frame: {by}"
         return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
     scale = lcm(*(value.denominator for _, value, _ in inputs))
@@ -213,9 +213,8 @@ def free_verdict(
     given = len(case.inputs)
     degrees = f"{freedom} degree{'s' if freedom > 1 else ''} of freedom"
     head = f"{given} of {given + freedom} degrees of freedom prescribed" if given else f"{degrees} and no input"
-    shown = ", ".join(undetermined[:12]) + (f" and {len(undetermined) - 12} more" if len(undetermined) > 12 else "")
     more = (
         ("one more input" if given else "an input") if freedom == 1 else f"{freedom}{' more' if given else ''} inputs"
     )
-    text = f"{head}: speeds of {shown} undetermined; give {more}, such as {', '.join(fixes)}"
+    text = f"{head}: speeds of {abridged_names(undetermined)} undetermined; give {more}, such as {', '.join(fixes)}"
     return Verdict("free", text, links=tuple(undetermined), fixes=tuple(fixes))

@@ -218,5 +218,5 @@ def _with_count(teeth: Any, count: int) -> Any:
         return count
     found = {"value": count, **{key: part for key, part in teeth.items() if key not in ("value", "search")}}
     if "search" in teeth and not {"range", "choices"} & set(found):
-        found["range"] = teeth["search"]
+        found["range" if len(teeth["search"]) == 2 else "choices"] = teeth["search"]
     return found

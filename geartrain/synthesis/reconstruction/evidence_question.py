@@ -189,9 +189,9 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
     teeth = wheel.teeth
     if not isinstance(teeth, Teeth):
         return
-    for bounds in (teeth.range, teeth.search):
-        if bounds is not None and bounds[1] - bounds[0] > _MOST_COUNTS:
-            what = f"{bounds[1] - bounds[0] + 1} counts are too many for one wheel"
+    for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
+        if count > _MOST_COUNTS:
+            what = f"{count} counts are too many for one wheel"
             yield Problem(what, f"{_MOST_COUNTS} are the most", "narrow the range", evidence.place(*place, "teeth"))
     if why := teeth.fault_of_weights:
         fix = "give weights of 0 or more, at least one of them above 0"

@@ -92,17 +92,15 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
 
 
 def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
-    """The counts a wheel may have: its search bounds, else what its evidence allows."""
-    bounds = teeth.search or teeth.range
-    if teeth.choices is not None and teeth.search is None:
-        return sorted(set(teeth.choices))
-    if bounds is None:
-        return ()
-    if bounds[1] - bounds[0] >= _MOST_COUNTS:
-        why = f"{bounds[0]} to {bounds[1]} are more than {_MOST_COUNTS} counts"
+    """The counts a wheel may have: those of `search`, else what its evidence allows."""
+    counts = teeth.searched or sorted(set(teeth.choices or ()))
+    if not counts and teeth.range is not None:
+        counts = range(teeth.range[0], teeth.range[1] + 1)
+    if len(counts) > _MOST_COUNTS:
+        why = f"{counts[0]} to {counts[-1]} are more than {_MOST_COUNTS} counts"
         place = train.place("links", link, "wheels", wheel)
         raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow it", place))
-    return range(bounds[0], bounds[1] + 1)
+    return counts
 
 
 def find_requirements(

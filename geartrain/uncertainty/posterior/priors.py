@@ -89,7 +89,7 @@ def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCoun
         elif teeth.choices is not None or teeth.range is not None:
             yield _declared(name, teeth, place)
         elif teeth.search is not None:
-            _check_width(name, teeth.search, place)
+            _check_width(name, len(teeth.searched), place)
             counts = tuple(teeth.chances)
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
 
@@ -109,15 +109,15 @@ def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
     return found
 
 
-def _check_width(name: str, bounds: tuple[int, int], place: str) -> None:
-    if bounds[1] - bounds[0] >= MOST_COUNTS:
-        raise _too_wide(name, bounds[1] - bounds[0] + 1, place)
+def _check_width(name: str, count: int, place: str) -> None:
+    if count > MOST_COUNTS:
+        raise _too_wide(name, count, place)
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     """A doubt as declared, with its weights; counts of weight 0 are left out."""
     if teeth.range is not None and teeth.choices is None:
-        _check_width(name, teeth.range, place)
+        _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
     if why := teeth.fault_of_weights:
         what = f"the weights of wheel '{name}' are no chances"
         raise QuestionError(Problem(what, why, "give weights of 0 and more, one of them above 0", place))

@@ -38,16 +38,19 @@ PAGE_TEXT = """# Extras
 
 Written by `python docs/make_extras.py --measure`.
 
-`pip install geartrain` brings {count:.0f} packages, {size:.0f} MB. That is enough for `solve`, `check`, `report`,
+geartrain without extras brings {count:.0f} packages, {size:.0f} MB. That is enough for `solve`, `check`, `report`,
 `view`, `gearbox`, `formula`, `torques`, `motion`, `dynamics`, `strength`, `reconstruct`, all of `teeth` and `mesh`,
-`export` of SVG and STL, and for the library. What needs more says which extra to install:
+`export` of SVG and STL, and for the library. A command that needs more prints what to install, by the names of the
+packages, for example
 
 ```sh
-pip install 'geartrain[plot]'
+pip install 'matplotlib>=3.8'
 ```
 
-| extra | for | packages more | MB |
-|---|---|---:|---:|
+In a copy of the sources `pip install -e '.[plot]'` does the same by the name of the extra.
+
+| extra | for | `pip install` | packages more | MB |
+|---|---|---|---:|---:|
 {rows}
 
 Sizes are those of installed files, before Python compiles them. Extras share packages: together they weigh less than
@@ -66,8 +69,8 @@ def main() -> None:
 
 def measured() -> dict[str, list[float]]:
     """Packages and megabytes of the core, and what each extra adds to them."""
+    needs = extras()
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    needs: Mapping[str, list[str]] = project["optional-dependencies"]
     with tempfile.TemporaryDirectory() as folder:
         core = Path(folder) / "core"
         subprocess.run([sys.executable, "-m", "venv", str(core)], check=True)
@@ -82,6 +85,18 @@ def measured() -> dict[str, list[float]]:
             found[extra] = _added(pip, own, Path(folder))
             print(extra, found[extra])
     return found
+
+
+def extras() -> Mapping[str, list[str]]:
+    """The packages of each extra, as pyproject.toml lists them."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    needs: Mapping[str, list[str]] = project["optional-dependencies"]
+    return needs
+
+
+def _packages(extra: str, needs: list[str]) -> str:
+    """What to give to pip; an extra made of others is installed from the sources."""
+    return f"`-e '.[{extra}]'`" if needs[0].startswith("geartrain[") else " ".join(f"`'{need}'`" for need in needs)
 
 
 def _added(pip: list[str], wanted: list[str], folder: Path) -> list[float]:
@@ -99,7 +114,11 @@ def _added(pip: list[str], wanted: list[str], folder: Path) -> list[float]:
 def page(record: Mapping[str, list[float]]) -> str:
     """The page."""
     count, size = record["core"]
-    rows = [f"| `{extra}` | {FOR[extra]} | {record[extra][0]:.0f} | {record[extra][1]:.0f} |" for extra in FOR]
+    needs = extras()
+    rows = [
+        f"| `{extra}` | {what} | {_packages(extra, needs[extra])} | {record[extra][0]:.0f} | {record[extra][1]:.0f} |"
+        for extra, what in FOR.items()
+    ]
     return PAGE_TEXT.format(count=count, size=size, rows="\n".join(rows))
 
 

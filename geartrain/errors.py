@@ -199,6 +199,22 @@ _MEGABYTES = {
 """What each extra adds to the core on the disk, rounded up to 1; measured by docs/make_extras.py."""
 
 
+def install_command(extra: str) -> str:
+    """The command that installs the packages of an extra, by the names that the metadata of geartrain list.
+
+    The name of an extra is not used: it works only where an index has this distribution.
+    """
+    from importlib.metadata import PackageNotFoundError, requires
+
+    try:
+        needs = requires("geartrain") or ()
+    except PackageNotFoundError:  # a copy of the sources that is not installed
+        needs = ()
+    split = [need.replace('"', "'").partition(";") for need in needs]
+    packages = [f"'{package.strip()}'" for package, _, marker in split if f"extra == '{extra}'" in marker]
+    return f"pip install {' '.join(packages)}" if packages else f"pip install -e '.[{extra}]'"
+
+
 class MissingExtraError(GearTrainError):
     """An optional library is not installed.
 
@@ -215,16 +231,16 @@ class MissingExtraError(GearTrainError):
     --------
     >>> print(MissingExtraError("matplotlib", "plot", "a picture"))
     matplotlib is not installed
-      why: a picture needs it, and it comes with an extra
-      fix: pip install 'geartrain[plot]' # 98 MB
+      why: a picture needs it, and it comes with the extra 'plot'
+      fix: pip install 'matplotlib>=3.8' # 98 MB
     """
 
     def __init__(self, library: str, extra: str, purpose: str) -> None:
         super().__init__(
             Problem(
                 what=f"{library} is not installed",
-                why=f"{purpose} needs it, and it comes with an extra",
-                fix=f"pip install 'geartrain[{extra}]' # {_MEGABYTES[extra]} MB",
+                why=f"{purpose} needs it, and it comes with the extra '{extra}'",
+                fix=f"{install_command(extra)} # {_MEGABYTES[extra]} MB",
             )
         )
 

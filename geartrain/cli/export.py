@@ -176,7 +176,7 @@ def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None,
 
 def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
     from geartrain.export import export_files, notices
-    from geartrain.export.assembly_guide import UNPROVED
+    from geartrain.export.assembly_guide import unproved
     from geartrain.export.file_set import KINDS, installed, parts_wanted
     from geartrain.numerics.files import check_folder, write_folder
 
@@ -197,7 +197,7 @@ def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns
     _remark([*missing, *notices(work, wanted)])
     tell(f"wrote {plural(count, 'file')} to {to}")
     if parts_wanted(wanted):
-        tell(UNPROVED.replace("*", "").replace("`", "") if proof is None else proof.verdict)
+        tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
 
 
 def _proof(work: SolidModel) -> TrainProof | None:

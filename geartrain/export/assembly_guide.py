@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.errors import Problem, printable
+from geartrain.errors import Problem, install_command, printable
 from geartrain.export.assembly_pictures import picture_path
 from geartrain.export.assembly_steps import assembly_steps
 from geartrain.export.parts_list import ListedPart, parts_list
@@ -20,10 +20,9 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel
 
 
-UNPROVED = (
-    "**Not proved**: nothing was turned, for shapely and manifold3d are missing: `pip install 'geartrain[proof]'`."
-)
-"""What stands first in a README where nothing can be proved."""
+def unproved() -> str:
+    """The first sentence of a README where nothing can be proved."""
+    return f"**Not proved**: nothing was turned, for shapely and manifold3d are missing: `{install_command('proof')}`."
 
 
 def readme(
@@ -45,7 +44,7 @@ def readme(
     if proof is not None:
         lines += verdict_lines(proof, _cell)
     elif parts:
-        lines += [UNPROVED, ""]
+        lines += [unproved(), ""]
     lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
     lines += ["| file | what it is |", "| --- | --- |"]
     pictures = any(path == picture_path(1) for path, _ in files)

@@ -9,7 +9,7 @@ from functools import partial
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
+from geartrain.errors import GearTrainError, Problem, QuestionError, install_command, suggest
 from geartrain.export.assembly_guide import readme
 from geartrain.export.assembly_pictures import step_pictures
 from geartrain.export.csv_tables import to_tables
@@ -77,7 +77,7 @@ def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
         library, extra = _NEEDED.get(kind, ("", ""))
         if library and not _is_there(library):
             what = f"no {kind.upper()} is written"
-            missing.append(Problem(what, f"{library} is not installed", f"pip install 'geartrain[{extra}]'"))
+            missing.append(Problem(what, f"{library} is not installed", install_command(extra)))
         else:
             found.append(kind)
     return found, missing

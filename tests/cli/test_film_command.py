@@ -105,7 +105,7 @@ def test_without_what_draws_or_packs_the_extra_is_named(
     monkeypatch.setitem(sys.modules, library, None)
     if library == "playwright":
         monkeypatch.setitem(sys.modules, "playwright.sync_api", None)
-    assert "pip install 'geartrain[film]'" in refusal("worm", form)
+    assert "pip install 'av>=12' 'pillow>=10' 'playwright>=1.48'" in refusal("worm", form)
     assert list(here.iterdir()) == []
 
 

@@ -212,7 +212,7 @@ def test_a_page_of_a_pair_needs_no_plots() -> None:
     assert (done.returncode, done.stderr) == (0, "")
     refused = subprocess.run([*command, "--plot", "x.svg"], capture_output=True, text=True, check=False)
     assert refused.returncode == 2
-    assert "pip install 'geartrain[plot]'" in refused.stderr
+    assert "pip install 'matplotlib>=3.8'" in refused.stderr
 
 
 def test_a_pin_has_a_page_and_its_limits() -> None:

@@ -338,7 +338,7 @@ def test_without_matplotlib_the_extra_is_named(name: str) -> None:
     done = fresh(
         block + f"import geartrain.drawing\ntry:\n    geartrain.drawing.{name}\nexcept Exception as e:\n    print(e)"
     )
-    assert "pip install 'geartrain[plot]'" in done.stdout
+    assert "pip install 'matplotlib>=3.8'" in done.stdout
     assert done.stderr == ""
 
 

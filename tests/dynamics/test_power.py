@@ -662,5 +662,5 @@ def test_torques_and_their_flow_need_no_large_library_and_a_picture_names_its_ex
     assert "circulates" in done.stdout
     done = fresh(WITHOUT, "torques", "norton-compound", "--plot", tmp_path / "t.svg")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "pip install 'geartrain[plot]'" in done.stderr
+    assert "pip install 'matplotlib>=3.8'" in done.stderr
     assert list(tmp_path.iterdir()) == []

@@ -351,4 +351,4 @@ def test_a_readme_that_proves_nothing_says_so(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr("geartrain.export.file_set.proof_is_installed", lambda: False)
     text = export_files(work("planetary-24-18-60", module=2.0), ["svg"])[-1].make().decode()
     assert "**Not proved**" in text
-    assert "geartrain[proof]" in text
+    assert "`pip install 'manifold3d>=3.1' 'shapely>=2.0'`" in text

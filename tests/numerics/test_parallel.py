@@ -603,7 +603,7 @@ def test_a_cluster_without_the_extra_names_it(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.delitem(sys.modules, "geartrain.numerics.work.cluster", raising=False)
     with pytest.raises(MissingExtraError, match="distributed is not installed") as caught, open_executor(scheduler="x"):
         pass
-    assert caught.value.problems[0].fix == "pip install 'geartrain[dask]' # 37 MB"
+    assert caught.value.problems[0].fix == "pip install 'distributed>=2024.8' # 37 MB"
 
 
 def test_nobody_at_an_address_is_said_without_a_word_of_noise() -> None:

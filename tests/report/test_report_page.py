@@ -287,7 +287,7 @@ def test_without_matplotlib_a_page_comes_without_pictures_and_says_what_brings_t
     assert (done.returncode, "Traceback" in done.stderr) == (0, False)
     page = Read(out.read_text(encoding="utf-8"))
     assert page.all("svg") == []
-    assert "pip install 'geartrain[plot]'" in page.text
+    assert "pip install 'matplotlib>=3.8'" in page.text
     assert "-1/30" in page.text
 
 

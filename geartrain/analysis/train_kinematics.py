@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
-from geartrain.errors import Problem, QuestionError, suggest
+from geartrain.errors import DeclarationError, Problem, QuestionError, suggest
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.planet_copies import as_one, check_copies, has_copies, with_copies
@@ -111,6 +111,11 @@ class TrainKinematics:
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
 
+    @property
+    def usable_states(self) -> tuple[str | None, ...]:
+        """States in which speeds can be calculated; None for a train without states."""
+        return tuple(state for state, case in self.cases.items() if not case.problems)
+
     @cached_property
     def _axes(self) -> Axes:
         return Axes(self.declaration, self.tree)
@@ -200,7 +205,7 @@ class TrainKinematics:
         QuestionError
             For a state, an output or a method that there is not.
         """
-        return self._speeds.answer(self._case(state), output, method)
+        return self._speeds.answer(self.cases[self.declaration.single_state(state)], output, method)
 
     def formula(self, output: str, state: str | None = None) -> OutputFormula:
         """What an output is, in the tooth counts of the wheels and the speeds of the inputs.
@@ -295,7 +300,10 @@ class TrainKinematics:
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     def _case(self, state: str | None) -> StateCase:
-        return self.cases[self.declaration.single_state(state)]
+        case = self.cases[self.declaration.single_state(state)]
+        if case.problems:
+            raise DeclarationError(case.problems)
+        return case
 
     def _repr_html_(self) -> str:
         declared = self.declaration

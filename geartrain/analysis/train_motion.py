@@ -55,7 +55,7 @@ class TrainMotion(TrainKinematics):
         """By pair with real teeth, the ways it is driven, each with the names of its states; open ones count both."""
         from geartrain.dynamics.driven_meshes import find_driven_ways
 
-        return find_driven_ways(self._teeth, ((state, self.meshes_in(state)) for state in self.states or (None,)))
+        return find_driven_ways(self._teeth, ((state, self.meshes_in(state)) for state in self.usable_states))
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:

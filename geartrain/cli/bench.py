@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, give, sink
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, chosen_states, give, sink
 from geartrain.cli.long_runs import ProgressBar, progress
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
-    states = (state,) if state is not None else train.states or (None,)
+    states = chosen_states(train, state)
     with progress("bench", patience=2) as bar:
         more: dict[Stage, Measurement] = {OPTIMISATION: partial(_measure_optimisation, bar)}
         measured = tuple(find_accuracy(train, name, positions, more) for name in states)

@@ -63,6 +63,16 @@ def is_sound(train: GearTrain, state: str | None) -> bool:
     return bool(train.solve(train.state_or_first(state))) and not train.faults
 
 
+def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
+    """The state that is named, else all in which speeds can be calculated; a note says why another is left out."""
+    if state is not None:
+        return (state,)
+    for case in train.cases.values():
+        for problem in case.problems:
+            tell(f"note: state {case.state} is left out: {problem}")
+    return train.usable_states
+
+
 def tell(text: str) -> None:
     """A line on standard error: what was written, what was passed over, how to go on."""
     typer.echo(printable(text), err=True)

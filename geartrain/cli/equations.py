@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import File, Force, Out, StateName, emit, sink
+from geartrain.cli.common import File, Force, Out, StateName, chosen_states, emit, sink
 
 
 def run(
@@ -21,9 +21,8 @@ def run(
 
     to = sink(out, force)
     train = load(file)
-    names = [state] if state is not None or not train.states else list(train.states)
     blocks = []
-    for name in names:
+    for name in chosen_states(train, state):
         system = train.equations(name)
         head = [] if name is None else [f"{'%' if latex else '#'} state {name}"]
         blocks.append("\n".join([*head, system.latex() if latex else system.text()]))

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, give, sink
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, chosen_states, give, sink
 
 
 def run(
@@ -28,7 +28,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
-    states = (state,) if state is not None else train.states or (None,)
+    states = chosen_states(train, state)
     report = collect_formulas(train, states, tuple(output or ()), sensitivities)
     give(to, json, lambda: report, lambda: [describe_formulas(report, latex, inverse)])
     # a state that is free, as it says, need not determine its outputs

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, give, sink
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, chosen_states, give, sink
 
 
 def run(
@@ -37,7 +37,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
-    states = (state,) if state is not None else train.states or (None,)
+    states = chosen_states(train, state)
     found = [train.strength(name, turns=turns, years=years, wear=wear, elements=elements, over=over) for name in states]
     report = collect_strength_report(train, found)
     give(to, json, lambda: report, lambda: [describe_strength(report)])

@@ -21,6 +21,7 @@ from geartrain.cli.common import (
     Sink,
     StateName,
     check_distinct_outputs,
+    chosen_states,
     draw,
     emit,
     give,
@@ -86,7 +87,7 @@ def run(
     if resume and trials is None:
         raise typer.BadParameter("it goes on with trials of friction: give --trials too", param_hint="--resume")
     train = load(file)
-    states = (state,) if state is not None else train.states or (None,)
+    states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
     over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_, fast)
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)

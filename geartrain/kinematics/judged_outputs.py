@@ -232,11 +232,9 @@ class OutputResult(Result):
         """True if the opposite speed would meet every figure that this one does not meet."""
         if self.holds or self.speed is None:
             return False
-        ratio = None if self.ratio is None else -self.ratio
-        expected = self.expect_holds is not False or _expect_holds(self.output, -self.speed)
-        return bool(
-            expected and (self.published_holds is not False or _published_holds(self.output, -self.speed, ratio))
-        )
+        opposite, ratio = -self.speed, None if self.ratio is None else -self.ratio
+        expected = self.expect_holds is not False or _expect_holds(self.output, opposite)
+        return bool(expected and (self.published_holds is not False or _published_holds(self.output, opposite, ratio)))
 
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
@@ -298,11 +296,8 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
         return None if expect is None else False
     exact = Fraction(speed)
     # an exact expectation is no float: floats agree with it within what they are good for, and more than rounding
-    if not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= Fraction(1, 10**9) * max(
-        Fraction(1), abs(exact)
-    ):
-        return True
-    return expect.holds(exact)
+    slack = Fraction(1, 10**9) * max(Fraction(1), abs(exact))
+    return (not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= slack) or expect.holds(exact)
 
 
 def _published_holds(output: Output, speed: SpeedValue | None, ratio: SpeedValue | None) -> bool | None:

@@ -69,6 +69,9 @@ class SpeedProblem:
             case, wanted = self.single_output(case, output)
             part = self._pruned(case, wanted)
         check_choice("method", method, get_args(Method))
+        if case.problems:
+            verdict = Verdict("refused", "; ".join(problem.text for problem in case.problems))
+            return self._judged(case, verdict, {}, _unknown, wanted, 0, {})
         if method in ("sparse", "floats"):
             return self._answer_in_floats(part, case, wanted)
         try:
@@ -213,6 +216,8 @@ class SpeedProblem:
     ) -> Answer:
         """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
         declared = self.declaration
+        if verdict.kind in ("locked", "contradictory"):
+            verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))
         if wanted is not None:
             verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
             shown = wanted if case.outputs else wanted[:1]
@@ -237,6 +242,12 @@ class SpeedProblem:
             expected=case.expect,
         )
 
+    @cached_property
+    def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:
+        from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side
+
+        return tuple(bevels_on_one_side(self.declaration, self.circuits, self.is_rotation))
+
     # -------------------------------------------------------------------------------------------- the verdict on a part
 
     def _narrowed(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
@@ -258,6 +269,16 @@ class SpeedProblem:
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _side(bevels: Sequence[str]) -> str:
+    """What is to be changed about two bevels that meet a third from the same side."""
+    one, other, shared = bevels
+    return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
+
+
+def _unknown(of: str, base: str) -> None:
+    """No speed is known, whichever link is seen from another."""
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:

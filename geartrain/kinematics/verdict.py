@@ -63,7 +63,7 @@ class Loop(Result):
         return f"loop {abridged_names(self.links, ' - ')} (pairs {pairs}; ratio product {product})"
 
 
-VerdictKind = Literal["determined", "free", "locked", "contradictory"]
+VerdictKind = Literal["determined", "free", "locked", "contradictory", "refused"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +74,10 @@ class Verdict(Result):
 
     Attributes
     ----------
-    kind : {"determined", "free", "locked", "contradictory"}
+    kind : {"determined", "free", "locked", "contradictory", "refused"}
         determined: every link's speed follows from the inputs. free: `links` are undetermined. locked: the input cannot
-        move, for `loops` or `prescriptions` hold it. contradictory: `prescriptions` cannot hold at once.
+        move, for `loops` or `prescriptions` hold it. contradictory: `prescriptions` cannot hold at once. refused: no
+        speed can be calculated in one of several states, for its locks make a linkage, or it drives no rotation.
     text : str
         The verdict in a sentence, with what it follows from.
     links : tuple of str

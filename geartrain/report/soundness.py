@@ -93,7 +93,7 @@ def _left_out(train: GearTrain) -> Iterator[str]:
     """What the torques of loaded states do not count; nothing of teeth that cannot turn."""
     if train.faults:
         return
-    for state in train.states or (None,):
+    for state in train.usable_states:
         if train.declaration.is_loaded(state):
             where = f"state {state}: " if state is not None else ""
             yield from (f"{where}torques leave out {each}: {each.why}" for each in train.torques(state).left_out)
@@ -101,7 +101,7 @@ def _left_out(train: GearTrain) -> Iterator[str]:
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
     """States whose rate is beyond that at which teeth first part."""
-    for state in train.states or (None,):
+    for state in train.usable_states:
         rate = train.declaration.case(state).rate
         if rate is None or rate.unit is None or train.faults or not train.tells_separation(state):
             continue

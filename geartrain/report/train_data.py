@@ -186,7 +186,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     doubts = ((answer, change) for answer in answers if answer.verdict for change in train.sensitivity(answer))
-    loaded = tuple(state for state in train.states or (None,) if whole and declared.is_loaded(state))
+    loaded = tuple(state for state in train.usable_states if whole and declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
         gridlock=train.gridlock,

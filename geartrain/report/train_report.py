@@ -93,7 +93,8 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
         told = list(answer_sections(train, answer))
         # a gearbox has all speeds in one table
         yield from told if box is None or not answer.verdict else told[:-1]
-        formulas = tuple(formula_section(train, answer.state, explained=not read))
+        refused = answer.verdict.kind == "refused"
+        formulas = () if refused else tuple(formula_section(train, answer.state, explained=not read))
         read = read or bool(formulas)
         yield from formulas
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.errors import Loc
+from geartrain.errors import Loc, Problem
 from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.drives import Drive
@@ -50,6 +50,8 @@ class StateCase:
         False where radians had to be counted in turns, or turns in radians: to 50 digits then.
     causes : mapping of tuple of str to tuple of str
         A link that is fixed, or two that are locked, only because something else is -> the links of that.
+    problems : tuple of Problem
+        Why no speed can be calculated in this state; mostly none.
 
     Examples
     --------
@@ -74,6 +76,7 @@ class StateCase:
     rate: Quantity | None = None
     expect: ExpectedVerdict = "determined"
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
+    problems: tuple[Problem, ...] = ()
 
     def given(self, link: str) -> str:
         """A prescribed speed in words: `sun = 1400`.

@@ -445,6 +445,44 @@ def test_a_clutch_is_told_once_for_all_states_with_its_place() -> None:
     assert finding.problem.place.startswith("text:")
 
 
+# ------------------------------------------------------------------------------------------------------------------- K5
+
+SPIDER = """
+frame: case
+axes: {axle: {direction: [1, 0, 0]}, spider: {direction: [0, 1, 0]}}
+links:
+  case: {}
+  crown: {}
+  left: {wheels: {l: {teeth: 16, kind: bevel}}}
+  right: {wheels: {r: {teeth: 16, kind: bevel, facing: -1}}}
+  spider: {wheels: {p: {teeth: 10, kind: bevel}}}
+revolutes: {axle: [case, crown, left, right], spider: [crown, spider]}
+gears: [l ~ p, r ~ p]
+inputs: {left: 1, right: 3}
+"""
+
+
+def test_a_differential_whose_bevels_face_one_side_is_refused_with_the_side_to_give() -> None:
+    assert found(SPIDER) == []
+    assert load(SPIDER).solve()["crown"] == 2  # the mean of both
+    wrong = SPIDER.replace(", facing: -1", "")
+    assert found(wrong) == [("K5", "error")]
+    (finding,) = load(wrong).build_findings
+    assert "`facing: -1`" in finding.problem.fix
+    verdict = load(wrong).solve().verdict
+    assert verdict.kind == "contradictory"
+    assert "'l' and 'r' meet 'p' from the same side: give one of them `facing: -1`" in verdict.text
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(("left", "right"), [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+def test_bevels_of_one_axis_need_opposite_sides_whichever_way_it_points(way: int, left: int, right: int) -> None:
+    text = SPIDER.replace("direction: [1, 0, 0]", f"direction: [{way}, 0, 0]")
+    text = text.replace("l: {teeth: 16, kind: bevel}", f"l: {{teeth: 16, kind: bevel, facing: {left}}}")
+    text = text.replace("facing: -1}}}\n  spider", f"facing: {right}}}}}}}\n  spider")
+    assert found(text) == ([("K5", "error")] if left == right else [])
+
+
 # ------------------------------------------------------------------------------------------------------------------- W1
 
 

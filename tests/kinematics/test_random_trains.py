@@ -65,8 +65,8 @@ def told_speed(answer: Answer, name: str) -> Any:
 
 
 def judged(train: RandomTrain, motions: dict[str | None, Motion]) -> list[str]:
-    """What is wrong about one train in its states; a linkage in any of them must be refused."""
-    refused = any(motion.kind == "refused" for motion in motions.values())
+    """What is wrong about one train in its states; a state with a linkage must be refused, and no other."""
+    refused = all(motion.kind == "refused" for motion in motions.values())
     try:
         answers = list(GearTrain.declare(train.data).answers())
     except GearTrainError as error:

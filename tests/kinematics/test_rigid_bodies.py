@@ -226,3 +226,57 @@ def test_a_load_on_a_link_whose_axis_moves_is_not_balanced() -> None:
     assert (verdict.kind, bool(verdict)) == ("undecided", False)
     assert "a torque on 'spider' has no one axis" in verdict.text
     assert load(DIFFERENTIAL + text).driven("spider", "left").verdict.kind == "undecided"
+
+
+# the frame, an arm with a planet and a moon; two shafts beside it. Locks of planet and far make a ring of four axes
+STATES = """
+links: {frame: {}, arm: {}, planet: {wheels: {p: 20}}, moon: {}, sun: {wheels: {s: 40}}, other: {}, far: {}}
+revolutes: {main: [frame, arm, sun], P: [arm, planet], M: [planet, moon], beside: [frame, other], F: [other, far]}
+gears: [s ~ p]
+inputs: {arm: 1}
+loads: {planet: -2 N m}
+outputs: {planet: {}}
+clutches:
+  {A: {fixes: sun}, B: {locks: [planet, far]}, D: {fixes: other}, E: {locks: [other, far]}, N: {locks: [moon, planet]}}
+states:
+  good: {engaged: [A, N, D, E], outputs: {planet: {expect: 3}}}
+  bad: {engaged: [A, B, N]}
+  twice: {engaged: [A, N, D, E], inputs: {arm: 2}, outputs: {planet: {expect: 6}}}
+"""
+
+
+def test_a_state_that_makes_a_linkage_leaves_the_other_states_answered() -> None:
+    train = load(STATES)
+    assert [answer.verdict.kind for answer in train.answers()] == ["determined", "refused", "determined"]
+    assert [train.solve(state)["planet"] for state in ("good", "twice")] == [3, 6]  # 1 + 40/20 of the arm
+    refused = train.solve("bad")
+    assert "makes a linkage" in refused.verdict.text
+    assert "hold or lock a link on the way (arm, other)" in refused.verdict.text
+    assert (refused.speeds, refused.outputs["planet"].speed, bool(refused)) == ({}, None, False)
+    assert train.usable_states == ("good", "twice")
+    assert train.torques("good").verdict
+    with pytest.raises(GearTrainError, match="makes a linkage"):
+        train.torques("bad")
+    with pytest.raises(GearTrainError, match="makes a linkage"):
+        load(STATES.replace("[A, N, D, E]", "[A, B]"))  # no state is left
+
+
+def test_an_input_without_an_axis_of_its_own_refuses_its_state_alone() -> None:
+    train = load(DIFFERENTIAL + "states: {a: {inputs: {left: 1, right: 3}}, b: {inputs: {spider: 1}}}\n")
+    assert train.solve("a")["crown"] == 2
+    assert train.solve("b").verdict.kind == "refused"
+    assert "no speed about one axis" in train.solve("b").verdict.text
+
+
+@pytest.mark.parametrize("verb", ["check", "solve", "report", "gearbox", "torques", "formula", "equations", "strength"])
+def test_every_command_judges_each_state_by_itself(verb: str, tmp_path: Path) -> None:
+    path = tmp_path / "states.yaml"
+    path.write_text(STATES, encoding="utf-8")
+    done = CliRunner().invoke(app, [verb, str(path)])
+    assert done.exit_code in (0, 1), done.output
+    assert "makes a linkage" in " ".join(done.output.split()) or verb == "gearbox"
+    if verb in ("check", "solve", "report", "gearbox"):
+        assert done.exit_code == 1
+    if verb != "check":
+        assert "good" in done.output
+        assert "twice" in done.output

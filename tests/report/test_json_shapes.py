@@ -226,7 +226,7 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     text = {"type": "string"}
     verdict = _undescribed(answers()["solve"]["properties"]["states"]["items"]["properties"]["verdict"])
     assert verdict["required"] == ["kind", "text", "links", "fixes", "prescriptions", "loops"]
-    assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory"]}
+    assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory", "refused"]}
     assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
     methods = answers()["bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
     stages = ["speeds", "variants", "transmission functions", "motion", "torques", "optimisation"]

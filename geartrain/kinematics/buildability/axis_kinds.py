@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding
 from geartrain.kinematics.circuits import Axes
-from geartrain.kinematics.circuits.shaft_angles import passing_distance
+from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side, passing_distance
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability.pitch_pairs import PitchPair
-    from geartrain.kinematics.circuits import Tree
+    from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.train import Train
 
 _MATES = ({"spur"}, {"bevel"}, {"contrate", "spur"}, {"worm", "spur"})
@@ -24,9 +24,13 @@ _NEEDS = {
 }
 
 
-def check_kinds(train: Train, tree: Tree, pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Rules K1 and K2: kinds and axes, kinds and mates."""
+def check_kinds(
+    train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
+) -> Iterator[BuildFinding]:
+    """Rules K1, K2 and K5: kinds and axes, kinds and mates, sides of bevels."""
     axes = Axes(train, tree)
+    for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
+        yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
     for pair in pairs:
         shape = next((kind for kind in pair.kinds if kind != "spur"), "helical" if pair.is_crossed else "spur")
         if set(pair.kinds) not in _MATES:
@@ -47,6 +51,15 @@ def _strange_mates(pair: PitchPair) -> Problem:
         "bevels mesh with bevels; contrates and worms mesh with spur wheels",
         "give both wheels kinds that mesh: both `bevel`, or one `contrate` or `worm`",
         pair.place,
+    )
+
+
+def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
+    return Problem(
+        f"bevels '{one}' and '{other}' of one axis meet '{shared}' from the same side",
+        "their cones have one apex and one axis, so that both would be in one place",
+        f"give the one on the negative side of the axis `facing: -1`, such as '{other}'",
+        train.place("links", train.wheels[other][0], "wheels", other),
     )
 
 

@@ -33,7 +33,7 @@ def check_build(
     """All that the declaration alone tells, rule by rule (docs/buildability.md)."""
     yield from check_mates(train)  # first: a wheel that a child adds without a pair changes no speed of its parent
     pairs = pitch_pairs(train, tree, circuits)
-    yield from check_kinds(train, tree, pairs)
+    yield from check_kinds(train, tree, circuits, pairs)
     yield from check_rings(pairs)
     sizes = PitchDistances(train, tree, circuits, pairs)
     yield from sizes.findings

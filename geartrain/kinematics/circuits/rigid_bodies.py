@@ -42,23 +42,25 @@ class Rigid:
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
     """The cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
 
-    What was prescribed across several axes stands in them joint by joint, each with its cause in words. Raises
-    `DeclarationError` for all that would be linkages, and for inputs whose link has no one axis in the frame.
+    What was prescribed across several axes stands in them joint by joint, each with its cause in words. A case with
+    linkages, or with inputs whose link has no one axis in the frame, has them as its `problems`. Raises
+    `DeclarationError` where every case has some.
     """
-    lines = JointLines(train, tree)
-    problems = list(_driven_sums(train, cases, Axes(train, tree).joint_sums))
-    closed = []
-    for case in cases:
-        across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
-        if not across:
-            closed.append(case)
-            continue
+    lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
+    closed = [_closed(train, lines, sums, case) for case in cases]
+    if all(case.problems for case in closed):
+        raise DeclarationError({str(problem): problem for case in closed for problem in case.problems}.values())
+    return closed
+
+
+def _closed(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
+    problems = list(_driven_sums(train, case, sums))
+    across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
+    if across:
         stops, linkages = _Bodies(lines, case).close(across)
         problems += [_linkage(train, case, rigid) for rigid in linkages]
-        closed.append(_joint_by_joint(tree.frame, case, across, stops))
-    if problems:
-        raise DeclarationError({str(problem): problem for problem in problems}.values())
-    return closed
+        case = _joint_by_joint(lines.frame, case, across, stops)
+    return replace(case, problems=tuple(problems)) if problems else case
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
@@ -165,14 +167,14 @@ def _joint_by_joint(
     return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
 
 
-def _driven_sums(train: Train, cases: Sequence[StateCase], sums: frozenset[str]) -> Iterator[Problem]:
+def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterator[Problem]:
     """The inputs that prescribe a sum of joint speeds over axes in several directions."""
-    for link, loc in dict.fromkeys((link, case.loc) for case in cases for link in case.inputs if link in sums):
+    for link in sums.intersection(case.inputs):
         yield Problem(
             f"the input '{link}' has no speed about one axis",
             "the axes between it and the frame are not parallel, and the sum of joint speeds over them is no rotation",
             "drive a link whose axes up to the frame are parallel",
-            train.place(*loc, link),
+            train.place(*case.loc, link),
         )
 
 

@@ -1,8 +1,9 @@
-"""The angle under which the axes of a pair of bevel wheels meet."""
+"""The angle under which the axes of a pair of bevel wheels meet, and bevels that would be in one place."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import combinations
 from math import atan2, sqrt
 
 from geartrain.errors import Problem, RangeError
@@ -34,6 +35,30 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
         raise RangeError(Problem("its axes do not meet", "they pass each other", "correct the positions of its axes"))
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
     return atan2(size, facing * dot(u, v))  # not acos, which loses half the digits near 0 and pi
+
+
+def bevels_on_one_side(
+    train: Train, circuits: Iterable[Circuit], is_rotation: Callable[[str, str], bool]
+) -> Iterator[tuple[str, str, str]]:
+    """Two bevels on parallel axes, and the bevel on another axis that both meet from the same side, by their `facing`.
+
+    Their axes pass through its apex, so that both would be in one place. The sides follow from the senses of the two
+    circuits.
+
+    is_rotation   of two links, whether the axes between them are all parallel
+    """
+    mates: dict[str, list[tuple[str, str, bool]]] = {}
+    for circuit in circuits:
+        if circuit.kind != "gear" or any(train.wheels[wheel][1].kind != "bevel" for wheel in circuit.wheels):
+            continue
+        if not is_rotation(circuit.i, circuit.j):
+            first, second = circuit.wheels
+            mates.setdefault(second, []).append((first, circuit.i, circuit.b > 0))
+            mates.setdefault(first, []).append((second, circuit.j, circuit.b > 0))
+    for shared, sides in mates.items():
+        for (one, link, side), (other, its, its_side) in combinations(sides, 2):
+            if side == its_side and is_rotation(link, its):
+                yield one, other, shared
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
-from geartrain.analysis.train_strength import TrainUnderLoad
+from geartrain.analysis.changed_declaration import ChangeableTrain
 from geartrain.errors import GearTrainError
 from geartrain.numerics.result_picture import picture_maker
 from geartrain.train import declare
@@ -15,12 +15,11 @@ from geartrain.train import declare
 if TYPE_CHECKING:
     from geartrain.analysis.gear_series import GearSearch
     from geartrain.analysis.gearbox import Gearbox
-    from geartrain.analysis.train_variants import TrainVariants
     from geartrain.kinematics.graph import Graph
     from geartrain.kinematics.phasing import MeshPhasing
 
 
-class GearTrain(TrainUnderLoad):
+class GearTrain(ChangeableTrain):
     """A declared train that answers questions. Parts are made once, when first asked for, and kept.
 
     Parameters
@@ -209,132 +208,6 @@ class GearTrain(TrainUnderLoad):
         from geartrain.analysis.gear_series import find_gears
 
         return find_gears(self, output, gears, steps, single)
-
-    def with_teeth(self, counts: Mapping[str, int] | None = None, **more: int) -> GearTrain:
-        """The train with other tooth counts on some wheels.
-
-        Parameters
-        ----------
-        counts : mapping of str to int, optional
-            Tooth count by wheel.
-        **more : int
-            The same for wheels whose names are words of Python.
-
-        Returns
-        -------
-        GearTrain
-            A new one; what is expected of outputs stays as declared.
-
-        Raises
-        ------
-        QuestionError
-            For wheels there are not, and for what is no tooth count.
-
-        Examples
-        --------
-        >>> import geartrain
-        >>> geartrain.load("planetary-24-18-60").with_teeth(s=30, p=15).solve()["carrier"]
-        Fraction(1, 3)
-        """
-        from geartrain.kinematics.formulas import with_counts
-
-        return GearTrain(with_counts(self.declaration, {**(counts or {}), **more}))
-
-    def with_inputs(self, speeds: Mapping[str, Any] | None = None, **more: Any) -> GearTrain:
-        """The train driven at other speeds, or at other links.
-
-        Parameters
-        ----------
-        speeds : mapping of str to number or str, optional
-            Speed by link, as in a declaration: 2, "1/3", "50 rpm"; in place of all declared inputs.
-        **more : number or str
-            The same for links whose names are words of Python.
-
-        Returns
-        -------
-        GearTrain
-            A new one; states that declare inputs of their own keep them.
-
-        Raises
-        ------
-        DeclarationError
-            For links there are not, and for what is no speed.
-
-        Examples
-        --------
-        >>> import geartrain
-        >>> geartrain.load("planetary-24-18-60").with_inputs(carrier=2).solve()["sun"]
-        Fraction(7, 1)
-        """
-        from geartrain.analysis.changed_declaration import with_inputs
-
-        return GearTrain(with_inputs(self.declaration, {**(speeds or {}), **more}))
-
-    def with_tooth_form(self, form: str | Mapping[str, Any], pair: str | None = None) -> GearTrain:
-        """The train with teeth of another form.
-
-        Parameters
-        ----------
-        form : str or mapping
-            A form's name, or what a declaration says under `tooth_form`.
-        pair : str, optional
-            Of this pair alone; by default of all pairs that declare none of their own.
-
-        Returns
-        -------
-        GearTrain
-            A new one.
-
-        Raises
-        ------
-        DeclarationError
-            For a form there is not, or sizes it cannot have.
-
-        Examples
-        --------
-        >>> import geartrain
-        >>> train = geartrain.load("planetary-24-18-60")
-        >>> [mesh.form for mesh in train.with_tooth_form("involute").meshes]
-        ['involute', 'involute']
-        """
-        from geartrain.analysis.changed_declaration import with_tooth_form
-
-        return GearTrain(with_tooth_form(self.declaration, form, pair))
-
-    def variants(
-        self, counts: Mapping[str, Iterable[int]], outputs: Sequence[str] = (), state: str | None = None
-    ) -> TrainVariants:
-        """Outputs of all trains that have some of these tooth counts: every combination, by exact formulas at once.
-
-        Parameters
-        ----------
-        counts : mapping of str to iterable of int
-            Counts to try, by wheel.
-        outputs : sequence of str
-            Some outputs; by default all.
-        state : str, optional
-            A declared state; None only of a train that has none.
-
-        Returns
-        -------
-        TrainVariants
-            A table in float64 with bounds of its errors; `exact` gives fractions.
-
-        Raises
-        ------
-        QuestionError
-            For wheels, outputs or states there are not, and for more than 10^8 combinations.
-
-        Examples
-        --------
-        >>> import geartrain
-        >>> found = geartrain.load("freeth-2021").variants({"b1": range(220, 228)}, ["mars"])
-        >>> len(found), found["b1"][:3].tolist(), found.exact(0, "mars") is not None
-        (8, [220, 221, 222], True)
-        """
-        from geartrain.analysis.train_variants import find_variants
-
-        return find_variants(self.declaration, self.declaration.single_state(state), counts, outputs)
 
     def __repr__(self) -> str:
         declared = self.declaration

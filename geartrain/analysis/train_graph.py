@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
+import networkx as nx
+from networkx.classes.function import frozen
+
+from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.graph import build_graph
-from geartrain.numerics.lazy_graph import Lazy
+from geartrain.numerics.lazy_graph import Lazy, LazyDict
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -21,6 +25,44 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
 
 _OF_PAIRS = ("circuit", "carrier", "ratio", "form", "mesh", "efficiency")
+_GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind", "label", "axis", *_OF_PAIRS))
+
+
+def _refuse(*_: object, **__: object) -> NoReturn:
+    """Raise `QuestionError` for what would change the graph and not the train."""
+    what, why = "the graph of a train cannot be changed", "the answers of the train would not follow"
+    fix = "make another train: with_teeth, with_tooth_form, with_inputs or with_changes; or change a graph.copy()"
+    raise QuestionError(Problem(what, why, fix))
+
+
+class _Attributes(LazyDict):
+    """Attributes of a link or pair: those of the train cannot be changed, others can."""
+
+    __slots__ = ()
+    clear = popitem = _refuse
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        if key in _GIVEN:
+            _refuse()
+        super().__setitem__(key, value)
+
+    def __delitem__(self, key: str) -> None:
+        if key in _GIVEN:
+            _refuse()
+        super().__delitem__(key)
+
+    def pop(self, key: str, *default: Any) -> Any:
+        """Take out a value that is not of the train."""
+        return _refuse() if key in _GIVEN else super().pop(key, *default)
+
+    def update(self, *others: Any, **more: Any) -> None:
+        """Set values that are not of the train."""
+        for key, value in dict(*others, **more).items():
+            self[key] = value
+
+    def __ior__(self, others: Any) -> _Attributes:  # type: ignore[override,misc]
+        self.update(others)
+        return self
 
 
 def build_train_graph(train: GearTrain, state: str | None) -> Graph:
@@ -47,6 +89,16 @@ def build_train_graph(train: GearTrain, state: str | None) -> Graph:
         data["ratio"] = Lazy(partial(found.ratio, name))
         data["mesh"] = Lazy(partial(found.mesh, name))
         data["efficiency"] = Lazy(partial(found.efficiency, name))
+    return _frozen(graph)
+
+
+def _frozen(graph: Graph) -> Graph:
+    """The graph, which refuses to be changed; attributes can be added to its nodes and edges."""
+    nx.freeze(graph)
+    for name in [name for name, method in vars(graph).items() if method is frozen]:
+        setattr(graph, name, _refuse)
+    for *_, data in (*graph.nodes(data=True), *graph.edges(data=True)):
+        data.__class__ = _Attributes
     return graph
 
 

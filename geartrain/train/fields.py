@@ -14,11 +14,12 @@ from pydantic import (
     ConfigDict,
     GetJsonSchemaHandler,
     TypeAdapter,
+    ValidationError,
     WithJsonSchema,
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from geartrain.errors import nearest_names
+from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
 from geartrain.teeth.coulomb_friction import CoulombFriction, DeclaredCoulombFriction
 
@@ -43,12 +44,27 @@ class Declared(BaseModel):
         Parameters
         ----------
         **update : object
-            Values by name of field; they are taken as they are.
+            Values by name of field, as a declaration has them or as they were read.
+
+        Raises
+        ------
+        DeclarationError
+            For what the part cannot be. References to other parts are not checked: `GearTrain.with_changes` does that.
         """
-        copy = self.model_copy(update=update)
-        for name in [name for name in copy.__dict__ if name not in type(self).model_fields]:
-            del copy.__dict__[name]
+        given = {name: getattr(self, name) for name in self.model_fields_set}
+        try:
+            copy = type(self).model_validate(given | update)
+        except ValidationError as error:
+            raise DeclarationError(map(_refused, error.errors(include_url=False))) from None
+        if self.__pydantic_private__ is not None:  # where it was written
+            copy.__pydantic_private__ = dict(self.__pydantic_private__)
         return copy
+
+
+def _refused(error: Mapping[str, Any]) -> Problem:
+    """What is wrong about a value that was to replace another."""
+    fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
+    return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"it is {str(error['input'])[:60]!r}", fix)
 
 
 def read_count(raw: object) -> int:

@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import yaml
+from pydantic import BaseModel
 
-from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Problem, dotted
+from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Marks, Problem, dotted
 
 MOST_DEPTH = 32
 MOST_VALUES = 3_000_000  # some 200,000 links; the parser needs a quarter of a kilobyte for each
@@ -243,16 +244,21 @@ class _Builder:
         return self.root
 
 
-def node_from_data(data: Any, loc: Loc = ()) -> YamlNode:
-    """Plain data as nodes, whose places are their paths. Raises `DeclarationError` for data nested too deeply."""
-    place = dotted(loc)
+def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
+    """Plain data and parts of a declaration as nodes with places, by default their paths.
+
+    Raises `DeclarationError` for data nested too deeply.
+    """
+    place = marks(loc)
+    if isinstance(data, BaseModel):
+        data = data.model_dump(mode="json", exclude_unset=True, by_alias=True)
     if len(loc) > MOST_DEPTH:
         raise DeclarationError(_too_deep(place))
     if isinstance(data, Mapping):
-        entries = {str(key): node_from_data(value, (*loc, str(key))) for key, value in data.items()}
+        entries = {str(key): node_from_data(value, (*loc, str(key)), marks) for key, value in data.items()}
         return YamlNode(entries, place, {key: node.place for key, node in entries.items()})
     if isinstance(data, list | tuple):
-        return YamlNode([node_from_data(value, (*loc, at)) for at, value in enumerate(data)], place)
+        return YamlNode([node_from_data(value, (*loc, at), marks) for at, value in enumerate(data)], place)
     return YamlNode(data, place)
 
 

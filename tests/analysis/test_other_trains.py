@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
 from shipped import train as load
 
+import geartrain
 from geartrain.errors import GearTrainError
 
 
@@ -91,3 +93,64 @@ def test_a_train_says_its_name_its_size_and_its_verdict() -> None:
     assert repr(load("planetary-24-18-60")) == "<GearTrain planetary-24-18-60: 4 links, 3 wheels; determined>"
     assert repr(load("zf-8hp70")) == "<GearTrain zf-8hp70: 13 links, 12 wheels, 9 states; determined>"
     assert repr(load("planetary-24-18-60").with_inputs({})).endswith("; free>")
+
+
+FRICTIONS = (0, 0.02, 0.1)
+
+
+def test_any_key_is_changed_in_one_call_as_a_declaration_that_says_so_would() -> None:
+    name = "planetary-24-18-60-involute"
+    train = load(name)
+    for friction in FRICTIONS:
+        written = geartrain.load(f"extends: {name}\nfriction: {friction}\n")
+        changed = train.with_changes(friction=friction)
+        assert changed.driven("carrier", "sun").efficiency == written.driven("carrier", "sun").efficiency
+        assert changed.name == train.name
+    assert train.declaration.friction == geartrain.load(name).declaration.friction, "the first one is as it was"
+
+
+def test_parts_are_merged_by_name_replaced_unset_and_removed() -> None:
+    train = load("planetary-24-18-60")
+    assert train.with_changes(links={"sun": {"wheels": {"s": 30}}}).solve()["carrier"] == Fraction(1, 3)
+    assert train.with_changes({"inputs": {"carrier": 2}}).solve()["sun"] == 7
+    assert train.with_changes(remove={"gears": ["s~p"]}).solve().verdict.kind == "free"
+    again = train.with_changes(gears=["s ~ p"], remove={"gears": ["s~p"]})
+    assert again.solve()["carrier"] == Fraction(2, 7)
+    assert train.with_changes(friction=0.1).with_changes(friction=None).declaration.friction is None
+    assert train.with_changes(outputs={"more": {"of": "planet"}}).solve()["more"] == Fraction(-2, 3)
+
+
+def test_what_is_not_changed_stays_as_it_was_declared_and_where_it_was_written() -> None:
+    for name in geartrain.shipped():
+        before = load(name).declaration
+        after = load(name).with_changes().declaration
+        assert after.model_dump() == before.model_dump()
+        for part in (("links", next(iter(before.links))), ("gears", 0), ("outputs",)):
+            assert after.place(*part) == before.place(*part)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"frction": 0.1}, "did you mean 'friction'"),
+        ({"friction": "much"}, "'much' is not a number"),
+        ({"inputs": {"son": 1}}, "no link 'son'"),
+        ({"links": {"frame": {"wheels": {"s": 20}}}}, "write it under `sun`"),
+        ({"remove": {"gears": ["zz"]}}, "the parent has no such entry in gears"),
+    ],
+)
+def test_a_change_that_a_declaration_cannot_say_is_refused(changes: dict[str, Any], said: str) -> None:
+    with pytest.raises(GearTrainError) as caught:
+        load("planetary-24-18-60").with_changes(changes)
+    assert said in str(caught.value)
+
+
+def test_a_changed_declaration_is_read_like_a_written_one() -> None:
+    declared = load("planetary-24-18-60-involute").declaration
+    found = geartrain.GearTrain(declared.changed(friction=0.1)).driven("carrier", "sun")
+    other = geartrain.GearTrain(declared).with_changes(friction="0.1")
+    assert found.efficiency == other.driven("carrier", "sun").efficiency
+    assert declared.changed(friction=0.1).place("links") == declared.place("links")
+    for changes in ({"friction": "much"}, {"frction": 0.1}, {"gears": 3}):
+        with pytest.raises(GearTrainError):
+            declared.changed(**changes)

@@ -226,12 +226,45 @@ def test_every_way_of_networkx_to_read_an_attribute_finds_its_value() -> None:
         graph.edges["frame", "planet", "p~ring"]["colour"]
 
 
-def test_a_user_may_write_on_a_graph() -> None:
+def test_a_user_may_add_attributes_to_a_graph() -> None:
     graph = geartrain.load("worm").graph
-    graph.nodes["wheel"]["colour"] = "red"
-    graph.edges["screw", "wheel", next(iter(graph["screw"]["wheel"]))]["ratio"] = 7
-    assert [ratio for *_, ratio in graph.edges(data="ratio") if ratio] == [7]
+    for colour in ("red", "blue"):
+        graph.nodes["wheel"]["colour"] = colour
+        nx.set_edge_attributes(graph, 7, "weight")
+    assert graph.nodes["wheel"].pop("colour") == "blue"
+    assert [weight for *_, weight in graph.edges(data="weight")] == [7] * len(graph.edges)
     assert geartrain.load("worm").graph.nodes["wheel"].get("colour", "none") == "none"
+
+
+def test_a_graph_that_would_differ_from_its_train_is_refused_with_what_changes_the_train() -> None:
+    graph = geartrain.load("planetary-24-18-60").graph
+    assert nx.is_frozen(graph)
+    edge = graph.edges["planet", "sun", "s~p"]
+    changes = [
+        lambda: graph.add_edge("sun", "carrier"),
+        lambda: graph.add_node("more"),
+        lambda: graph.remove_edge("planet", "sun", "s~p"),
+        lambda: graph.remove_node("sun"),
+        lambda: graph.add_edges_from([("sun", "carrier")]),
+        graph.clear,
+        lambda: edge.__setitem__("ratio", 7),
+        lambda: edge.update(ratio=7),
+        lambda: edge.pop("mesh"),
+        lambda: edge.__delitem__("declared"),
+        lambda: edge.__ior__({"form": None}),
+        edge.clear,
+        edge.popitem,
+        lambda: nx.set_node_attributes(graph, 0, "speed"),
+    ]
+    for change in changes:
+        with pytest.raises(QuestionError, match=r"with_teeth, with_tooth_form, with_inputs or with_changes"):
+            change()
+    assert edge["ratio"] == Fraction(-18, 24)
+    assert len(graph) == 4
+    copied = graph.copy()
+    copied.remove_node("sun")
+    copied.edges["planet", "frame", "p~ring"]["ratio"] = 7
+    assert (len(copied), graph.edges["planet", "frame", "p~ring"]["ratio"]) == (3, Fraction(60, 18))
 
 
 def test_a_lazy_dictionary_makes_each_value_once_however_it_is_read() -> None:

@@ -53,7 +53,7 @@ class GearState(Result):
     torques : mapping of str to Fraction or None
         By closed element, what it exerts on the link it fixes, or on the first it locks, over the input's torque; None
         where statics leaves it open.
-    efficiency : Fraction or None
+    efficiency : Fraction, float or None
         Power out over power in.
     recirculating : Fraction or None
         Power that runs round between gear sets, over power in.
@@ -85,7 +85,7 @@ class GearState(Result):
     speeds: Mapping[str, Fraction]
     slips: Mapping[str, Fraction]
     torques: Mapping[str, Fraction | None]
-    efficiency: Fraction | None
+    efficiency: Fraction | float | None
     recirculating: Fraction | None
     inner: Fraction | None
 

@@ -8,7 +8,6 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import networkx as nx
-from networkx.classes.function import frozen
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.graph import build_graph
@@ -94,8 +93,9 @@ def build_train_graph(train: GearTrain, state: str | None) -> Graph:
 
 def _frozen(graph: Graph) -> Graph:
     """The graph, which refuses to be changed; attributes can be added to its nodes and edges."""
+    before = {"frozen", *vars(graph)}
     nx.freeze(graph)
-    for name in [name for name, method in vars(graph).items() if method is frozen]:
+    for name in vars(graph).keys() - before:  # the methods that it replaces
         setattr(graph, name, _refuse)
     for *_, data in (*graph.nodes(data=True), *graph.edges(data=True)):
         data.__class__ = _Attributes
@@ -137,11 +137,12 @@ class _GraphFacts:
         """A pair with real teeth as it is driven in the state, or a pin with dimensions."""
         return self._meshes.get(name)
 
-    def efficiency(self, name: str) -> tuple[Fraction, Fraction]:
-        """Basic efficiencies of a pair with the first link of its circuit driving, and with the second."""
+    def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
+        """Basic efficiencies of a pair with the first link of its circuit driving, then with the second."""
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
-        return find_mean_efficiencies(self._losses, self._circuits[name]).driver
+        found = find_mean_efficiencies(self._losses, self._circuits[name])
+        return found.driver if found.exact else (float(found.driver[0]), float(found.driver[1]))
 
     @cached_property
     def _answer(self) -> Answer:

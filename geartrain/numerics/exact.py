@@ -56,7 +56,7 @@ def log10(value: Fraction) -> float:
     return math.log10(abs(value.numerator)) - math.log10(value.denominator)
 
 
-def as_float(value: Fraction) -> float | None:
+def as_float(value: Fraction | float) -> float | None:
     """The nearest float64, or None where float64 has none: 0 or infinity would be silently wrong."""
     try:
         number = float(value)

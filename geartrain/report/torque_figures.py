@@ -38,7 +38,7 @@ class DrivenFigures:
     """The efficiency of a train driven one way; None where it is not determined."""
 
     KEYS = (
-        *("verdict", Key("efficiency", to=as_float), Key("exact", "efficiency")),
+        *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
         Key("left_out", "way.torques.left_out"),
     )
 
@@ -50,9 +50,14 @@ class DrivenFigures:
         return self.way.torques.verdict
 
     @property
-    def efficiency(self) -> Fraction | None:
+    def efficiency(self) -> Fraction | float | None:
         """Power out over power in; None where it is not determined."""
         return self.way.torques.efficiency if self.verdict else None
+
+    @property
+    def exact_efficiency(self) -> Fraction | None:
+        """The efficiency where it is exact; None for a float."""
+        return self.efficiency if isinstance(self.efficiency, Fraction) else None
 
 
 class DrivenWays(NamedTuple):

@@ -539,3 +539,19 @@ def test_a_gearbox_has_its_published_efficiencies() -> None:
         found = train.driven("OUT", source, state)
         assert found.verdict
         assert found.efficiency == 1
+
+
+def test_an_efficiency_of_means_over_teeth_is_a_float_and_a_declared_one_a_fraction() -> None:
+    teeth = load("planetary-24-18-60-involute")
+    for friction in (0.02, 0.1):
+        found = teeth.with_changes(friction=friction).driven("carrier", "sun")
+        assert isinstance(found.efficiency, float)
+        assert all(isinstance(pair.efficiency, float) for pair in found.pairs.values())
+        # the ring held, i0 = -60/24: (1 - i0 eta0)/(1 - i0), with eta0 the product of both pairs
+        eta0 = float(found.pairs["s~p"].efficiency * found.pairs["p~ring"].efficiency)
+        assert found.efficiency == pytest.approx((1 + 2.5 * eta0) / 3.5, rel=1e-12)
+        (ways,) = (teeth.with_changes(friction=friction).graph.edges["sun", "planet", "s~p"]["efficiency"],)
+        assert all(isinstance(way, float) for way in ways)
+    plain = load("planetary-24-18-60").with_changes(gears=[{"pair": ["s", "p"], "efficiency": 0.98}])
+    declared = plain.driven("carrier", "sun")
+    assert declared.efficiency == (1 + Fraction(5, 2) * Fraction(98, 100)) / Fraction(7, 2)

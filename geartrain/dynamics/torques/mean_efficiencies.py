@@ -67,7 +67,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
     form = setting.train.form_of(gear)
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
     found = [Fraction(f"{screw_efficiency(*pair, friction.sliding, angle):.15g}") for pair in (helix, helix[::-1])]
-    return MeanEfficiencies((found[0], found[1]), (found[0], found[1]))
+    return MeanEfficiencies((found[0], found[1]), (found[0], found[1]), exact=False)
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
@@ -79,9 +79,9 @@ def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficiencies:
-    return MeanEfficiencies(
-        (_mean(ahead.mean), _mean(back.mean)), (_mean(ahead.at_constant_load), _mean(back.at_constant_load))
-    )
+    driver = _mean(ahead.mean), _mean(back.mean)
+    load = _mean(ahead.at_constant_load), _mean(back.at_constant_load)
+    return MeanEfficiencies(driver, load, exact=False)
 
 
 def _mean(efficiency: float | None) -> Fraction:

@@ -114,10 +114,12 @@ class PairTorque(Result):
     rolling : Fraction or None
         a (w_i - w_k), so that -x times it is the power from the first link to the second; None where the wheels roll
         on each other at a speed that is not determined.
-    efficiency : Fraction
-        What is left of the power behind the pair, the carrier held; 1 without loss.
+    share : Fraction
+        Part of the power that is left behind the pair, the carrier held; 1 without loss.
     loose : bool
         True where the balance does not determine the torque.
+    exact : bool
+        False where `share` is a mean over teeth, a float to 15 digits.
 
     See Also
     --------
@@ -138,8 +140,14 @@ class PairTorque(Result):
     torques: tuple[Fraction, Fraction, Fraction]
     multiplier: Fraction
     rolling: Fraction | None
-    efficiency: Fraction
+    share: Fraction
     loose: bool = False
+    exact: bool = True
+
+    @property
+    def efficiency(self) -> Fraction | float:
+        """Part of the power that is left behind the pair; a float where it follows from a mean over teeth."""
+        return self.share if self.exact else float(self.share)
 
     @property
     def on_members(self) -> MemberTorques:
@@ -157,4 +165,4 @@ class PairTorque(Result):
     @property
     def loss(self) -> Fraction:
         """Power lost; where the speed is open nothing is counted."""
-        return (self.power or Fraction(0)) * (1 - self.efficiency)
+        return (self.power or Fraction(0)) * (1 - self.share)

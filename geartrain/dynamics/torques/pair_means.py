@@ -14,10 +14,12 @@ class MeanEfficiencies:
 
     driver   where the torque of the driver is constant over a turn
     load     where the torque of the driven side is
+    exact    as declared; False for means over teeth, which are floats to 15 digits
     """
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
+    exact: bool = True
 
     @property
     def differ(self) -> bool:

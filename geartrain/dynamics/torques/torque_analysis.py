@@ -9,7 +9,11 @@ from fractions import Fraction
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.load_sharing import find_shares, find_ties
-from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, settle_mean_efficiencies
+from geartrain.dynamics.torques.mean_efficiencies import (
+    all_mean_efficiencies,
+    find_mean_efficiencies,
+    settle_mean_efficiencies,
+)
 from geartrain.dynamics.torques.member_torques import HoldingTorque, PairTorque
 from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 from geartrain.dynamics.torques.pair_means import MeanEfficiencies
@@ -275,6 +279,7 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
         mesh.rolling if setting.relative(circuit.i, circuit.carrier) is not None else None,
         mesh.efficiency(ahead),
         mesh.id in flow.solved.loose,
+        find_mean_efficiencies(setting, circuit).exact,
     )
 
 

@@ -258,11 +258,13 @@ class Torques(FrozenFields, Tabular, Result):
         return None if self.open_speeds else self.loss
 
     @property
-    def efficiency(self) -> Fraction | None:
-        """Power out over power in; None where nothing goes in, or an asked torque or a loaded link's speed is open."""
+    def efficiency(self) -> Fraction | float | None:
+        """Power out over power in, a float where pairs have means over teeth; None where nothing goes in, or an asked
+        torque or a loaded link's speed is open."""
         if not self.power_in or self.open_speeds or any(link not in self.external for link in self.asked):
             return None
-        return 1 - self._missing / self.power_in
+        found = 1 - self._missing / self.power_in
+        return found if all(pair.exact for pair in self.pairs.values()) else float(found)
 
     @property
     def _missing(self) -> Fraction:

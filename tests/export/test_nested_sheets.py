@@ -69,7 +69,7 @@ def test_a_part_larger_than_the_sheet_is_named() -> None:
         nested_sheets([part("disc", Contour.circle(25))], (50, 50), 1)
 
 
-def test_the_library_is_asked_for_by_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_library_is_asked_for_by_its_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "rectpack", None)
-    with pytest.raises(MissingExtraError, match=r"geartrain\[nest\]"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'rectpack>=0\.2\.2'"):
         nested_sheets([part("disc", Contour.circle(5))], (50, 50), 1)

@@ -72,5 +72,5 @@ def test_a_pinion_agrees_with_another_mesher(fine: float) -> None:
 def test_it_is_refused_with_the_extra_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "skfem", None)
     side, radius = pinion()
-    with pytest.raises(MissingExtraError, match=r"geartrain\[fem\]"):
+    with pytest.raises(MissingExtraError, match=r"pip install 'scikit-fem>=10'"):
         root_stress_factor(side, 17, side.load_at(radius, 8.5 * cos(TWENTY)), 0.3)

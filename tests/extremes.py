@@ -157,17 +157,12 @@ class Exactly:
                 self.laws.append(Even(pair.by))
             else:
                 self.laws.append(known.setdefault(own, Toothed(own)))
-        self._set_pins()
-
-    def _set_pins(self) -> None:
-        """Each pin is counted from where its link hangs at the start: there it points at the slot's axis."""
-        pins = {at: law for at, law in enumerate(self.laws) if isinstance(law, Pinned)}
-        if not pins:
-            return
-        self.laws = [Even(self.train.pairs[at].by) if at in pins else law for at, law in enumerate(self.laws)]
-        hung = self.at(0.0, [0.0] * len(self.train.at))
-        for at, law in pins.items():
-            self.laws[at] = Set(law, self.forward(hung, at)[0])
+        # each driver has a tooth, or its pin, on the line of centres where its link hangs at the start
+        signs = [first * second for first, second in self.senses]
+        ratios = [sign * law.mean for sign, law in zip(signs, self.laws, strict=True)]
+        ahead = [second * law.angle(mp.mpf(0)) for (_, second), law in zip(self.senses, self.laws, strict=True)]
+        hung = self._solved(ratios, ahead, 0)
+        self.laws = [Set(law, self.forward(hung, at)[0]) for at, law in enumerate(self.laws)]
 
     @cached_property
     def means(self) -> list[Any]:
@@ -270,10 +265,12 @@ def eliminated(rows: Sequence[dict[int, Any]], right: Sequence[Any], size: int) 
 
 def composed(laws: Sequence[Any], turns: float) -> tuple[Any, Any, Any]:
     """The last wheel of a plain chain: its error, its speed over the mean, and radians of it per error of each pair."""
-    S, mean, gain, summed = 2 * mp.pi * mp.mpf(turns), mp.mpf(1), mp.mpf(1), mp.mpf(0)
-    for law in laws:
+    S, hung, mean, gain, summed = 2 * mp.pi * mp.mpf(turns), mp.mpf(0), mp.mpf(1), mp.mpf(1), mp.mpf(0)
+    for each in laws:
+        law = Set(each, hung)
         tau = law.speed(S)
-        S, mean, gain, summed = law.angle(S), mean * law.mean, gain * tau / law.mean, 1 + tau * summed
+        S, hung, mean = law.angle(S), law.angle(hung), mean * law.mean
+        gain, summed = gain * tau / law.mean, 1 + tau * summed
     return S - mean * 2 * mp.pi * mp.mpf(turns), gain, summed
 
 

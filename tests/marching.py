@@ -6,7 +6,8 @@ turn. At each step the speeds of all links follow from the linear equations of t
 ratios; where another couple of teeth comes to touch, the step ends and that couple drives.
 
 Angles of one pair are forward angles S and q as seen from the carrier, growing as the pair turns; apices stand at
-x = k p1 - S and y = k p2 - q from the line of centres, positive on the entry side.
+x = k p1 - S and y = k p2 - q from the line of centres, positive on the entry side. At the start every driver has an
+apex, or its pin, on the line of centres, and every link reads 0.
 """
 
 from __future__ import annotations
@@ -139,8 +140,9 @@ class Slot:
         return iter(())
 
     def touching(self, S: float) -> tuple[Contact, float]:
-        """At the start the pin points at the slot's axis, wherever its link hangs, and the slot points with it."""
-        return Contact(0, 0), S
+        """Where the pin points at the slot's axis the slot points with it."""
+        assert S == 0.0
+        return Contact(0, 0), 0.0
 
 
 @dataclass(frozen=True)
@@ -203,17 +205,17 @@ class Train:
         ahead = [1 if means[self.at[pair.driver]] >= means[self.at[pair.carrier]] else -1 for pair in self.pairs]
         return [(a, -a if pair.by.external else a) for a, pair in zip(ahead, self.pairs, strict=True)]
 
-    def forward(self, angles: np.ndarray, number: int) -> tuple[float, float]:
-        """Forward angles S and q of one pair: of teeth as they hang, of a pin from where it was set at the start."""
-        pair = self.pairs[number]
-        return self.hanging(angles if pair.by.external else angles - self.set, number)
+    @cached_property
+    def touches(self) -> list[tuple[Contact, float]]:
+        """What touches in each pair at the start, with the driver on the line of centres, and the driven angle there."""
+        return [pair.by.touching(0.0) for pair in self.pairs]
 
-    def hanging(self, angles: np.ndarray, number: int) -> tuple[float, float]:
-        """Forward angles of one pair from where all links read 0."""
+    def forward(self, angles: np.ndarray, number: int) -> tuple[float, float]:
+        """Forward angles S and q of one pair, of angles of links that are 0 at the start."""
         pair, (first, second) = self.pairs[number], self.senses[number]
         carrier = angles[self.at[pair.carrier]]
         S, q = angles[self.at[pair.driver]] - carrier, angles[self.at[pair.driven]] - carrier
-        return float(first * S), float(second * q)
+        return float(first * S), float(second * q) + self.touches[number][1]
 
     def rates(self, angles: np.ndarray, contacts: Sequence[Contact]) -> np.ndarray:
         """Speeds of all links at these angles, each pair touching as given."""
@@ -223,29 +225,12 @@ class Train:
             ratios.append(first * second * pair.by.speed(contact, *self.forward(angles, number)))
         return self.speeds(ratios)
 
-    @cached_property
-    def set(self) -> np.ndarray:
-        """Where all links hang at the start: what is read, and what a pin is counted from, is set to 0 there."""
-        return self.start()[0]
-
-    def start(self) -> tuple[np.ndarray, list[Contact]]:
-        """All angles and contacts where the inputs have not turned and every pair touches."""
-        angles = np.zeros(len(self.at))
-        for _ in range(200):
-            ratios, ahead, contacts = [], [], []
-            for number, pair in enumerate(self.pairs):
-                S, q = self.hanging(angles, number)
-                contact, touches = pair.by.touching(S)
-                first, second = self.senses[number]
-                speed = pair.by.speed(contact, S, touches) if pair.by.external else pair.by.mean
-                ratios.append(first * second * speed)
-                ahead.append(second * (touches - q))
-                contacts.append(contact)
-            step = self.solved(ratios, ahead, 0.0)
-            angles = angles + step
-            if np.abs(step).max() < 2e-15 * max(1.0, np.abs(angles).max()):
-                return angles, contacts
-        raise AssertionError("the teeth do not come to touch")
+    @property
+    def lag(self) -> np.ndarray:
+        """By how much the teeth at the start put all links ahead of where ideal teeth would."""
+        mean = [first * second * pair.by.mean for pair, (first, second) in zip(self.pairs, self.senses, strict=True)]
+        ahead = [second * q for (_, second), (_, q) in zip(self.senses, self.touches, strict=True)]
+        return self.solved(mean, ahead, 0.0)
 
 
 def declared(train: Train) -> str:
@@ -278,7 +263,7 @@ def march(train: Train, turned: float, steps: int, method: str, locate: bool = T
 
     `locate` ends a step where other teeth come to touch; else they are noticed at the end of the step.
     """
-    angles, contacts = train.start()
+    angles, contacts = np.zeros(len(train.at)), [contact for contact, _ in train.touches]
     yield angles
     for _ in range(steps):
         angles, contacts = (_located if locate else _noticed)(train, angles, contacts, turned / steps, method)

@@ -60,13 +60,12 @@ class Chain:
     ) -> tuple[Mechanism, list[float]]:
         """The bodies where the chosen flanks touch, and the forward angle of each link of the chain.
 
-        Teeth are set up one by one, a tooth of each driver on the line of centres where its link reads 0; then every
-        link is turned on its wheels until it reads what ideal teeth would give, and pins count from there.
+        At the start each driver has a tooth, or its pin, on the line of centres, and all links read 0.
         """
         centre: Vector = (0.0, 0.0)
         hinges = [Hinge(FRAME, "L0", centre, self.bearings["L0"])]
         joints: list[tuple[Touch, ...]] = []
-        angles, lag, read = [turned], 0.0, [turned]
+        angles = [turned]
         for at, (stage, sense) in enumerate(zip(self.stages, self.forward(), strict=False)):
             names, numbers, S = (stage.driver, stage.driven), stage.numbers, angles[-1]
             unit = (cos(stage.place), sin(stage.place))
@@ -76,23 +75,20 @@ class Chain:
                 radii = (z, -y if numbers["internal"] else y)
                 joints.append(toothed(*names, (centre, axis), radii, numbers["efficiencies"]))
                 angles.append(S * z / y)
-                lag *= z / y
             elif stage.kind == "triangular":
                 wheels, flank = outlines[numbers["id"]], chosen[at]
                 touch = wheels.touch(S, names, (centre, axis), numbers["friction"], flank, sense < 0)
                 joints.append((touch,))
-                angles.append(wheels.driven(S, flank))
-                lag = wheels.driven(lag)
+                angles.append(wheels.driven(S, flank) - wheels.driven(0.0))
             elif stage.kind == "pin":
                 r, e = numbers["r"], numbers["e"]
                 axis = (centre[0] + e * unit[0], centre[1] + e * unit[1])
-                swings = S - lag
-                lean = stage.place + sense * swings
+                lean = stage.place + sense * S
                 pin = (centre[0] + r * cos(lean), centre[1] + r * sin(lean))
                 away = hypot(pin[0] - axis[0], pin[1] - axis[1])
                 normal = (-(pin[1] - axis[1]) / away, (pin[0] - axis[0]) / away)
                 joints.append(flanks(*names, pin, normal, numbers["friction"]))
-                angles.append(S + atan2(e * sin(swings), r - e * cos(swings)))
+                angles.append(S + atan2(e * sin(S), r - e * cos(S)))
             else:
                 planet, (s, p, q, ring) = numbers["planet"], numbers["teeth"]
                 first, second = numbers["efficiencies"]
@@ -101,12 +97,10 @@ class Chain:
                 joints.append(toothed(planet, FRAME, (axis, centre), (q, -ring), second, stage.driven))
                 slower = float(1 + Fraction(ring * p, q * s))
                 angles.append(S / slower)
-                lag /= slower
                 axis = centre
             hinges.append(Hinge(FRAME, stage.driven, axis, self.bearings[stage.driven]))
-            read.append(angles[-1] - lag)
             centre = axis
-        return Mechanism(hinges, joints), read
+        return Mechanism(hinges, joints), angles
 
 
 def random_chain(seed: int, kinds: tuple[str, ...] = KINDS, most: int = 3) -> Chain:

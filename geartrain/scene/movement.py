@@ -179,8 +179,7 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
         link: stage.sense(link) * (stage.start(link) + way * float(each))
         for link, each in zip(links, error, strict=True)
     }
-    own = error - np.array(composition.offsets) if composition.offsets else error
-    driving = dict(_settings(composition, own, way))
+    driving = dict(_settings(composition, way))
     movement = _written(stage, composition, way)
     back, notices = _backward(stage, motion, movement)
     return MovementStart(movement, rest, driving, motion, notices, back)
@@ -220,9 +219,9 @@ def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Mo
     )
 
 
-def _settings(composition: ErrorComposition, error: Floats, way: int) -> Iterator[tuple[str, InitialPosition]]:
+def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, InitialPosition]]:
     for source in composition.sources:
-        S = source.start + composition.driver_shift(source, error)
+        S = source.phase
         driver = composition.spread.links[composition.spread.joints[source.pair].driver]
         yield source.id, InitialPosition(driver, way * source.forward, S, float(source.law.error(S)), source.law)
 

@@ -86,7 +86,7 @@ class WheelPhases:
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> WheelPhases:
     """The turn of every wheel: so that it meshes with its mates, else as the layout has it."""
     found = _Mounting(stage, moved)
-    for circuit in sorted(found.pairs, key=lambda circuit: circuit.id not in moved.driving):
+    for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
     turns = {wheel: found.turns.get(wheel, as_placed(stage, wheel)) for wheel in stage.layout.wheels}
     return WheelPhases(turns, tuple(found.notices()))
@@ -100,6 +100,9 @@ class _Mounting:
         self.mates: dict[str, list[Circuit]] = {}
         self.off: list[str] = []
         self.meshes: Mapping[str, GearMesh] = {mesh.name: mesh for mesh in stage.meshes}
+        self.phases = {
+            gear.name: float(gear.phase.value) for gear in stage.train.declaration.gears if gear.phase is not None
+        }
         for circuit in stage.train.circuits:
             meeting = mesh_directions(stage, circuit) if circuit.kind == "gear" else None
             if meeting is not None:
@@ -116,12 +119,14 @@ class _Mounting:
         """Mount all wheels that mesh with those of a pair, near or far, unless they are."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
-        at = self._driver(first)
-        setting = self.moved.driving.get(first.id)
-        wheel = first.wheels[at]
-        self.turns[wheel] = as_placed(self.stage, wheel)
+        at, setting = self._driver(first), self.moved.driving.get(first.id)
         if setting is not None:
-            self._set(first, at, setting.S / self._pitch(wheel))
+            self._set(first, at, setting.S / self._pitch(first.wheels[at]))
+        elif first.id in self.phases:
+            at = 0
+            self._set(first, at, self.phases[first.id])
+        wheel = first.wheels[at]
+        self.turns.setdefault(wheel, as_placed(self.stage, wheel))
         queue = deque([wheel])
         while queue:
             wheel = queue.popleft()

@@ -334,7 +334,7 @@ class GearPair(Declared):
     driver: Id | None = Field(None, description="The wheel that drives; default by the flow of power")
     phase: Figure | None = Field(
         None,
-        description="Fraction of a pitch by which a tooth of the first wheel is past the line of centres at the start",
+        description="Pitches by which a tooth of the first wheel is past the line of centres at turn 0; default 0",
     )
     fitting: PairMounting | None = Field(None, description="How far its axes are off; default the train's")
     source: str | None = Field(None, description="Key of the source")

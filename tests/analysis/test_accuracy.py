@@ -96,7 +96,7 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     turns = np.arange(500) * (20.0 / 500)
     total = np.zeros(500)
     for source in motion.ahead.used:
-        S = float(source.cycles) * turns * source.law.period + source.start - source.turned
+        S = float(source.cycles) * turns * source.law.period + source.phase
         seen = motion.ahead.outputs[0]
         total += source.sense * motion.ahead.spread.sensitivity(seen.of, seen.base)[source.pair] * source.law.error(S)
     off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
@@ -104,7 +104,7 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated laws"))
     assert tables is not None
     assert lagged is not None
-    assert 0 < tables < 1e-9 < lagged < off / 2
+    assert 0 < tables < 1e-9 < lagged < off
     compiled = row_of(moon, MOTION, "composed, compiled").error
     assert compiled is not None
     assert compiled < 1e-11

@@ -51,7 +51,7 @@ def test_the_solution_of_all_laws_is_their_composition_one_in_the_other() -> Non
     train = chain([(60, 48), (50, 75)], 4, triangular())
     exactly = Exactly(train, load(declared(train)))
     angles = exactly.at(3.7, [0.0] * 6)
-    error, gain, _ = composed(exactly.laws, 3.7)
+    error, gain, _ = composed([law.law for law in exactly.laws], 3.7)
     assert abs(exactly.errors(3.7, angles)[4] - error) < mp.mpf(10) ** -40
     assert abs(exactly.rates(angles)[4] / exactly.means[4] - gain) < mp.mpf(10) ** -40
 

@@ -44,11 +44,10 @@ def dense_passages(S: np.ndarray, law: TriangularTransmission) -> int:
 
 
 def driver_angle(motion: Motion, law: TriangularTransmission, link: str, turns: np.ndarray) -> np.ndarray:
-    """Of a driver on the frame: mean motion and error; its phase puts a tooth on the line of centres at 0."""
+    """Of a driver on the frame: mean motion and error; a tooth of it is on the line of centres at 0."""
     at = list(motion.outputs).index(link)
-    hung = motion.at(turns).error[at] - motion.setting[link]
     mean = float(motion.train.ratio(link))
-    return np.sign(mean or 1) * (2 * pi * mean * turns + hung)
+    return np.sign(mean or 1) * (2 * pi * mean * turns + motion.at(turns).error[at])
 
 
 def test_the_first_pair_is_at_its_corner_once_a_pitch_of_the_input() -> None:

@@ -134,20 +134,21 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
 
 
 def test_a_chain_is_one_law_after_the_other() -> None:
-    """The second driver stands where the first pair has brought it; composed here by hand, trial by trial."""
+    """The second driver turns as far as the first pair turns it, from where even teeth start; by hand, trial by trial."""
     plan = planned(chain((24, 17), (19, 30)), *EVERY[:4])
     drawn = draw_trial_wheels(plan, RandomStreams(5, 0), 25)
     turns = np.random.default_rng(2).uniform(0, 100, 25)
     found = trial_pointers(drawn, np.arange(25)).errors(turns)[0]
     one, two = drawn.pair(0), drawn.pair(1)
     even = 19 / 30 * plan.pairs[0].even + plan.pairs[1].even
+    lag = float(TriangularTransmission(one.sizes).angle(0.0))
     for at in np.flatnonzero(drawn.good[0] & drawn.good[1] & drawn.good[2] & drawn.good[3]):
         laws = [
             cut_transmission_function(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)
         ]
         start = 2 * pi * float(turns[at])
-        middle = float(laws[0].angle(start))
-        end = float(laws[1].angle(middle))
+        middle = float(laws[0].angle(start)) - lag
+        end = float(laws[1].angle(middle)) + 19 / 30 * lag
         assert found[at] == pytest.approx(end - 24 / 17 * 19 / 30 * start - even, abs=1e-9)
 
 

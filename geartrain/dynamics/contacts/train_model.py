@@ -21,7 +21,6 @@ from geartrain.dynamics.contacts.law_tables import TOLERANCE, TabledFunction, ta
 from geartrain.dynamics.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
 from geartrain.dynamics.contacts.slack_pin import SlackPin
 from geartrain.dynamics.contacts.time_case import TimeCase
-from geartrain.dynamics.motion.error_composition import ErrorComposition, SeenLink
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.relative_speeds import axis_sense
@@ -67,10 +66,11 @@ class TrainModel:
         """1, or -1 where the axes of two links point against each other."""
         return axis_sense(link, base, self.problem.signs)
 
-    @property
+    @cached_property
     def sources(self) -> Mapping[str, PairErrorSource]:
         """Pairs and pins with laws of their own, with the phases in which they start."""
-        return self._start[0]
+        names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
+        return {source.id: source for source in self.motion.with_sources(names).sources}
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -209,28 +209,18 @@ class TrainModel:
         frame = self.problem.frame
         return Motion(self.problem, {link: (link, frame) for link in self.problem.system.links})
 
-    @cached_property
-    def _start(self) -> tuple[Mapping[str, PairErrorSource], Floats, ErrorComposition]:
-        names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
-        found = self.motion.with_sources(names)
-        frame = self.index[self.problem.frame]
-        every = tuple(SeenLink(at, frame) for at in range(len(self.index)))
-        bare = ErrorComposition(found.spread, found.sources, every)
-        return {source.id: source for source in found.sources}, bare.at(np.zeros(1)).error[:, 0], bare
-
     def _pairs(self) -> Iterator[ContactPair]:
         for circuit in self.contacts:
             restitution = self.case.restitution.get(circuit.id, 0.0)
             driver, driven = self._sides(circuit)
-            if circuit.id not in self._start[0]:
+            if circuit.id not in self.sources:
                 law = self._even(circuit)
                 front = self._tabled(law)
                 arms = self._even_arms(circuit, law)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
-            source = self._start[0][circuit.id]
-            S = source.start + self._start[2].driver_shift(source, self._start[1])
             front, back, arms, first = self._flanks(circuit)
+            S = self.sources[circuit.id].phase
             start = S, float(first.angle(S))
             free = first.speed_range()[0] > _FREE * float(first.ratio)
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
@@ -255,7 +245,7 @@ class TrainModel:
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Forward speeds of driver and driven side of a pair, seen from its carrier."""
-        source = self._start[0].get(circuit.id)
+        source = self.sources.get(circuit.id)
         # forwards is the sense in which the input turns: front flanks are those that drive that way
         way = self.problem.way
         forward = way * (source.forward if source else 1)

@@ -38,10 +38,10 @@ class PairErrorSource:
     pair           its index in the spread
     driver_sense   1 or -1 where the driver's axis points against its parallels; `carrier_sense` likewise
     cycles         periods of the law per turn of the input, on average and exactly; not negative
-    start          the driver's forward angle (rad) where every link reads 0
+    phase          the driver's forward angle (rad) at turn 0
     forward        1, or -1 where the driver turns backwards on average
     sense          of the driven side's mean relative motion, 1 or -1
-    turned         what of the start makes up for the lag of the driver's link, on which it was set (rad)
+    set_back       how far the driver is ahead of its mean angle at turn 0 (rad): its teeth are counted from there
     """
 
     id: str
@@ -50,10 +50,15 @@ class PairErrorSource:
     driver_sense: int
     carrier_sense: int
     cycles: Fraction
-    start: float
+    phase: float
     forward: int
     sense: int
-    turned: float = 0.0
+    set_back: float = 0.0
+
+    @property
+    def start(self) -> float:
+        """Forward angle (rad) of the driver at turn 0, without the errors of links."""
+        return self.phase - self.set_back
 
     @property
     def mean(self) -> float:

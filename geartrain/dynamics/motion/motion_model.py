@@ -35,7 +35,8 @@ class Motion(PicturedMotion):
     """A train's motion with real teeth and pins, as a function of the turns of its input.
 
     Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
-    turn 0 every link stands where ideal teeth would have it (section 3 there).
+    turn 0 every tooth and pin is where its `phase` says, and every link where ideal teeth would have it (section 3
+    there).
 
     Parameters
     ----------
@@ -128,7 +129,7 @@ class Motion(PicturedMotion):
     @cached_property
     def hung(self) -> ErrorComposition:
         """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
-        return self._compositions.hung(self.ahead)
+        return replace(self.ahead, offsets=())
 
     @cached_property
     def back(self) -> ErrorComposition:
@@ -150,8 +151,7 @@ class Motion(PicturedMotion):
     def setting(self) -> Mapping[str, float]:
         """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
         found = self._compositions.setting
-        named = zip(self.outputs, self._seen, strict=True)
-        return {name: 0.0 if found is None else seen.difference(found) for name, seen in named}
+        return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
     def _refuse_loops(self) -> None:
         for loop, real in self.train.contradictions():

@@ -80,15 +80,13 @@ class PairErrors:
         """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
         return {mesh.name: mesh.stands for mesh in self.train.teeth}
 
-    def play(self, way: int) -> Floats | None:
-        """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
+    def play(self, way: int) -> Floats:
+        """What the play of teeth that keep their ratio adds to the angle of each link (rad): the same everywhere.
 
-        It is the same at every position, so that no position is asked for it.
+        Nothing while the input turns as declared.
         """
-        laws = {mesh.name: mesh.law if way > 0 else mesh.coast for mesh in self.train.rigid}
+        laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self.train.rigid}
         ahead = {name: law.error_moments()[0] for name, law in laws.items()}
-        if not any(ahead.values()):
-            return None
         circuits = {circuit.id: circuit for circuit in self.train.circuits}
         deltas = [ahead[name] * self.sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
         return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
@@ -137,7 +135,7 @@ class PairErrors:
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
         # phases count forwards, angles about declared axes
         turned = self.train.way * forward * (senses[0] * angles[0] - senses[1] * angles[1])
-        start = self._phase(circuit, ahead, driven) + turned
+        phase = self._phase(circuit, ahead, driven) + turned
         cycles = abs(driver) * teeth
         if cycles > _FASTEST:
             raise GearTrainError(
@@ -147,7 +145,7 @@ class PairErrors:
                     "drive the train nearer to this pair, or give it ideal teeth",
                 )
             )
-        return PairErrorSource(circuit.id, law, at, *senses, cycles, start, forward, sense)
+        return PairErrorSource(circuit.id, law, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, law: TransmissionFunction, driven: int) -> float:
         """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.

@@ -71,8 +71,8 @@ class Superposition:
         angle = InputPhase(turns)
         found = np.zeros((len(self.response), len(turns)))
         for at, source in enumerate(self.sources):
-            S = angle.cycles(source.cycles) * source.law.period + source.start
-            S += self.lags[at] if lagged else -source.turned
+            S = angle.cycles(source.cycles) * source.law.period
+            S += source.start + self.lags[at] if lagged else source.phase
             found += (source.sense * self.response[:, at])[:, None] * source.law.error(S)
         return found
 

@@ -1,0 +1,106 @@
+"""At turn 0 a tooth of every first wheel is where its `phase` says: in motion, torque, time steps and Monte Carlo alike.
+
+Nothing here is from a transmission law: flanks are brought to touch, `marching.Teeth`.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import degrees, pi
+
+import numpy as np
+import pytest
+from marching import Teeth
+
+from geartrain import GearTrain, load
+from geartrain.dynamics import MotionRun
+from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
+from geartrain.uncertainty import find_trial_plan, read_error_overrides
+from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
+
+CHAIN = """
+links:
+  frame: {{}}
+  a: {{wheels: {{p: 20}}}}
+  b: {{wheels: {{q: 31, s: 15}}, inertia: 3 g cm2, bearing: 1 N mm}}
+  c: {{wheels: {{r: 40}}, inertia: 5 g cm2, bearing: 1 N mm}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{pair: [p, q], phase: {0}}}, {{pair: [s, r], phase: {1}}}]
+tooth_form: {{form: triangular, half_angle: 30 deg, clearance: 1.02}}
+friction: 0
+inputs: {{a: 1}}
+loads: {{c: -1 N mm}}
+outputs: {{b: , c: }}
+"""
+PAIRS = Teeth(20, 31, 1.02), Teeth(15, 40, 1.02)
+PHASES = [(0.0, 0.0), (0.3, 0.0), (0.25, 0.8)]
+
+
+def turned(phases: tuple[float, float], x: float) -> float:
+    """How far the last wheel has turned when the first has by x (rad), each driver from its phase."""
+    for teeth, phase in zip(PAIRS, phases, strict=True):
+        S = phase * 2 * pi / teeth.z1
+        x = teeth.touching(S + x)[1] - teeth.touching(S)[1]
+    return x
+
+
+def speed(phases: tuple[float, float]) -> float:
+    """Speed of the last wheel over that of the first at the start."""
+    found = 1.0
+    for teeth, phase in zip(PAIRS, phases, strict=True):
+        S = phase * 2 * pi / teeth.z1
+        contact, q = teeth.touching(S)
+        found *= teeth.speed(contact, S, q)
+    return found
+
+
+def chain(phases: tuple[float, float]) -> GearTrain:
+    return load(CHAIN.format(*phases))
+
+
+@pytest.mark.parametrize("phases", PHASES)
+def test_the_motion_is_that_of_teeth_that_start_at_their_phases(phases: tuple[float, float]) -> None:
+    x = np.linspace(0, 3.1, 200)
+    motion = chain(phases).motion(outputs=["c"])
+    expected = np.array([turned(phases, each) for each in x]) - 20 / 31 * 15 / 40 * x
+    assert np.abs(motion.at(x / (2 * pi)).error[0] - expected).max() < 1e-12
+
+
+def test_the_ripple_of_a_train_is_that_of_its_phases() -> None:
+    """Over a common period: 31/20 turns of pairs that meet again after 31 pitches of the first, 20 of the second."""
+    for phases in PHASES:
+        x = np.linspace(0, 2 * pi * 31 / 20, 8001)
+        expected = np.array([turned(phases, each) for each in x]) - 20 / 31 * 15 / 40 * x
+        motion = chain(phases).motion(outputs=["c"])
+        assert motion.period == Fraction(31, 20)
+        run = MotionRun(motion, 31 / 20, 2001)
+        run.go()
+        assert degrees(run.tallies[0].peak_to_peak) == pytest.approx(degrees(np.ptp(expected)), rel=2e-3)
+
+
+@pytest.mark.parametrize("phases", PHASES)
+def test_torque_over_a_turn_starts_at_the_same_teeth(phases: tuple[float, float]) -> None:
+    train, expected = load(CHAIN.format(*phases).replace(", bearing: 1 N mm", "")), speed(phases)
+    assert 20 / 31 * 15 / 40 + train.motion(outputs=["c"]).at([0.0]).rate[0, 0] == pytest.approx(expected, rel=1e-9)
+    cycle = train.torques(turns=1, samples=50)
+    assert cycle.torque is not None
+    # without friction, by virtual work
+    assert cycle.torque[0] == pytest.approx(1e-3 * expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("phases", PHASES)
+def test_time_steps_start_at_the_same_teeth(phases: tuple[float, float]) -> None:
+    """Turned slowly all drive flanks touch, and the last wheel is where they put it."""
+    run = chain(phases).dynamics(rate="0.02 turn/s", turns=0.2, skip=0, steps=2000, fast=False)
+    at = slice(1, None, 97)
+    x, last = run.angles["a"][at], run.angles["c"][at]
+    assert np.abs(last - [turned(phases, float(each)) for each in x]).max() < 1e-6
+
+
+@pytest.mark.parametrize("phases", PHASES)
+def test_trials_of_teeth_without_errors_start_at_the_same_teeth(phases: tuple[float, float]) -> None:
+    plan = find_trial_plan(chain(phases), read_error_overrides(["placement=1e-9 deg"]), ["c"])
+    x = np.linspace(0, 3.1, 40)
+    found = trial_pointers(draw_trial_wheels(plan, RandomStreams(3, 0), 40), np.arange(40)).cut.at(x / (2 * pi)).error
+    expected = np.array([turned(phases, each) for each in x]) - 20 / 31 * 15 / 40 * x
+    assert np.abs(found[0] - expected).max() < 1e-8

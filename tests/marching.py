@@ -207,7 +207,7 @@ class Train:
 
     @cached_property
     def touches(self) -> list[tuple[Contact, float]]:
-        """What touches in each pair at the start, with the driver on the line of centres, and the driven angle there."""
+        """What touches in each pair with the driver on the line of centres, and the driven angle there."""
         return [pair.by.touching(0.0) for pair in self.pairs]
 
     def forward(self, angles: np.ndarray, number: int) -> tuple[float, float]:

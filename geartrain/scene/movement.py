@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics import Motion
     from geartrain.dynamics.motion.error_composition import CompositionStep as Composed
     from geartrain.dynamics.motion.error_composition import ErrorComposition
-    from geartrain.numerics.arrays import Floats
     from geartrain.teeth.transmission import TransmissionFunction as ToothLaw
 
 

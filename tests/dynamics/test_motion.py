@@ -45,7 +45,10 @@ def test_along_an_ordinary_train_laws_are_composed_one_in_the_other() -> None:
 # a driver of the study starts where the pair before holds it back: the phases (pitches) at which its teeth are then
 LAGGING = """
 extends: moon-triangular
-gears: [{id: b2~c1, pair: [b2, c1], phase: %r}, {id: c2~d1, pair: [c2, d1], phase: %r}, {id: d2~e, pair: [d2, e], phase: %r}]
+gears:
+  - {id: b2~c1, pair: [b2, c1], phase: %r}
+  - {id: c2~d1, pair: [c2, d1], phase: %r}
+  - {id: d2~e, pair: [d2, e], phase: %r}
 """
 
 

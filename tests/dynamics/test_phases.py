@@ -1,4 +1,4 @@
-"""At turn 0 a tooth of every first wheel is where its `phase` says: in motion, torque, time steps and Monte Carlo alike.
+"""At turn 0 a tooth of every first wheel is at its `phase`: in motion, torque, time steps and Monte Carlo alike.
 
 Nothing here is from a transmission law: flanks are brought to touch, `marching.Teeth`.
 """
@@ -14,8 +14,8 @@ from marching import Teeth
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import MotionRun
-from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
 from geartrain.uncertainty import find_trial_plan, read_error_overrides
+from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
 
 CHAIN = """

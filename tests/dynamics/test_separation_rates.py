@@ -125,7 +125,7 @@ def by_hand(x: np.ndarray, rubs: bool = False) -> np.ndarray:
 
 
 def test_the_moons_train_parts_first_at_its_last_pair() -> None:
-    """The figures are those of `by_hand` on a grid of 1e-5 turns; teeth part first just after a corner, at a lesser rate."""
+    """Figures of `by_hand` on a grid of 1e-5 turns; teeth part first just after a corner, at a lesser rate."""
     found = load(MOON + "friction: 0\n").separation_rates()
     printed = {"d2~e": 0.4821, "c2~d1": 0.5149, "b2~c1": 0.5321, "a~b1": 0.5406}
     assert [each.pair for each in found.pairs] == list(printed)

@@ -62,9 +62,7 @@ def past_the_line(scene: dict[str, Any], angles: list[float], pair: dict[str, An
 @pytest.mark.parametrize("speed", ["1", "-2/3"])
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("phases", [(0, 0, 0, 0), (0.3, 0.8, 0.1, 0.45)])
-def test_a_tooth_of_every_first_wheel_is_drawn_at_its_phase(
-    phases: tuple[float, ...], form: str, speed: str
-) -> None:
+def test_a_tooth_of_every_first_wheel_is_drawn_at_its_phase(phases: tuple[float, ...], form: str, speed: str) -> None:
     scene = make_scene(load(CHAIN.format(*phases, form=FORMS[form], speed=speed))).to_dict()
     angles = Reader(scene).angles(0.0)
     assert len(scene["pairs"]) == 4

@@ -134,7 +134,7 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
 
 
 def test_a_chain_is_one_law_after_the_other() -> None:
-    """The second driver turns as far as the first pair turns it, from where even teeth start; by hand, trial by trial."""
+    """The second driver turns as far as the first pair turns it, from where even teeth start; trial by trial."""
     plan = planned(chain((24, 17), (19, 30)), *EVERY[:4])
     drawn = draw_trial_wheels(plan, RandomStreams(5, 0), 25)
     turns = np.random.default_rng(2).uniform(0, 100, 25)

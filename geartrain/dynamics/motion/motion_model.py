@@ -69,7 +69,7 @@ class Motion(PicturedMotion):
     (Fraction(95, 1), 1.0)
     >>> found = motion.at([0.0, 0.1])
     >>> bool(abs(found.error[0, 0]) < 1e-12), float(found.error[0, 1].round(3))
-    (True, -0.017)
+    (True, -0.061)
     """
 
     def __init__(

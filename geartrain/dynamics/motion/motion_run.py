@@ -75,7 +75,7 @@ class MotionRun(Tabular, Pictured):
     >>> run.go()
     >>> moon, = run.tallies
     >>> moon.ratio, round(moon.peak_to_peak, 3), round(moon.rms, 3)
-    (Fraction(254, 95), 0.097, 0.022)
+    (Fraction(254, 95), 0.103, 0.022)
     """
 
     FIGURE = "motion_figure"

@@ -43,7 +43,7 @@ class PointerCompositions:
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """What teeth, and what pins add to the angle of each link at turn 0 (rad): linear, for all drivers are known."""
+        """What teeth, and what pins add to the angle of each link at turn 0 (rad): linear, as all drivers are known."""
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
         for each in self.errors.sources(1):

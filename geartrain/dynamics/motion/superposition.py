@@ -3,7 +3,7 @@
 No pair reacts on another here. To first order an output's error is the sum of its sensitivities times the pairs'
 errors. The sum of their ranges bounds its range, and with phases that nothing relates the squares of their rms values
 add. Superposed in phase, the sum follows the motion itself as far as the drivers' own errors may be left out of their
-angles; counting the mean of these errors, a lag of some tenths of a pitch, brings most of the rest.
+angles; counting by how much the mean of these errors differs from turn 0 brings part of the rest.
 """
 
 from __future__ import annotations

@@ -233,14 +233,17 @@ class TrainDynamics(TrainMotion):
             By pair (docs/motion.md, equation 7).
         """
         case = self._case(state)
-        if case.rate is None or case.rate.unit is None or not self._teeth or not self.is_heavy:
+        if case.rate is None or case.rate.unit is None or not self._meshes or not self.is_heavy:
             return {}
         inertias = {each.link: each.value for each in self.inertias(state)}
         from geartrain.dynamics import Motion
         from geartrain.dynamics.motion.tooth_impacts import find_impacts
 
         moving = self._moving(case, ())
-        return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, case.rate.si)
+        if moving.contradictions():
+            return {}
+        every = {link: (link, moving.frame) for link in self.declaration.links}
+        return find_impacts(Motion(moving, every), inertias, case.rate.si)
 
     @of_planets_as_one
     def separation_rates(

@@ -163,5 +163,5 @@ class _GraphFacts:
         from geartrain.dynamics.torques.load_case import LoadCase
 
         train = self._train
-        case = train.cases[self._state]
-        return LoadCase(train.declaration, train.tree, train.circuits, train.signs, case, {}, train.meshes, train.pins)
+        case, meshes = train.cases[self._state], {mesh.name: mesh for mesh in train.meshes}
+        return LoadCase(train.declaration, train.tree, train.circuits, train.signs, case, {}, meshes, train.pins)

@@ -32,13 +32,20 @@ class TrainMotion(TrainKinematics):
         self._drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = {}
 
     @cached_property
-    def _teeth(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth, whichever side drives."""
+    def _meshes(self) -> Mapping[str, GearMesh]:
+        """The gear pairs with real teeth, whichever side drives, each made when it is first read."""
         from geartrain.dynamics.gear_meshes import find_meshes
         from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 
         train, circuits = self.declaration, {circuit.id: circuit for circuit in self.circuits}
         return find_meshes(train, lambda gear: shaft_angle(train, self.tree, circuits[gear.name]))
+
+    @cached_property
+    def _teeth(self) -> tuple[GearMesh, ...]:
+        """All of them, made."""
+        from geartrain.dynamics.gear_meshes import all_meshes
+
+        return all_meshes(self._meshes)
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
@@ -229,7 +236,7 @@ class TrainMotion(TrainKinematics):
             raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
         circuits, drivers = self._circuits_without(without), self.drivers(case.state, without)
         return build_motion_problem(
-            self.declaration, case, circuits, self.signs, solution.speeds, self._teeth, self.pins, drivers
+            self.declaration, case, circuits, self.signs, solution.speeds, self._meshes, self.pins, drivers
         )
 
     def _setting(self, state: str | None) -> LoadCase | None:
@@ -247,5 +254,13 @@ class TrainMotion(TrainKinematics):
             return None
         forms = speed_forms(self.equations(case.state)) if solution.verdict.kind == "free" else {}
         return LoadCase(
-            self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self._teeth, self.pins, forms
+            self.declaration,
+            self.tree,
+            self.circuits,
+            self.signs,
+            case,
+            solution.speeds,
+            self._meshes,
+            self.pins,
+            forms,
         )

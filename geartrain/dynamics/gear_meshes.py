@@ -8,13 +8,15 @@ at the distance its own law asks for.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.ideal import Ideal
 from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
 
@@ -43,28 +45,43 @@ class PinMesh:
         return SlotToPinTransmission(self.law.r, self.law.e, self.law.friction)
 
 
-def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> tuple[GearMesh, ...]:
-    """Every gear pair with real teeth: its first wheel drives, until `GearMesh.driven_by` says better.
+def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
+    """Every gear pair with real teeth, by name: its first wheel drives, until `GearMesh.driven_by` says better.
 
-    Raises `GearTrainError` with all pairs whose teeth cannot be built.
+    The teeth of a pair are made when it is first read, which raises `GearTrainError` where they cannot be built.
 
     shaft_angle   of a pair; asked only where teeth need it
     """
-    meshes: list[GearMesh | None] = []
-    problems: list[Problem] = []
-    for at, gear in enumerate(train.gears):
-        form = train.form_of(gear)
-        if form is None:
-            continue
+    forms = {gear.name: (at, gear, train.form_of(gear)) for at, gear in enumerate(train.gears)}
+
+    def made(name: str) -> GearMesh:
+        at, gear, form = forms[name]
         wheels = _meshing_wheels(train, gear, train.place("gears", at))
+        assert form is not None
         try:
-            meshes.append(form.mesh(wheels, partial(shaft_angle, gear)))
+            mesh = form.mesh(wheels, partial(shaft_angle, gear))
         except GearTrainError as error:
-            what = f"pair '{gear.name}'"
-            problems += [replace(each, what=f"{what}: {each.what}", place=wheels.place) for each in error.problems]
+            what = f"pair '{name}'"
+            problems = [replace(each, what=f"{what}: {each.what}", place=wheels.place) for each in error.problems]
+            raise GearTrainError(problems) from None
+        assert mesh is not None
+        return mesh
+
+    real = (name for name, (_, _, form) in forms.items() if form is not None and not isinstance(form, Ideal))
+    return ItemwiseMapping(real, made)
+
+
+def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
+    """All of them. Raises `GearTrainError` with all pairs whose teeth cannot be built."""
+    problems: list[Problem] = []
+    for name in meshes:
+        try:
+            _ = meshes[name]
+        except GearTrainError as error:
+            problems += error.problems
     if problems:
         raise GearTrainError(problems)
-    return tuple(mesh for mesh in meshes if mesh is not None)
+    return tuple(meshes.values())
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:

@@ -1,12 +1,12 @@
 """Mappings that cannot be changed, and a pause of the garbage collector while many small objects are made at once.
 
-Some mappings are made when they are read. None of the many objects can be garbage yet.
+Some mappings are made when they are read, whole or item by item. None of the many objects can be garbage yet.
 """
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields
 from typing import Any, NoReturn, TypeVar
@@ -73,6 +73,38 @@ class LazyMapping(Mapping[K, V]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return FrozenDict, (dict(self._made()),)
+
+
+class ItemwiseMapping(Mapping[K, V]):
+    """A mapping of given keys, each value made when it is first read.
+
+    >>> asked = []
+    >>> found = ItemwiseMapping("ab", lambda key: asked.append(key) or key.upper())
+    >>> "b" in found, len(found), found["a"], found["a"], asked
+    (True, 2, 'A', 'A', ['a'])
+    """
+
+    __slots__ = ("_found", "_keys", "_make")
+
+    def __init__(self, keys: Iterable[K], make: Callable[[K], V]) -> None:
+        self._keys, self._make = dict.fromkeys(keys), make
+        self._found: dict[K, V] = {}
+
+    def __getitem__(self, key: K) -> V:
+        if key not in self._found:
+            if key not in self._keys:
+                raise KeyError(key)
+            self._found[key] = self._make(key)
+        return self._found[key]
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._keys
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._keys)
+
+    def __len__(self) -> int:
+        return len(self._keys)
 
 
 class FrozenFields:

@@ -212,7 +212,8 @@ def test_teeth_that_close_a_redundant_loop_are_named() -> None:
     # along a path that spans the loop it moves: around the other way without either pair next to d
     train = load(text)
     one, other = (train.motion(outputs=["d"], without=[pair]) for pair in ("c40~d50", "d50~a20"))
-    assert [source.id for source in one.ahead.sources] == ["a20~b30", "b30~c40", "d50~a20"]
+    ids = [[source.id for source in motion.ahead.sources] for motion in (one, other)]
+    assert ids == [["d50~a20"], ["a20~b30", "b30~c40", "c40~d50"]]
     first, second = (motion.ripples(3.0, 2001)[1]["d"] for motion in (one, other))
     assert first.ratio == second.ratio
     assert np.abs(np.ptp(first.error - second.error)) > 1e-3

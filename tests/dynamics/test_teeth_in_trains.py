@@ -11,6 +11,9 @@ from commands import call
 from models import PAIR
 
 from geartrain import GearTrainError, load
+from geartrain.teeth import GearMesh, Triangular
+from geartrain.teeth.meshing_wheels import MeshingWheels
+from geartrain.teeth.tooth_form import ShaftAngle
 
 TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
 # 20/60 turns between 1.01031 and 1.0390 (30 deg, equal depth)
@@ -141,3 +144,42 @@ print(laws[0].angle([0.0, 3.0]).tolist(), laws[1].efficiency(0.5))
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[0.0, 1.0] 1.0"
+
+
+# where `loads` and friction decide who drives, what all teeth lose has to be known
+UNLOADED = "extends: pennestri-2002-teeth\nname: unloaded\nloads: null\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "output", "pairs"),
+    [(UNLOADED, "3", 1), (UNLOADED, "5", 4), ("moon-triangular", "d", 3)],
+)
+def test_motion_makes_the_teeth_that_its_outputs_depend_on(
+    name: str, output: str, pairs: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The pairs are counted by hand along the paths from the input."""
+    made: list[tuple[int, int]] = []
+    mesh = Triangular.mesh
+
+    def counted(self: Triangular, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
+        made.append(wheels.counts)
+        return mesh(self, wheels, shaft_angle)
+
+    monkeypatch.setattr(Triangular, "mesh", counted)
+    for way in (1.0, -1.0):
+        next(load(name).motion(outputs=[output]).passages(way, 3))
+        assert len(made) == pairs
+        made.clear()
+
+
+def test_teeth_that_cannot_be_built_do_not_keep_other_outputs_from_moving() -> None:
+    broken = load(
+        f"{UNLOADED}gears:\n- id: G11\n"
+        "  tooth_form: {form: triangular, half_angle: 30 deg, radii: [1 mm, 1 m], window: 0.5}\n"
+    )
+    with pytest.raises(GearTrainError, match="G11"):
+        _ = broken.meshes
+    with pytest.raises(GearTrainError, match="G11"):
+        broken.motion(outputs=["moon"]).at([0.0])
+    right, found = (train.motion(outputs=["3"]).at([0.1]).error for train in (load(UNLOADED), broken))
+    assert (found == right).all()

@@ -7,7 +7,7 @@ that every link is a sum over a few links before it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
@@ -61,6 +61,15 @@ class ErrorPropagation:
             spread = part.from_known @ found[list(part.known)] + part.from_pairs @ deltas[list(part.pairs)]
             found[list(part.links)] = spread
         return found
+
+    def reaching(self, links: Iterable[int]) -> frozenset[int]:
+        """The pairs whose error reaches some links, directly or by the angle of a driver that theirs depend on."""
+        wanted, found = set(links), set[int]()
+        for part in reversed(self.parts):
+            if wanted.intersection(part.links):
+                found.update(part.pairs)
+                wanted.update(part.known, *(self.joints[pair][::2] for pair in part.pairs))
+        return frozenset(found)
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
         """Radians of a link, seen from another, per radian of each pair's driven error, by the adjoint: one walk back.

@@ -12,6 +12,7 @@ from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.verdict import Loop
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.numerics.containers import ItemwiseMapping
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
@@ -26,6 +27,7 @@ class MotionProblem:
 
     system    the labelled rows without redundant circuits
     speeds    exact mean speeds; `lead` is the input whose angle is given
+    meshes    pairs with real teeth by name, as they are driven, each made when it is first read
     drivers   who drives each pair and coupling, and how that is known
     angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
     loops     loops that are redundant: real teeth in them contradict the rest
@@ -37,7 +39,7 @@ class MotionProblem:
     speeds: Mapping[str, Fraction]
     frame: str
     lead: str
-    teeth: Sequence[GearMesh]
+    meshes: Mapping[str, GearMesh]
     pins: Sequence[PinMesh]
     drivers: Mapping[str, MeshDriver]
     angles: Mapping[str, float] = field(default_factory=dict)
@@ -62,6 +64,11 @@ class MotionProblem:
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     @property
+    def teeth(self) -> list[GearMesh]:
+        """All pairs with real teeth."""
+        return list(self.meshes.values())
+
+    @property
     def rippling(self) -> list[GearMesh]:
         """The pairs whose teeth do not keep their ratio at every instant."""
         return [mesh for mesh in self.teeth if not mesh.rigid]
@@ -73,9 +80,12 @@ class MotionProblem:
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
         """Redundant loops in which something ripples, with what does."""
-        rippling = {mesh.name for mesh in self.rippling} | {joint.coupling.name for joint in self.pins}
-        found = ((loop, [pair for pair in loop.pairs if pair in rippling]) for loop in self.loops)
+        found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
+
+    def _ripples(self, pair: str) -> bool:
+        mesh = self.meshes.get(pair)
+        return any(joint.coupling.name == pair for joint in self.pins) if mesh is None else not mesh.rigid
 
 
 def build_motion_problem(
@@ -84,7 +94,7 @@ def build_motion_problem(
     circuits: Sequence[Circuit],
     signs: Mapping[str, int],
     speeds: Mapping[str, Fraction],
-    teeth: Sequence[GearMesh],
+    meshes: Mapping[str, GearMesh],
     pins: Sequence[PinMesh],
     drivers: Mapping[str, MeshDriver],
 ) -> MotionProblem:
@@ -103,10 +113,10 @@ def build_motion_problem(
         speeds,
         train.frame,
         next(link for link, speed in case.inputs.items() if speed),
-        [mesh.driven_by(drivers[mesh.name]) for mesh in teeth if mesh.name in kept],
+        ItemwiseMapping((name for name in meshes if name in kept), lambda name: meshes[name].driven_by(drivers[name])),
         [joint for joint in pins if joint.coupling.name in kept],
         drivers,
         {name: link.angle.si for name, link in train.links.items() if link.angle is not None},
         {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
-        [parts.loop(chord) for chord in parts.closing] if teeth or pins else [],
+        [parts.loop(chord) for chord in parts.closing] if meshes or pins else [],
     )

@@ -22,6 +22,7 @@ from geartrain.numerics.exact import log10
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_propagation import ErrorPropagation
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import TransmissionFunction
 
 
@@ -75,17 +76,17 @@ class PairErrors:
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
-    @cached_property
-    def _stands(self) -> Mapping[str, float]:
-        """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
-        return {mesh.name: mesh.stands for mesh in self.train.teeth}
+    def _meshes(self, reach: Collection[int]) -> list[GearMesh]:
+        """The pairs with real teeth among some pairs, by index."""
+        names = [name for at, name in enumerate(self.spread.pairs) if at in reach and name in self.train.meshes]
+        return [self.train.meshes[name] for name in names]
 
-    def play(self, way: int) -> Floats:
+    def play(self, way: int, reach: Collection[int]) -> Floats:
         """What the play of teeth that keep their ratio adds to the angle of each link (rad): the same everywhere.
 
-        Nothing while the input turns as declared.
+        Nothing while the input turns as declared. `reach` as of `sources`.
         """
-        laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self.train.rigid}
+        laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes(reach) if mesh.rigid}
         ahead = {name: law.error_moments()[0] for name, law in laws.items()}
         circuits = {circuit.id: circuit for circuit in self.train.circuits}
         deltas = [ahead[name] * self.sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
@@ -97,12 +98,13 @@ class PairErrors:
         forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
         return forward if circuit.a * circuit.b < 0 else -forward
 
-    def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
+    def sources(self, way: int, reach: Collection[int], besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
         """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way.
 
+        reach     pairs by index: the teeth of others are not made
         besides   pairs that keep their ratio and are wanted as well
         """
-        meshes = [mesh for mesh in self.train.teeth if not mesh.rigid or mesh.name in besides]
+        meshes = [mesh for mesh in self._meshes(reach) if not mesh.rigid or mesh.name in besides]
         laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in meshes}
         laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
         circuits = {circuit.id: circuit for circuit in self.train.circuits}
@@ -155,7 +157,7 @@ class PairErrors:
         phase = self.train.phases.get(circuit.id, 0.0)
         if driven == 1 or circuit.kind != "gear":
             return phase * law.period
-        phase -= self._stands[circuit.id]
+        phase -= self.train.meshes[circuit.id].stands
         wanted = phase * float(law.ratio) * law.period
         low, high = (phase - 2) * law.period, (phase + 2) * law.period
         # bisection: an angle grows with its driver's, and laws have corners that other methods stumble on

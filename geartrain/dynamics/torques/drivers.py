@@ -59,7 +59,7 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
         return _undetermined(train, circuits, "the speeds of the train are not determined")
     setting = replace(setting, circuits=circuits)
     found = _declared(train)
-    if train.is_loaded(setting.case.state) and (loaded := find_torques(setting)).verdict:
+    if train.is_loaded(setting.case.state) and (loaded := find_torques(setting, flows_only=True)).verdict:
         found = _under_loads(loaded) | found
     rest = [circuit for circuit in setting.circuits if circuit.id not in found]
     ways = _ways(setting, {circuit.id for circuit in rest if setting.turn(circuit)})

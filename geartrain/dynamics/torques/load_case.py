@@ -25,6 +25,7 @@ class LoadCase:
     """A train in one case, solved for its speeds: everything torques need to know of it.
 
     speeds   of the links whose speed is determined
+    meshes   pairs with real teeth by name
     forms    in a train that is free, the speeds of all links in terms of what is free; else empty
     means    what pairs and couplings lose on the mean, by name, as far as it has been asked for
     """
@@ -35,7 +36,7 @@ class LoadCase:
     signs: Mapping[str, int]
     case: StateCase
     speeds: Mapping[str, Fraction]
-    teeth: Sequence[ToothMesh] = ()
+    meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -49,11 +50,6 @@ class LoadCase:
     def couplings(self) -> Mapping[str, Coupling]:
         """Pins in slots by name."""
         return {coupling.name: coupling for coupling in self.train.couplings}
-
-    @cached_property
-    def meshes(self) -> Mapping[str, ToothMesh]:
-        """Pairs with real teeth by name."""
-        return {mesh.name: mesh for mesh in self.teeth}
 
     @cached_property
     def joints(self) -> Mapping[str, PinMesh]:

@@ -44,9 +44,9 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
         return MeanEfficiencies(declared, declared)
     if (screw := _of_screw(setting, circuit)) is not None:
         return screw
-    tooth = setting.meshes.get(circuit.id)
-    if tooth is None or not tooth.rubs:
+    if not setting.rubs(gear) or circuit.id not in setting.meshes:
         return MeanEfficiencies()
+    tooth = setting.meshes[circuit.id]
     if tooth.wheels.friction_law is not None:
         speed = pitch_line_speed(setting, circuit, tooth)
         if speed.value is None and speed.problem is None:

@@ -44,12 +44,15 @@ class TorqueQuestion:
     asked: UnknownLinks
 
 
-def find_torques(setting: LoadCase) -> Torques:
-    """Torques under the declared loads, or under the friction of bearings alone: equations (3) to (8) and (10)."""
+def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
+    """Torques under the declared loads, or under the friction of bearings alone: equations (3) to (8) and (10).
+
+    flows_only   what is left out is not looked for, which would make the teeth of every pair
+    """
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return Torques(setting.case.state, question)
-    return _balanced(setting, question.loads, question.asked)
+    return _balanced(setting, question.loads, question.asked, flows_only=flows_only)
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
@@ -141,7 +144,13 @@ def _still(setting: LoadCase, asked: tuple[str, ...]) -> TorqueVerdict | None:
     return None
 
 
-def _balanced(setting: LoadCase, loads: Mapping[str, Fraction], asked: UnknownLinks, bearings: bool = True) -> Torques:
+def _balanced(
+    setting: LoadCase,
+    loads: Mapping[str, Fraction],
+    asked: UnknownLinks,
+    bearings: bool = True,
+    flows_only: bool = False,
+) -> Torques:
     rubbing = _rubbing(setting) if bearings else {}
     known = dict(loads)
     for link, torque in rubbing.items():
@@ -158,7 +167,10 @@ def _balanced(setting: LoadCase, loads: Mapping[str, Fraction], asked: UnknownLi
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
-    left_out = find_neglected_effects(setting, means, neither, [name for name in idle if name not in loose], bearings)
+    left_out: tuple[NeglectedEffect, ...] = ()
+    if not flows_only:
+        missed = [name for name in idle if name not in loose]
+        left_out = find_neglected_effects(setting, means, neither, missed, bearings)
     verdict = find_torque_verdict(question, flows, complete, left_out)
     if not flows:
         verdict = _with_reason(asked, verdict)

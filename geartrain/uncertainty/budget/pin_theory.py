@@ -74,7 +74,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     """The anomaly of one link, all teeth ideal, against the true motion of a body."""
     from geartrain.dynamics import Motion
 
-    motion = Motion(replace(problem, teeth=[]), {link: (link, problem.frame)})
+    motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})
     if bare := declared_pairs(motion, link).bare:
         return TheoryError(False, 0.0, 0.0, f"no dimensions are declared of {', '.join(bare)}")
     used = [source for source in motion.ahead.used if source.cycles]

@@ -77,7 +77,7 @@ def without_teeth(motion: Motion) -> Motion:
     """The same train with the same pins, and teeth that keep their ratio without play."""
     from geartrain.dynamics import Motion
 
-    return Motion(replace(motion.train, teeth=[]), motion.outputs)
+    return Motion(replace(motion.train, meshes={}), motion.outputs)
 
 
 def find_tooth_motion(
@@ -152,7 +152,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
     """What moves an output, and how much of it is declared."""
     circuits = {circuit.id: circuit for circuit in motion.train.circuits}
-    real = {mesh.name for mesh in motion.train.teeth}
+    real = set(motion.train.meshes)
     sized = {joint.coupling.name for joint in motion.train.pins}
     moving = moving_pairs(motion, output)
     gears = [name for name in moving if circuits[name].kind == "gear"]

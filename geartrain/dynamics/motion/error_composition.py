@@ -273,13 +273,9 @@ class ErrorComposition:
         else:
             parts = [source.law.error_and_speed(S) for source, (S, _) in zip(sources, where, strict=True)]
             turning = [w for _, w in where]
-            delta = np.stack([s.sense * e for s, (e, _) in zip(sources, parts, strict=True)])
-            slope = np.stack(
-                [
-                    s.sense * (tau - float(s.law.ratio)) * w
-                    for s, (_, tau), w in zip(sources, parts, turning, strict=True)
-                ]
-            )
+            own_pairs = list(zip(sources, parts, turning, strict=True))
+            delta = np.stack([s.sense * e for s, (e, _), _ in own_pairs])
+            slope = np.stack([s.sense * (tau - float(s.law.ratio)) * w for s, (_, tau), w in own_pairs])
         error[own] += step.from_sources @ delta
         rate[own] += step.from_sources @ slope
         yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)

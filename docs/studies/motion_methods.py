@@ -275,7 +275,8 @@ class MotionCase:
 
     def summary(self) -> TrainRecord:
         """What the train is and does."""
-        lawful = {source.id for source in self.direct.ahead.sources}
+        pins = (joint.coupling.name for joint in self.direct.train.pins)
+        lawful = {*self.direct.train.meshes, *pins}
         outputs = {
             tally.name: {"peak_to_peak": math.degrees(tally.peak_to_peak), "rms": math.degrees(tally.rms)}
             for tally in self.tallies

@@ -229,8 +229,8 @@ class OutputResult(Result):
 
     @property
     def differs_in_sign(self) -> bool:
-        """True if the opposite speed would meet every figure that this one does not meet."""
-        if self.holds or self.speed is None:
+        """True if the opposite speed would meet every `expect` and `published` that this one does not meet."""
+        if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
         opposite, ratio = -self.speed, None if self.ratio is None else -self.ratio
         expected = self.expect_holds is not False or _expect_holds(self.output, opposite)

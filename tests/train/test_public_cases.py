@@ -32,6 +32,7 @@ def test_a_missed_tolerance_of_a_target_is_a_failure() -> None:
     result = call("check", case("05"))
     assert result.exit_code == 1
     assert "target period 6 h in either sense missed by -14357.5 ppm (tolerance 1 %)" in result.output
+    assert "only the sign differs" not in result.output
 
 
 def test_a_stage_with_undeclared_profile_shifts_is_a_note() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections import Counter
 from collections.abc import Callable
 from importlib import import_module
@@ -17,6 +18,9 @@ from geartrain import GearTrain, GearTrainError, load
 # none of the above loads numpy; matrices here are small, and threads waiting for each other cost four times their work
 for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+# a shell that starts tests in the background has interrupts ignored, and so would commands that tests interrupt
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # the same examples in every run, so that a change is judged by itself; --slow draws new ones
 _CLOCKLESS = [HealthCheck.too_slow, HealthCheck.data_too_large]

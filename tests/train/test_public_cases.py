@@ -94,3 +94,20 @@ def test_a_finger_of_one_tooth_is_noted_and_its_mean_ratio_is_right() -> None:
     result = call("check", CASES / "10-finger-and-star.yaml")
     assert result.exit_code == 0
     assert "wheel 'finger' has one tooth, which cannot drive continuously" in result.output
+
+
+def test_a_set_of_which_only_the_ratio_is_known_has_its_speeds_with_any_planet() -> None:
+    result = call("check", case("11"))
+    assert result.exit_code == 0
+    assert "all 2 expectations hold" in result.output
+
+
+@pytest.mark.xfail(strict=True, reason="belts cannot be declared")
+def test_a_belt_turns_both_pulleys_the_same_way() -> None:
+    assert call("check", case("07")).exit_code == 0
+
+
+@pytest.mark.xfail(strict=True, reason="gear units are written without planetary stages")
+def test_a_planetary_set_is_written_as_a_planetary_stage(tmp_path: Path) -> None:
+    call("export", case("13"), "-o", tmp_path / "set.rexsj")
+    assert "planetary_stage" in (tmp_path / "set.rexsj").read_text(encoding="utf-8")

@@ -37,8 +37,9 @@ class TrainMotion(TrainKinematics):
         from geartrain.dynamics.gear_meshes import find_meshes
         from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 
-        train, circuits = self.declaration, {circuit.id: circuit for circuit in self.circuits}
-        return find_meshes(train, lambda gear: shaft_angle(train, self.tree, circuits[gear.name]))
+        # the mapping must not hold the train: the two would wait for the garbage collector
+        train, tree, circuits = self.declaration, self.tree, {circuit.id: circuit for circuit in self.circuits}
+        return find_meshes(train, lambda gear: shaft_angle(train, tree, circuits[gear.name]))
 
     @cached_property
     def _teeth(self) -> tuple[GearMesh, ...]:

@@ -161,8 +161,9 @@ def pairs(draw: st.DrawFn) -> Drawn:
     z1 = draw(st.integers(14, 60))
     z2 = z1 + draw(st.integers(10, 60)) if ring else draw(st.integers(14, 90))
     # the wheels' tips are set beside the pitch circles: all contact before the pitch point, or after it, or neither
-    x1 = draw(st.floats(-1.5, 1.8))
-    x2 = (x1 if ring else -x1) + draw(st.floats(-0.6, 0.6))
+    # numbers that a declaration takes: 0, or not below 1e-300
+    x1 = round(draw(st.floats(-1.5, 1.8)), 12)
+    x2 = round((x1 if ring else -x1) + draw(st.floats(-0.6, 0.6)), 12)
     add1, add2 = draw(st.floats(0.5, 1.3)), draw(st.floats(0.5, 1.3))
     return Drawn(z1, z2, x1, x2, add1, add2, ring)
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.collections import Collection, PolyCollection
 from matplotlib.colors import Colormap, LinearSegmentedColormap, ListedColormap, to_hex, to_rgba
 from matplotlib.figure import Figure
@@ -49,6 +50,8 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
     try:
         for artist in _all(figure):
             painter.paint(artist)
+        for axes in figure.axes:
+            painter.paint_grid(axes)
         yield
     finally:
         for put, old in reversed(painter.undo):
@@ -82,6 +85,14 @@ class _Painter:
             self._colours(artist)
         for effect in artist.get_path_effects() or ():
             self._halo(effect)
+
+    def paint_grid(self, axes: Axes) -> None:
+        """The grid of ticks that are made later: files of another resolution may have more of them."""
+        for axis in (axes.xaxis, axes.yaxis):
+            old = axis.get_tick_params().get("grid_color")
+            if old is not None:
+                new = to_hex(themed_colour(to_rgba(old), self.name))
+                self._put(partial(_set_grid, axis), old, new)
 
     def _put(self, put: Callable[[Any], object], old: Any, new: Any) -> None:
         self.undo.append((put, old))
@@ -122,6 +133,10 @@ class _Painter:
             self._halos.append(gc)
             old = gc["foreground"]
             self._put(partial(gc.__setitem__, "foreground"), old, to_hex(themed_colour(to_rgba(old), self.name)))
+
+
+def _set_grid(axis: Axis, colour: Any) -> None:
+    axis.set_tick_params(grid_color=colour)
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:

@@ -26,6 +26,7 @@ _STEPS = 12  # positions in a pitch at which play is measured
 _DENSE = 36  # positions in a pitch at which overlaps are looked for: between two of them a tooth moves by 0.02 modules
 _OFF = 0.137  # of a step: no position is a symmetric one
 _HALVINGS = 22  # of half a pitch: to a ten-millionth of it
+_PARTS = 16  # of a pitch, at which a wheel that is free half a pitch on is stopped
 _TRIES = 48  # places in a pitch at which a wheel that does not stand free is tried
 SAME = 5e-6  # mm: above the digits of a drawing
 _ENDS = 0.2  # of a tooth's height: what counts as its tip, and as its root
@@ -144,9 +145,14 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _end(self, first: Any, t: Floats, lag: Floats, way: int, couple: tuple[int, int]) -> Floats:
-        """The last free lag on one side; half a pitch and more where nothing stops it."""
+        """The last free lag on one side; infinite where nothing stops it within a pitch."""
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, couple) <= NOTHING
+        if loose.any():  # play of half a pitch: the tooth that stops it is nearer or farther than that
+            for part in range(1, _PARTS):
+                there = lag + way * self.pitches[1] * part / _PARTS
+                bites = loose & (self._areas(first, t, there, couple) > NOTHING)
+                met, loose = np.where(bites, there, met), loose & ~bites
         for _ in range(_HALVINGS):
             middle = (free + met) / 2
             bites = self._areas(first, t, middle, couple) > NOTHING

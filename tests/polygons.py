@@ -15,24 +15,26 @@ import shapely
 class Outline(NamedTuple):
     """A wheel about its own axle: tips at theta (rad) and r, flanks at these half angles (rad) on either side.
 
-    `less` is the flank on the side of smaller angles.
+    `less` is the flank on the side of smaller angles. The flanks of a ring lead outwards from its tips.
     """
 
     theta: np.ndarray
     r: np.ndarray
     less: np.ndarray
     more: np.ndarray
+    ring: bool = False
 
     @property
     def points(self) -> np.ndarray:
         """Tips and valleys in turn, (2 z, 2)."""
         tips = np.stack([self.r * np.cos(self.theta), self.r * np.sin(self.theta)], axis=-1)
         following = np.roll(tips, -1, axis=0)
-        # inwards from a tip, turned to either side
-        out = self.theta - self.more
-        back = np.roll(self.theta + self.less, -1)
-        a = -np.stack([np.cos(out), np.sin(out)], axis=-1)
-        b = -np.stack([np.cos(back), np.sin(back)], axis=-1)
+        # inwards from a tip, in a ring outwards, turned to either side
+        way = 1 if self.ring else -1
+        out = self.theta + way * self.more
+        back = np.roll(self.theta - way * self.less, -1)
+        a = way * np.stack([np.cos(out), np.sin(out)], axis=-1)
+        b = way * np.stack([np.cos(back), np.sin(back)], axis=-1)
         gap = following - tips
         along = (gap[:, 0] * b[:, 1] - gap[:, 1] * b[:, 0]) / (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
         valleys = tips + along[:, None] * a
@@ -46,26 +48,32 @@ class Outline(NamedTuple):
         theta = np.arctan2(tips[:, 1], tips[:, 0])
 
         def lean(valley: np.ndarray) -> np.ndarray:
-            flank, inwards = valley - tips, -tips
+            flank, inwards = valley - tips, tips if self.ring else -tips
             cross = flank[:, 0] * inwards[:, 1] - flank[:, 1] * inwards[:, 0]
             return np.abs(np.arctan2(cross, (flank * inwards).sum(axis=1)))
 
         near = theta + 2 * np.pi * np.round((self.theta - theta) / (2 * np.pi))
-        return Outline(near, np.hypot(*tips.T), lean(before), lean(after))
+        return Outline(near, np.hypot(*tips.T), lean(before), lean(after), self.ring)
 
 
 class Judge:
     """Two outlines on axles `D` apart. The driver at t has its tips at theta + t from the line to the other axle.
 
-    The driven wheel is seen in the mirror, so that both angles grow and fall together.
+    The driven wheel is seen in the mirror, so that both angles grow and fall together. A ring's axle is on the other
+    side of its mate's, nothing is mirrored, and its mate is free while it lies in the hole.
     """
 
     def __init__(self, driver: Outline, driven: Outline, D: float) -> None:
         self.driver, self.driven, self.D = driver.points, driven.points, D
+        self.rings = driver.ring, driven.ring
 
     def overlap(self, t: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Whether the wheels overlap at driver positions t and driven positions y, (n,) each."""
         one, two = _turned(self.driver, t), _turned(self.driven, y)
+        if any(self.rings):
+            two[..., 0] += self.D if self.rings[0] else -self.D
+            hole, mate = (one, two) if self.rings[0] else (two, one)
+            return ~shapely.covers(shapely.polygons(hole), shapely.polygons(mate))
         two[..., 0] = self.D - two[..., 0]
         return shapely.intersects(shapely.polygons(one), shapely.polygons(two))
 

@@ -53,7 +53,7 @@ class CuttingErrorModel:
         """Wheels (trials, z) cut so, from a wheel without errors. Raises `RangeError` if one of them cannot be cut."""
         if trials < 1:
             raise RangeError(Problem(f"{trials} trials tell nothing", "", "ask for at least 1"))
-        shape, high = (trials, even.z), even.radius * depth(even.z, even.half_angle)
+        shape, high = (trials, even.z), even.radius * depth(even.sign * even.z, even.half_angle)
         place, tip = self.place.draw(rng, shape), self.tip.draw(rng, shape)
         leading, trailing = self.aperture.draw(rng, shape), self.aperture.draw(rng, shape)
         e, towards = self.eccentricity.draw(rng, (trials,)), rng.uniform(0.0, 2 * pi, trials)

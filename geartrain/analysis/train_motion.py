@@ -237,7 +237,7 @@ class TrainMotion(TrainKinematics):
             raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
         circuits, drivers = self._circuits_without(without), self.drivers(case.state, without)
         return build_motion_problem(
-            self.declaration, case, circuits, self.signs, solution.speeds, self._meshes, self.pins, drivers
+            self.declaration, case, circuits, self.signs, solution.speeds, self._meshes, self.pins, drivers, self.tree
         )
 
     def _setting(self, state: str | None) -> LoadCase | None:

@@ -46,10 +46,11 @@ def pair_text(law: TriangularTransmission, friction: float | None = None) -> str
     sizes = law.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
+    wheels = [f"a ring of {z}" if s < 0 else str(z) for z, s in zip((sizes.z1, sizes.z2), sizes.signs, strict=True)]
     backwards = "" if law.direction > 0 else ", backwards"
     return (
-        f"{sizes.z1} drives {sizes.z2}{backwards}: half angle {beta}, clearance factor {1 + sizes.excess:.10g}, "
-        f"friction {law.friction if friction is None else friction:.6g}"
+        f"{wheels[0]} drives {wheels[1]}{backwards}: half angle {beta}, clearance factor "
+        f"{sizes.clearance_factor:.10g}, friction {law.friction if friction is None else friction:.6g}"
     )
 
 

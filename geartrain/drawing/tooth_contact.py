@@ -107,7 +107,8 @@ class ToothViewport:
         if self.whole:
             return pi
         z = here.wheel(which)[0]
-        near = self.left if which == DRIVER else here.sizes.D - self.right
+        axis, side = (0.0, 1.0) if which == DRIVER else (here.axis2, -here.sizes.side)
+        near = min(side * (end - axis) for end in (self.left, self.right))
         if near <= 0:
             return pi
         return min(pi, atan2(max(self.top, -self.bottom), near) + 2 * pi / z)
@@ -115,18 +116,21 @@ class ToothViewport:
 
 def _whole(here: ToothPairPose) -> ToothViewport:
     sizes = here.sizes
-    rim, tall = 0.03 * sizes.D, max(sizes.R1, sizes.R2)
-    return ToothViewport(-sizes.R1 - rim, sizes.D + sizes.R2 + rim, -tall - rim, tall + rim, True)
+    reach = {at: max(tip, 2 * root - tip) for at in (DRIVER, DRIVEN) for _, tip, root, _ in [here.wheel(at)]}
+    rim, tall = 0.03 * (sizes.R1 + sizes.R2), max(reach.values())
+    left, right = min(-reach[DRIVER], here.axis2 - reach[DRIVEN]), max(reach[DRIVER], here.axis2 + reach[DRIVEN])
+    return ToothViewport(left - rim, right + rim, -tall - rim, tall + rim, True)
 
 
 def _near(here: ToothPairPose) -> ToothViewport:
     """Contact, instant centre and pitch point with a pitch or two about them."""
     sizes = here.sizes
-    pitch = 2 * pi * sizes.D / (sizes.z1 + sizes.z2)
-    points = [(sizes.D * sizes.ratio / (1 + sizes.ratio), 0.0)]
+    pitch = 2 * pi * sizes.D / sizes.pitch_sum
+    points = [(sizes.D * sizes.z1 / sizes.pitch_sum, 0.0)]
     if here.touching:
         points += [here.contact, here.centre]
-    xs = [x for x, _ in points] + [here.wheel(DRIVER)[2], sizes.D - here.wheel(DRIVEN)[2], sizes.R1, sizes.D - sizes.R2]
+    xs = [x for x, _ in points]
+    xs += [float(here.place(which, radius, 0.0)[0]) for which in (DRIVER, DRIVEN) for radius in here.wheel(which)[1:3]]
     ys = [y for _, y in points]
     left, right, bottom, top = min(xs) - pitch, max(xs) + pitch, min(ys) - 1.5 * pitch, max(ys) + 1.5 * pitch
     wider = max(0.0, (top - bottom) / _SHAPE - (right - left)) / 2
@@ -141,9 +145,14 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
     sizes, (z, tip, _, _) = here.sizes, here.wheel(which)
     color, name = _COLORS[which], _NAMES[which]
     outline = here.outline(which, view.within(here, which))
-    axes.add_patch(Polygon(outline, facecolor=(color, 0.35), edgecolor=BLACK, linewidth=1.3, gid=name))
+    ring = here.sizes.signs[which - 1] < 0
+    axes.add_patch(
+        Polygon(outline, facecolor=(color, 0.35), edgecolor="none" if ring else BLACK, linewidth=1.3, gid=name)
+    )
+    if ring:  # the line of its teeth without the rim
+        axes.plot(*outline[: len(outline) // 2].T, color=BLACK, linewidth=1.3)
     centre = tuple(here.place(which, 0.0, 0.0))
-    pitch = sizes.D * z / (sizes.z1 + sizes.z2)
+    pitch = sizes.D * z / sizes.pitch_sum
     for radius, style, width in ((tip, "-", 0.7), (pitch, "--", 1.1)):
         axes.add_patch(_circle(centre, radius, style, width))
 
@@ -155,12 +164,13 @@ def _circle(centre: tuple[float, ...], radius: float, style: str, width: float) 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
     """An arrow the way a wheel turns, with its name, inside its body on the entry side."""
-    z, _, root, _ = here.wheel(which)
+    z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
+    inwards = 1 if tip > root else -1
     if view.whole:
-        radius, first, last = 0.55 * root, 0.7, 0.2
+        radius, first, last = 0.55 * root if inwards > 0 else 1.5 * root - 0.5 * tip, 0.7, 0.2
     else:
-        radius = root - 0.45 * pitch * root
+        radius = root - inwards * 0.45 * pitch * root
         high = (view.top if here.direction > 0 else -view.bottom) / radius
         first, last = 0.9 * high, 0.9 * high - 0.8 * pitch
     arc = here.place(which, radius, np.linspace(first, last, 30))
@@ -182,8 +192,8 @@ def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -
 def _line_of_centres(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
     axes.axhline(0.0, color=GREY, linewidth=0.9, linestyle="-.")
     if view.whole:
-        axes.plot([0.0, here.sizes.D], [0.0, 0.0], "+", color=BLACK, markersize=10)
-    for name, x, aside in (("$O_1$", 0.0, 1), ("$O_2$", here.sizes.D, -1)):
+        axes.plot([0.0, here.axis2], [0.0, 0.0], "+", color=BLACK, markersize=10)
+    for name, x, aside in (("$O_1$", 0.0, 1), ("$O_2$", here.axis2, -1 if here.axis2 > 0 else 1)):
         at = x if view.left < x < view.right else view.left if aside > 0 else view.right
         text = name if at == x else f"to {name}"
         _label(axes, text, (at, 0.0), (4 * aside, 8), aside)

@@ -1,6 +1,7 @@
 """Two wheels of triangular teeth in the plane at one moment: outlines, contact point, normal, instant centre.
 
-The driver turns about (0, 0), the driven wheel about (D, 0), lengths in the unit of the sizes. Turning forward, the
+The driver turns about (0, 0), the driven wheel about (D, 0), or (-D, 0) if it is a ring. Lengths are in the unit of
+the sizes. Turning forward, the
 entry side is above the line of centres, where alpha_1 and alpha_2 are positive; backwards it is below.
 """
 
@@ -40,20 +41,25 @@ class ToothPairPose:
         """Teeth, tip radius, root radius and angle (rad) of the driving couple's tooth of a wheel."""
         sizes = self.sizes
         if which == DRIVER:
-            return sizes.z1, sizes.R1, sizes.R1 - sizes.depths[0], self.alpha1
-        return sizes.z2, sizes.R2, sizes.R2 - sizes.depths[1], self.alpha2
+            return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
+        return sizes.z2, sizes.R2, sizes.R2 - sizes.signs[1] * sizes.depths[1], self.alpha2
+
+    @property
+    def axis2(self) -> float:
+        """Place of the driven wheel's axis on the line of centres, from the driver's."""
+        return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
         """Points (..., 2) at a radius about a wheel's centre and an angle (rad) from the line of centres, entry up."""
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
-        x = along if which == DRIVER else self.sizes.D - along
+        x = along if which == DRIVER else self.axis2 - self.sizes.side * along
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
         """Corners (n, 2) of a wheel: of all its teeth, or of those within an angle (rad) of the line of centres.
 
-        In the second case the centre is a corner too.
+        In the second case the centre is a corner too; the body of a ring ends at a circle beyond its roots.
         """
         z, tip, root, alpha = self.wheel(which)
         half = pi / z
@@ -61,15 +67,20 @@ class ToothPairPose:
         if within < pi:
             steps = np.arange(ceil((-within - alpha) / half), floor((within - alpha) / half) + 1)
         radii: Floats = np.where(steps % 2 == 0, tip, root).astype(float)
-        teeth = self.place(which, radii, alpha + half * steps.astype(float))
+        angles = alpha + half * steps.astype(float)
+        teeth = self.place(which, radii, angles)
+        if root > tip:
+            if within >= pi:  # closed, so that the rim can be cut open where the teeth begin
+                angles, teeth = np.append(angles, angles[0] + 2 * pi), np.vstack([teeth, teeth[:1]])
+            return np.vstack([teeth, self.place(which, 2 * root - tip, angles[::-1])])
         return teeth if within >= pi else np.vstack([teeth, self.place(which, 0.0, 0.0)])
 
     @property
     def lean(self) -> float:
         """Angle (rad) from the line of centres to the flank in contact, towards the entry side."""
         if self.phase == APPROACH:
-            return self.alpha1 + self.sizes.beta1
-        return self.sizes.beta2 - self.alpha2
+            return self.alpha1 + self.sizes.signs[0] * self.sizes.beta1
+        return self.sizes.signs[0] * self.sizes.beta2 - self.sizes.side * self.alpha2
 
     @property
     def contact(self) -> Point:

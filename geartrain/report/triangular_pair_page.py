@@ -44,15 +44,18 @@ def triangular_verdict(mesh: TriangularMesh) -> str:
 
 def _sizes(law: TriangularTransmission) -> Section:
     sizes = law.sizes
+    names = [
+        f"{name}, a ring" if sign < 0 else name for name, sign in zip(("driver", "driven"), sizes.signs, strict=True)
+    ]
     wheels = (
-        ("driver", sizes.z1, sizes.beta1, sizes.R1, sizes.depths[0], sizes.flanks[0], sizes.p1),
-        ("driven", sizes.z2, sizes.beta2, sizes.R2, sizes.depths[1], sizes.flanks[1], sizes.p2),
+        (names[0], sizes.z1, sizes.beta1, sizes.R1, sizes.depths[0], sizes.flanks[0], sizes.p1),
+        (names[1], sizes.z2, sizes.beta2, sizes.R2, sizes.depths[1], sizes.flanks[1], sizes.p2),
     )
     rows = [
         (name, str(z), _deg(beta), figure(R), figure(h), figure(e), _deg(pitch))
         for name, z, beta, R, h, e, pitch in wheels
     ]
-    header = ("wheel", "teeth", "half angle", "outer radius", "depth", "flank", "pitch")
+    header = ("wheel", "teeth", "half angle", "tip radius", "depth", "flank", "pitch")
     text = f"Centre distance {figure(sizes.D)}, in the unit of radii, depths and flanks (Eqs. 1 to 3). Angles in deg."
     return Section("Sizes", (text,), (Table(header, rows),))
 
@@ -60,15 +63,23 @@ def _sizes(law: TriangularTransmission) -> Section:
 def _clearance(law: TriangularTransmission, window: ClearanceWindow) -> Section:
     sizes = law.sizes
     turns = (
-        f"These teeth turn from {1 + window.jam:.6f} ({window.jam_kind}) to {1 + window.run:.6f} ({window.run_kind})"
+        f"These teeth turn from {window.jam_factor:.6f} ({window.jam_kind}) to {window.run_factor:.6f} "
+        f"({window.run_kind})"
         if window
-        else f"No clearance works: {window.jam_kind} up to {1 + window.jam:.6f}, {window.run_kind} from "
-        f"{1 + window.run:.6f}"
+        else f"No clearance works: {window.jam_kind} up to {window.jam_factor:.6f}, {window.run_kind} from "
+        f"{window.run_factor:.6f}"
     )
-    lines = [f"Clearance factor {1 + sizes.excess:.9g}. {turns}; beyond {1 + window.reach:.6f} tips never touch."]
+    lines = [
+        f"Clearance factor {sizes.clearance_factor:.9g}. {turns}; beyond {window.reach_factor:.6f} tips never touch."
+    ]
+    if sizes.ring:
+        depth = sizes.delta / min(sizes.depths)
+        lines.append(
+            f"A ring is deepest at the maximum distance. The tips overlap by {depth:.4g} of the smaller depth."
+        )
     if law.intervals:
         play = law.verdict.play
-        arc = play * sizes.D * sizes.z2 / (sizes.z1 + sizes.z2)
+        arc = play * sizes.D * sizes.z2 / sizes.pitch_sum
         lines.append(
             f"Least play of the back flanks over a pitch: {degrees(play):.6g} deg of the driven wheel, an arc of "
             f"{arc:.6g} on its pitch circle."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from geartrain.numerics.plain_data import Key, Result
 
@@ -91,6 +91,21 @@ class MeshingWheels:
     def module(self) -> float | None:
         """Mean transverse module (m); None where no length says it."""
         return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
+
+    @property
+    def pitch_distance(self) -> float | None:
+        """Distance (m) at which pitch circles of the declared modules touch; None where no length says it."""
+        z1, z2 = self.counts
+        return (
+            self.distance
+            if self.distance is None or not any(self.internal)
+            else self.distance * abs(z1 - z2) / (z1 + z2)
+        )
+
+    @property
+    def ring(self) -> Literal[0, 1, 2]:
+        """Which wheel is a ring: 1 or 2, 0 if none is."""
+        return 1 if self.internal[0] else 2 if self.internal[1] else 0
 
     @property
     def touching(self) -> float:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 # pins, a worm, circular arcs that ripple, a ring of two teeth more than its wheel, wheels of three teeth, a bent one
 TRAINS = (
     "planetary-24-18-60-involute",
+    "planetary-24-18-60-triangular",
     "humpage",
     "lantern-mill",
     "moon-triangular",

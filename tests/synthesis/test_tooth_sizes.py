@@ -110,7 +110,8 @@ def test_the_margin_is_how_far_the_axes_can_move_before_the_teeth_jam_or_lose_ea
     module = 2 * sizes.D / 75
     for way, kind in ((-1, "jam"), (1, None)):
         near, beyond = (
-            sizes.at((sizes.D + way * part * design.jam * module) / sizes.least_distance - 1) for part in (0.999, 1.001)
+            sizes.at((sizes.D + way * part * design.jam * module) / sizes.deepest_distance - 1)
+            for part in (0.999, 1.001)
         )
         assert replace_law(design, near)
         assert bool(replace_law(design, beyond)) is (kind is None)

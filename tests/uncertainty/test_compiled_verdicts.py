@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from math import lcm, radians
+from typing import Literal
 
 import numpy as np
 import pytest
 from commands import call, without
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
+from test_hand_cut_law import with_ring
 
 from geartrain import load
 from geartrain.errors import RangeError
@@ -30,16 +32,19 @@ def sized(z1: int, z2: int, excess: float, beta: float = radians(30)) -> Triangu
 
 def drawn(sizes: TriangularSizes, rng: np.random.Generator, trials: int, scale: float = 1.0) -> CutGearPair:
     errors = CuttingErrorModel(*(ErrorDistribution(scale * each) for each in (0.02, 0.04, 0.03, 0.07)))
-    even = CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
+    R1, R2 = sizes.signed_radii
+    even = CutWheel.even(sizes.z1, R1, sizes.beta1), CutWheel.even(sizes.z2, R2, sizes.beta2)
     first, second = (errors.draw(wheel, rng, trials) for wheel in even)
     return CutGearPair(sizes, first, second, 0.01 * min(sizes.depths) * rng.standard_normal(trials))
 
 
-def test_the_formulas_of_a_couple_are_those_of_the_law_with_their_derivatives() -> None:
-    sizes = sized(24, 15, 0.02)
+@pytest.mark.parametrize("ring", [0, 1, 2])
+def test_the_formulas_of_a_couple_are_those_of_the_law_with_their_derivatives(ring: Literal[0, 1, 2]) -> None:
+    sizes = with_ring(24, 15, ring)
+    sizes = sizes.at(find_window(sizes).at(0.5))
     law = even_tooth_pair(sizes)
     flanks = [(float(np.sin(beta)), float(np.cos(beta))) for beta in sizes.half_angles]
-    couple = make_couple(sizes.R1, sizes.R2, sizes.D, sizes.delta, flanks[0], flanks[1])
+    couple = make_couple(*sizes.signed_radii, sizes.side * sizes.D, sizes.delta, flanks[0], flanks[1])
     assert couple.reach == pytest.approx(float(law.reach), abs=1e-15)
     assert couple.exit_angle == pytest.approx(float(law.exit_angle), abs=1e-15)
     for x in np.linspace(-0.9, 0.9, 7) * couple.reach:
@@ -54,24 +59,28 @@ def test_the_formulas_of_a_couple_are_those_of_the_law_with_their_derivatives() 
             assert slope == pytest.approx((high[1] - low[1]) / (2 * step), rel=1e-6, abs=1e-8)
 
 
+@pytest.mark.parametrize("ring", [0, 1, 2])
 @pytest.mark.parametrize("pairs", [pytest.param(12), pytest.param(150, marks=pytest.mark.slow)])
-def test_every_trial_is_judged_as_without_the_kernel(pairs: int) -> None:
+def test_every_trial_is_judged_as_without_the_kernel(pairs: int, ring: Literal[0, 1, 2]) -> None:
     """On both sides of the window, at small and at great errors; many of the great are left to numpy."""
     rng, kinds, done = np.random.default_rng(8), np.zeros(4, int), 0
     while done < pairs:
         z1, z2 = (int(z) for z in rng.integers(8, 45, 2))
-        sizes = sized(z1, z2, 0.0, radians(rng.uniform(20, 35)))
-        if lcm(z1, z2) > 400 or not (window := find_window(sizes)):
+        sizes = with_ring(z1, z2, ring, radians(rng.uniform(20, 35)))
+        if lcm(sizes.z1, sizes.z2) > 400 or not (window := find_window(sizes)):
             continue
-        sizes = sizes.at(window.at(rng.choice([0.02, 0.3, 0.9, 1.1])))
+        # tips of a ring part soon beyond the window
+        sizes = sizes.at(window.at(rng.choice([0.02, 0.3, 0.9, 1.02 if ring else 1.1])))
         try:
-            pair = drawn(sizes, rng, 8, rng.choice([0.3, 1.0, 1.0, 4.0]))
+            pair = drawn(sizes, rng, 8, rng.choice([0.3, 1.0, 1.0, 2.0 if ring else 4.0]))
         except RangeError:
             continue
         with np.errstate(invalid="ignore"):
             found, true = compiled_verdicts(pair), cycle_verdicts(pair)
         done += 1
-        assert np.allclose(found.play, true.play, rtol=0, atol=1e-12 * sizes.p2, equal_nan=True)
+        # how deep a ring jams is not compared where its teeth overlap by more than half a pitch
+        shallow = (true.play > -sizes.p2 / 2) | (ring == 0)
+        assert np.allclose(found.play[shallow], true.play[shallow], rtol=0, atol=1e-12 * sizes.p2, equal_nan=True)
         for name in ("clash", "standstill", "disengaged", "leans"):
             assert np.array_equal(getattr(found, name), getattr(true, name)), name
         kinds += [true.jams.sum(), true.clash.sum(), true.standstill.sum(), (~true.stops).sum()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf, lcm, pi, radians
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -23,8 +24,17 @@ def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> Trian
     return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
+def with_ring(z1: int, z2: int, ring: Literal[0, 1, 2], beta: float = THIRTY) -> TriangularSizes:
+    """Equal depth outside; with a ring of z1 + z2 teeth pitch-true."""
+    if not ring:
+        return equally_deep(z1, z2, 0.0, beta)
+    counts = (z1 + z2, z2) if ring == 1 else (z1, z1 + z2)
+    return TriangularSizes(*counts, 1.0, counts[1] / counts[0], beta, beta, 0.0, ring)
+
+
 def even(sizes: TriangularSizes) -> tuple[CutWheel, CutWheel]:
-    return CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
+    R1, R2 = sizes.signed_radii
+    return CutWheel.even(sizes.z1, R1, sizes.beta1), CutWheel.even(sizes.z2, R2, sizes.beta2)
 
 
 # ------------------------------------------------------------------------------------------------------ without errors
@@ -100,7 +110,7 @@ def seen_from_the_centres(sizes: TriangularSizes, t: float, e: tuple[float, floa
         two = sizes.D - e[1] * np.exp(-1j * (y + k[1]))
         line = two - one
         D, turned = abs(line), np.angle(line)
-        here = sizes.at(D / sizes.least_distance - 1)
+        here = sizes.at(D / sizes.deepest_distance - 1)
         x = t - turned
         # the driven wheel's own angle is counted from the line the other way round
         found = -float(sizes.ratio * -x + TriangularTransmission(here).error(-x))
@@ -207,12 +217,18 @@ def test_small_errors_act_as_first_order_says_to_second_order() -> None:
 # ------------------------------------------------------------------------------------------------------------ outlines
 
 
-def drawn(rng: np.random.Generator) -> tuple[TriangularSizes, CutTransmissionFunction, Judge]:
+def drawn(
+    rng: np.random.Generator, ring: Literal[0, 1, 2] = 0
+) -> tuple[TriangularSizes, CutTransmissionFunction, Judge]:
     """Two wheels with every kind of error, as the law has them and as outlines."""
     while True:
         z1, z2 = (int(z) for z in rng.integers(10, 40, 2))
         b1, b2 = (float(b) for b in np.radians(rng.uniform(20, 38, 2)))
-        sizes = TriangularSizes(z1, z2, *equal_depth(z1, z2, b1, b2), b1, b2, 0.0)
+        if ring:
+            z1, z2 = (z1 + z2, z2) if ring == 1 else (z1, z1 + z2)
+            sizes = TriangularSizes(z1, z2, 1.0, rng.uniform(0.95, 1.02) ** (3 - 2 * ring) * z2 / z1, b1, b2, 0.0, ring)
+        else:
+            sizes = TriangularSizes(z1, z2, *equal_depth(z1, z2, b1, b2), b1, b2, 0.0)
         if not (window := find_window(sizes)):
             continue
         sizes = sizes.at(window.at(rng.uniform(-0.1, 1.0)))
@@ -227,9 +243,9 @@ def drawn(rng: np.random.Generator) -> tuple[TriangularSizes, CutTransmissionFun
                 wheels.append(wheel.placed(place).grown(tip).widened(less, more).eccentric(e, towards))
             except RangeError:
                 break
-            theta, r = np.arange(z) * wheel.pitch + place, wheel.radius + tip
+            theta, r = np.arange(z) * wheel.pitch + place, abs(wheel.radius + tip)
             b = wheel.half_angle
-            outlines.append(Outline(theta, r, b + less, b + more).about(e, towards))
+            outlines.append(Outline(theta, r, b + less, b + more, wheel.radius < 0).about(e, towards))
         shift = 0.02 * min(sizes.depths) * rng.standard_normal()
         try:
             law = cut_transmission_function(sizes, *wheels, shift)
@@ -238,15 +254,16 @@ def drawn(rng: np.random.Generator) -> tuple[TriangularSizes, CutTransmissionFun
         return sizes, law, Judge(outlines[0], outlines[1], sizes.D + shift)
 
 
+@pytest.mark.parametrize("ring", [0, 1, 2])
 @pytest.mark.parametrize("number", [pytest.param(20), pytest.param(1000, marks=pytest.mark.slow)])
-def test_cut_wheels_touch_where_their_outlines_do(number: int) -> None:
+def test_cut_wheels_touch_where_their_outlines_do(number: int, ring: Literal[0, 1, 2]) -> None:
     """First touch, by halving the driven angle, and jams, at ten positions of each of many pairs of wheels.
 
     Where teeth have only just come in, the search may step across one: then it must be there all the same.
     """
     rng, far, jammed, across = np.random.default_rng(4), 0.0, 0, 0
     for _ in range(number):
-        sizes, law, judge = drawn(rng)
+        sizes, law, judge = drawn(rng, ring)
         S = rng.uniform(0, law.period, 10)
         upper = -law.error(S) - sizes.ratio * S
         lower = upper - law.play(S)

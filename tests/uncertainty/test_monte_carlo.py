@@ -227,7 +227,7 @@ def test_a_fixed_error_of_the_distance_is_another_clearance() -> None:
     plan = planned(chain((40, 27)), "placement=3 %", "centre=value 10 %")
     bare = planned(chain((40, 27)), "placement=3 %")
     pair = bare.pairs[0]
-    factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.least_distance
+    factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.deepest_distance
     _, play = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
     _, true = judge_trial_pairs(draw_trial_wheels(bare.cleared(factor), RandomStreams(1, 0), 50))
     # one is reckoned from tables, the other couple by couple

@@ -22,6 +22,7 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.form_options import (
+    Internal,
     form_command,
     pair_in_mesh,
     read_form,
@@ -68,7 +69,7 @@ def command(name: str, model: type[ToothForm]) -> Callable[..., None]:
 def _run(
     model: type[ToothForm],
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
-    internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
+    internal: Internal = False,
     bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
     helix: Annotated[
         str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal ones.")

@@ -88,7 +88,9 @@ def _is_chance(text: str) -> bool:
     return text.partition("=")[0].strip() == "stops"
 
 
-def read_start(teeth: tuple[int, int], own: FormOptions, friction: float, driver: int) -> ToothSizes:
+def read_start(
+    teeth: tuple[int, int], own: FormOptions, friction: float, driver: int, internal: bool = False
+) -> ToothSizes:
     """The pair that options give; its clearance is in the middle of the window where none is given."""
     from geartrain.synthesis import ToothSizes
 
@@ -105,11 +107,11 @@ def read_start(teeth: tuple[int, int], own: FormOptions, friction: float, driver
     assert isinstance(placed, Triangular)
     assert placed.window is not None
     try:
-        sizes = shape.sizes(*teeth)
+        sizes = shape.sizes(*teeth, ring=2 if internal else 0)
     except GearTrainError as error:
         raise at_option(error, "--teeth") from None
     radii = sizes.R2 / sizes.R1 * teeth[0] / teeth[1]
-    return ToothSizes(teeth, radii, float(placed.window.value), sizes.half_angles, friction, driver)
+    return ToothSizes(teeth, radii, float(placed.window.value), sizes.half_angles, friction, driver, sizes.ring)
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:

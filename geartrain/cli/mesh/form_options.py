@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.tooth_form import ToothForm
 
 FormOptions = dict[str, str | bool | None]
+Internal = Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")]
 
 
 def option_name(field: str) -> str:

@@ -30,7 +30,15 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.best_sizes import SizeQuestion, read_start
-from geartrain.cli.mesh.form_options import FormOptions, form_command, option_name, pair_in_mesh, read_form, two_wheels
+from geartrain.cli.mesh.form_options import (
+    FormOptions,
+    Internal,
+    form_command,
+    option_name,
+    pair_in_mesh,
+    read_form,
+    two_wheels,
+)
 from geartrain.cli.mesh.pair_friction import Friction, Rate, read_pair_friction
 from geartrain.cli.mesh.wheel_profile import (
     FINE,
@@ -80,6 +88,7 @@ class TriangularOptions:
     driver: int
     backwards: bool
     rate: str | None = None
+    internal: bool = False
 
     def mesh(self, **varied: str) -> TriangularMesh:
         """The pair in mesh, with some options replaced by what is varied."""
@@ -87,7 +96,7 @@ class TriangularOptions:
 
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
         rub = read_pair_friction(varied.get("friction", self.friction))
-        wheels = two_wheels((z1, z2), rub.coefficient, self.module)
+        wheels = two_wheels((z1, z2), rub.coefficient, self.module, self.internal)
         form = self.form({name: value for name, value in varied.items() if name not in _PAIR})
         try:
             mesh = pair_in_mesh(form, wheels, None, self.driver)
@@ -192,6 +201,7 @@ def _tell_changes(make: Any, name: str, found: ParameterSweep, units: dict[str, 
 
 def _run(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
+    internal: Internal = False,
     module: Annotated[
         str | None, typer.Option("--module", help="Pitch diameter over tooth count, which gives the wheels a size.")
     ] = None,
@@ -252,8 +262,10 @@ def _run(
     size = None if module is None else quantity("--module", module, "length", least="above 0")
     asked = SizeQuestion(best, tuple(free or ()), tuple(within or ()), tuple(set_ or ()))
     if asked.is_one({"--vary": vary, "--teeth-plot": teeth_plot, "--profile": profile}):
-        asked.answer(read_start(teeth, own, read_pair_friction(friction).number("--best"), driver), to, picture, json)
-    pair = TriangularOptions(teeth, own, size, friction, driver, backwards, rate)
+        asked.answer(
+            read_start(teeth, own, read_pair_friction(friction).number("--best"), driver, internal), to, picture, json
+        )
+    pair = TriangularOptions(teeth, own, size, friction, driver, backwards, rate, internal)
     if vary:
         _check_one_pair({"--teeth-plot": teeth_plot, "--profile": profile})
         sweep(pair, vary, picture, json, to)
@@ -296,5 +308,5 @@ run = form_command(
     Triangular,
     _run,
     "Contact, law, collisions and losses of a pair with triangular teeth, or a sweep over its parameters as CSV.",
-    {"half_angle": "30deg", "radii": "equal_depth"},
+    {"half_angle": "30deg"},
 )

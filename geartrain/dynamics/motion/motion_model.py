@@ -179,7 +179,8 @@ class Motion(PicturedMotion):
             Of the same outputs and tolerance.
         """
         declared = self.train.phases
-        drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in declared}
+        fixed = {*declared, *self.train.idlers}  # the first pair of a planet places its teeth in the second
+        drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in fixed}
         return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
 
     # -------------------------------------------------------------------------------------------------- what it answers

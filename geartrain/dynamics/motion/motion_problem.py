@@ -16,6 +16,7 @@ from geartrain.numerics.containers import ItemwiseMapping
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.kinematics.circuits.joint_tree import Tree
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
     from geartrain.train import StateCase, Train
@@ -30,6 +31,8 @@ class MotionProblem:
     meshes    pairs with real teeth by name, as they are driven, each made when it is first read
     drivers   who drives each pair and coupling, and how that is known
     angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
+    idlers    by pair whose driver another pair about the same line drives: that pair, and whether the wheel has its two
+              contacts on opposite sides. Its teeth start where that pair puts them
     loops     loops that are redundant: real teeth in them contradict the rest
     """
 
@@ -44,6 +47,7 @@ class MotionProblem:
     drivers: Mapping[str, MeshDriver]
     angles: Mapping[str, float] = field(default_factory=dict)
     phases: Mapping[str, float] = field(default_factory=dict)
+    idlers: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
     loops: Sequence[Loop] = ()
 
     @property
@@ -97,6 +101,7 @@ def build_motion_problem(
     meshes: Mapping[str, GearMesh],
     pins: Sequence[PinMesh],
     drivers: Mapping[str, MeshDriver],
+    tree: Tree,
 ) -> MotionProblem:
     """A train in one case, moving along some circuits: those that are left out leave their teeth out too.
 
@@ -118,5 +123,30 @@ def build_motion_problem(
         drivers,
         {name: link.angle.si for name, link in train.links.items() if link.angle is not None},
         {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
+        find_idlers(circuits, drivers, tree) if meshes else {},
         [parts.loop(chord) for chord in parts.closing] if meshes or pins else [],
     )
+
+
+def find_idlers(
+    circuits: Sequence[Circuit], drivers: Mapping[str, MeshDriver], tree: Tree
+) -> dict[str, tuple[str, bool]]:
+    """Pairs whose driver is driven by another pair with a coaxial mate, as a planet between sun and ring.
+
+    The lines of centres are one line then, and the contacts lie on opposite sides where one mate is a ring.
+    """
+    gears = [circuit for circuit in circuits if circuit.kind == "gear"]
+    driven: dict[str, tuple[Circuit, str]] = {}
+    for circuit in gears:
+        at = circuit.wheels.index(drivers[circuit.id].wheel)
+        driven.setdefault(circuit.wheels[1 - at], (circuit, (circuit.i, circuit.j)[at]))
+    found = {}
+    for circuit in gears:
+        wheel = drivers[circuit.id].wheel
+        before, mate = driven.get(wheel, (None, ""))
+        if before is None or before.carrier != circuit.carrier:
+            continue
+        other = (circuit.i, circuit.j)[1 - circuit.wheels.index(wheel)]
+        if tree.axis_seen_from(circuit.carrier, mate) == tree.axis_seen_from(circuit.carrier, other):
+            found[circuit.id] = before.id, (before.a * before.b < 0) != (circuit.a * circuit.b < 0)
+    return found

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -63,6 +64,10 @@ class PairErrors:
             )
         return found
 
+    @cached_property
+    def _circuits(self) -> Mapping[str, Circuit]:
+        return {circuit.id: circuit for circuit in self.train.circuits}
+
     def _joint(self, circuit: Circuit) -> ErrorPath:
         driven = self.driven_side(circuit)
         ends = (circuit.i, circuit.j)
@@ -88,7 +93,7 @@ class PairErrors:
         """
         laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes(reach) if mesh.rigid}
         ahead = {name: law.error_moments()[0] for name, law in laws.items()}
-        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        circuits = self._circuits
         deltas = [ahead[name] * self.sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
         return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
 
@@ -107,7 +112,7 @@ class PairErrors:
         meshes = [mesh for mesh in self._meshes(reach) if not mesh.rigid or mesh.name in besides]
         laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in meshes}
         laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
-        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        circuits = self._circuits
         for at, name in enumerate(self.spread.pairs):
             if name in laws:
                 law = laws[name] if way > 0 else laws[name].turned_back()
@@ -152,8 +157,18 @@ class PairErrors:
     def _phase(self, circuit: Circuit, law: TransmissionFunction, driven: int) -> float:
         """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
 
-        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards.
+        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards. A
+        planet between sun and ring has no phase of its own in its second pair: there its teeth are where the first puts
+        them, half a pitch off where their number is odd and the contacts lie on opposite sides.
         """
+        if circuit.id in self.train.idlers and circuit.id not in self.train.phases:
+            before, opposite = self.train.idlers[circuit.id]
+            if (mesh := self.train.meshes.get(before)) is not None:
+                first = self._circuits[before]
+                start = self._phase(first, mesh.law, self.driven_side(first))
+                teeth = round(2 * pi / law.period)
+                pitches = float(mesh.law.angle(start)) / law.period + mesh.stands - (teeth / 2 if opposite else 0)
+                return (pitches % 1) * law.period
         phase = self.train.phases.get(circuit.id, 0.0)
         if driven == 1 or circuit.kind != "gear":
             return phase * law.period

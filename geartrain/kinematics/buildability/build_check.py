@@ -14,6 +14,7 @@ from geartrain.kinematics.buildability.idle_wheels import check_mates
 from geartrain.kinematics.buildability.pitch_distances import PitchDistances
 from geartrain.kinematics.buildability.pitch_pairs import PairOutline, pitch_pairs
 from geartrain.kinematics.buildability.ring_mates import check_rings
+from geartrain.kinematics.buildability.shared_wheels import check_shared_wheels
 from geartrain.kinematics.buildability.skew_distances import check_skew
 from geartrain.kinematics.circuits import find_circuits, find_tree
 from geartrain.kinematics.planet_copies import has_copies, with_copies
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
-"""The pairs with declared teeth as they are cut, by name; called only where tips of planets are compared."""
+"""The pairs with declared teeth as they are cut, by name; called only where planets are compared."""
 
 
 def check_build(
@@ -39,6 +40,7 @@ def check_build(
     yield from sizes.findings
     yield from check_skew(train, tree, pairs, sizes)
     yield from check_triangles(sizes)
+    yield from check_shared_wheels(pairs, outlines)
     yield from _planets(train, tree, circuits, sizes, outlines)
     yield from check_clutches(train, tree)
 

@@ -39,4 +39,4 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
     # friction by a law of speed is searched under with its mean coefficient at the speed of the pair
     friction = mesh.losses.friction if mesh.verdict else mesh.law.friction
-    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver)
+    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver, sizes.ring)

@@ -59,8 +59,8 @@ class OutlineAgreement(Result):
 
 def outline_law(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
     """The law of the drawn outlines of a pair, its first wheel driving."""
-    first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0])
-    second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1])
+    first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0], sizes.ring == 1)
+    second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1], sizes.ring == 2)
     # teeth drawn about their middles: the driven angle is counted from there, and nothing is added to the play
     return OutlineTransmission(OutlineGears(first, second, sizes.D, 0.0, 0.0), friction)
 
@@ -91,13 +91,13 @@ def _mean_efficiency(law: OutlineTransmission) -> float:
     return float(found @ (half[..., None] * weights).ravel()) / float(breaks[-1] - breaks[0])
 
 
-def _outline(z: int, R: float, beta: float, length: float) -> GearOutline:
-    """A wheel of teeth with straight flanks from tips at R."""
+def _outline(z: int, R: float, beta: float, length: float, ring: bool) -> GearOutline:
+    """A wheel of teeth with straight flanks from tips at R, inwards or, of a ring, outwards."""
     import numpy as np
 
     from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks
 
     def points(s: Floats) -> Floats:
-        return np.stack([s * sin(beta), R - s * cos(beta)], axis=1)
+        return np.stack([s * sin(beta), R + (s if ring else -s) * cos(beta)], axis=1)
 
-    return GearOutline((ToothFlanks.symmetric((OutlineCurve(points, 0.0, length),)),), z)
+    return GearOutline((ToothFlanks.symmetric((OutlineCurve(points, 0.0, length),)),), z, ring=ring)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, isnan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.errors import GearTrainError, check_choice
 from geartrain.numerics.plain_data import Key, Result
@@ -56,6 +56,8 @@ class ToothSizes(Result):
         Coefficient of friction.
     driver : {1, 2}
         Which wheel drives.
+    ring : {0, 1, 2}
+        Which wheel has its teeth inside; 0 for an external pair.
 
     See Also
     --------
@@ -80,6 +82,7 @@ class ToothSizes(Result):
     half_angles: tuple[float, float]
     friction: float
     driver: int = 1
+    ring: Literal[0, 1, 2] = 0
 
     def __post_init__(self) -> None:
         # plain numbers, whatever was given: all that follows is scalar
@@ -119,7 +122,7 @@ class ToothSizes(Result):
     @cached_property
     def _unplaced(self) -> TriangularSizes:
         z1, z2 = self.teeth
-        return TriangularSizes(z1, z2, 1.0, self.radii * z2 / z1, *self.half_angles, 0.0)
+        return TriangularSizes(z1, z2, 1.0, self.radii * z2 / z1, *self.half_angles, 0.0, self.ring)
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
@@ -150,8 +153,8 @@ class ToothSizes(Result):
 
     @property
     def clearance_factor(self) -> float:
-        """Centre distance over its least."""
-        return 1 + self.sizes.excess
+        """Centre distance over that at which a tip touches the bottom of a space."""
+        return self.sizes.clearance_factor
 
     @cached_property
     def loss(self) -> float:
@@ -183,8 +186,8 @@ class ToothSizes(Result):
         """The margin before a jam or a loss of contact [module]: by so much the axes may come nearer or part."""
         assert self.limits is not None
         sizes, nearest = self.sizes, min(self.window, 1 - self.window)
-        module = 2 * sizes.D / (sizes.z1 + sizes.z2)
-        return nearest * (self.limits.run - self.limits.jam) * sizes.least_distance / module
+        module = 2 * sizes.D / sizes.pitch_sum
+        return nearest * (self.limits.run - self.limits.jam) * sizes.deepest_distance / module
 
     @property
     def window_width(self) -> float:

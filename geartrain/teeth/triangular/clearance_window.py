@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from math import degrees, inf, pi
+from math import degrees, inf
 from typing import Literal
 
 from geartrain.numerics.roots import bracketed_root, root
@@ -189,11 +189,14 @@ def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple
 
 
 def _no_valley(sizes: TriangularSizes) -> str:
-    for z, beta, name in ((sizes.z1, sizes.beta1, "driver"), (sizes.z2, sizes.beta2, "driven wheel")):
-        if beta + pi / z >= pi / 2:
+    wheels = zip((sizes.z1, sizes.z2), sizes.half_angles, sizes.signs, ("driver", "driven wheel"), strict=True)
+    for z, beta, sign, name in wheels:
+        angle, bound = degrees(beta) + sign * 180 / z, "below 90" if sign > 0 else "above 0"
+        if not 0 < angle < 90:
             return (
-                f"{z} teeth of half angle {degrees(beta):.6g} deg do not exist: on the {name} half angle + 180/z is "
-                f"{degrees(beta) + 180 / z:.6g} deg, and must be below 90 deg for flanks to meet in a valley"
+                f"{z} teeth of half angle {degrees(beta):.6g} deg do not exist: on the {name} half angle "
+                f"{'+' if sign > 0 else '-'} 180/z is {angle:.6g} deg, and must be {bound} deg for flanks to meet in a "
+                "valley"
             )
     raise AssertionError
 
@@ -205,8 +208,9 @@ def _no_valley(sizes: TriangularSizes) -> str:
 class ClearanceWindow:
     """Clearance factors between which a pair turns: above `jam`, up to `run`; beyond `reach` no tip touches.
 
-    Each as excess, the factor less 1. `jam_kind` says what happens up to `jam`, `run_kind` beyond `run`. Empty where
-    run is below jam: no clearance works. Where a pair runs in several stretches of clearance this is the first.
+    Each as excess. `side` is 1 for an external pair, -1 for an internal one, whose factors are below 1. `jam_kind` says
+    what happens up to `jam`, `run_kind` beyond `run`. Empty where run is below jam: no clearance works. Where a pair
+    runs in several stretches of clearance this is the first.
     """
 
     jam: float
@@ -214,6 +218,26 @@ class ClearanceWindow:
     run_kind: Literal["clash", "standstill"]
     reach: float
     jam_kind: Literal["jam", "overhang", "clash", "standstill"] = "jam"
+    side: int = 1
+
+    def factor(self, excess: float) -> float:
+        """The clearance factor of an excess."""
+        return 1 + self.side * excess
+
+    @property
+    def jam_factor(self) -> float:
+        """Clearance factor of `jam`."""
+        return self.factor(self.jam)
+
+    @property
+    def run_factor(self) -> float:
+        """Clearance factor of `run`."""
+        return self.factor(self.run)
+
+    @property
+    def reach_factor(self) -> float:
+        """Clearance factor of `reach`."""
+        return self.factor(self.reach)
 
     def __bool__(self) -> bool:
         return self.works
@@ -251,7 +275,7 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
     starts: dict[Literal["jam", "overhang", "clash", "standstill"], float]
     starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "standstill": still[0]}
     jam_kind = max(starts, key=lambda kind: starts[kind])
-    return ClearanceWindow(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind)
+    return ClearanceWindow(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind, sizes.side)
 
 
 def _least_excess(sizes: TriangularSizes) -> float:
@@ -325,8 +349,8 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
     """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
 
     def play(excess: float) -> float:
-        D = (1 + excess) * sizes.least_distance
-        return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / (sizes.z1 + sizes.z2)
+        D = sizes.factor(excess) * sizes.deepest_distance
+        return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / sizes.pitch_sum
 
     # at the greatest excess itself tips do not touch, and there is no play
     low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)

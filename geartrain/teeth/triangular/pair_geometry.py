@@ -1,13 +1,16 @@
 """Sizes of a pair of wheels with triangular teeth: depth, radii, centre distance, reach.
 
 Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems". Lengths are in any one unit.
+Sorge treats external pairs. An internal pair follows from the same equations, with the tooth count and the radius of
+the ring and the centre distance negative (docs/teeth.md, internal pairs).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from math import asin, cos, inf, pi, sin, sqrt
+from math import asin, copysign, cos, inf, pi, sin, sqrt
+from typing import Literal
 
 from geartrain.errors import Problem, RangeError
 
@@ -17,12 +20,15 @@ _NEARLY_GRAZING = 2e-6  # rad: a little more than that sine leaves to a right an
 
 
 def depth(z: int, beta: float) -> float:
-    """Tooth depth over outer radius, Eq. (1), as a product: the printed difference cancels at large z."""
+    """Tooth depth over the radius of the tips, Eq. (1), as a product: the printed difference cancels at large z.
+
+    Times a negative radius for a ring of -z teeth.
+    """
     return 2 * sin(pi / (2 * z)) * cos(beta + pi / (2 * z)) / sin(beta + pi / z)
 
 
 def flank(z: int, beta: float) -> float:
-    """Length of a flank over outer radius, Eq. (2)."""
+    """Length of a flank over the radius of the tips, Eq. (2)."""
     return sin(pi / z) / sin(beta + pi / z)
 
 
@@ -42,10 +48,12 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes:
-    """A pair whose first wheel drives: tooth numbers, outer radii, half apertures (rad) and centre distance.
+    """A pair whose first wheel drives: tooth numbers, tip radii, half apertures (rad) and centre distance.
 
-    `excess` is the clearance factor less 1: D = (1 + excess) least_distance, and least_distance = R1 + R2 - (the
-    smaller depth), where a tip would touch the bottom between two teeth.
+    At `deepest_distance` a tip touches the bottom between two teeth: the least distance R1 + R2 - (the smaller depth)
+    of an external pair, the maximum R_ring - R_pinion + (the smaller depth) of an internal one. `excess` is the part
+    of it by which the wheels are apart: D = (1 + excess) deepest_distance outside, (1 - excess) inside, where the
+    clearance factor is below 1. `ring` is 1 or 2 for the wheel whose teeth are inside, 0 for an external pair.
     """
 
     z1: int
@@ -55,13 +63,14 @@ class TriangularSizes:
     beta1: float
     beta2: float
     excess: float
+    ring: Literal[0, 1, 2] = 0
 
     def __post_init__(self) -> None:
         # without valleys there are no teeth, and radii of equal depth may come out negative: a verdict says so
         exist = min(self.z1, self.z2) >= 1 and self.has_valleys
         lengths = all(_LEAST < (radius if exist else abs(radius)) < 1 / _LEAST for radius in (self.R1, self.R2))
         angles = all(0 < beta < pi / 2 for beta in (self.beta1, self.beta2))
-        if min(self.z1, self.z2) < 1 or not (lengths and angles and -1 < self.excess < inf):
+        if min(self.z1, self.z2) < 1 or not (lengths and angles and -1 < self.side * self.excess < inf):
             raise RangeError(
                 Problem(
                     f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
@@ -70,6 +79,21 @@ class TriangularSizes:
                     "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
                 )
             )
+
+    @property
+    def signs(self) -> tuple[int, int]:
+        """-1 for a ring, whose count and radius are negative in the equations of external pairs; else 1."""
+        return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
+
+    @property
+    def side(self) -> int:
+        """1 for an external pair, -1 for an internal one: the sign of the centre distance and of alpha_2."""
+        return -1 if self.ring else 1
+
+    @property
+    def signed_radii(self) -> tuple[float, float]:
+        """Tip radii, that of a ring negative."""
+        return self.signs[0] * self.R1, self.signs[1] * self.R2
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -84,28 +108,49 @@ class TriangularSizes:
     @cached_property
     def depths(self) -> tuple[float, float]:
         """Depth of the teeth of each wheel, Eq. (1)."""
-        return self.R1 * depth(self.z1, self.beta1), self.R2 * depth(self.z2, self.beta2)
+        (s1, s2), (R1, R2) = self.signs, self.signed_radii
+        return R1 * depth(s1 * self.z1, self.beta1), R2 * depth(s2 * self.z2, self.beta2)
 
     @cached_property
     def flanks(self) -> tuple[float, float]:
         """Length of the flanks of each wheel, Eq. (2)."""
-        return self.R1 * flank(self.z1, self.beta1), self.R2 * flank(self.z2, self.beta2)
+        (s1, s2), (R1, R2) = self.signs, self.signed_radii
+        return R1 * flank(s1 * self.z1, self.beta1), R2 * flank(s2 * self.z2, self.beta2)
 
     @cached_property
-    def least_distance(self) -> float:
+    def deepest_distance(self) -> float:
         """Centre distance at clearance factor 1."""
-        return self.R1 + self.R2 - min(self.depths)
+        return self.side * (sum(self.signed_radii) - min(self.depths))
 
     @cached_property
     def D(self) -> float:
         """Centre distance."""
-        return self.R1 + self.R2 - self.delta
+        return self.side * (sum(self.signed_radii) - self.delta)
+
+    @property
+    def pitch_sum(self) -> int:
+        """z1 + z2, or the difference in an internal pair: D over it is half the module at the pitch point."""
+        return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
+
+    @property
+    def surrounds(self) -> bool:
+        """True if the tips of an internal pair overlap all round: no tooth of the pinion finds a space."""
+        return bool(self.ring) and sum(self.signed_radii) >= self.D
+
+    @property
+    def clearance_factor(self) -> float:
+        """Centre distance over the deepest: above 1 for an external pair, below 1 for an internal one."""
+        return self.factor(self.excess)
+
+    def factor(self, excess: float) -> float:
+        """The clearance factor of an excess."""
+        return 1 + self.side * excess
 
     @cached_property
     def delta(self) -> float:
         """Overlap of the tip circles; 0 or less where no tooth can touch."""
         # not R1 + R2 - D, which cancels at large tooth numbers
-        return min(self.depths) - self.excess * self.least_distance
+        return min(self.depths) - self.excess * self.deepest_distance
 
     @cached_property
     def p1(self) -> float:
@@ -125,12 +170,12 @@ class TriangularSizes:
     @cached_property
     def reach1(self) -> float:
         """alpha_1max of Eq. (4)."""
-        return contact_half_angle(self.R1, self.R2, self.D, self.delta)
+        return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
         """alpha_2max of Eq. (4)."""
-        return contact_half_angle(self.R2, self.R1, self.D, self.delta)
+        return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
     def matching(self) -> float:
@@ -139,18 +184,24 @@ class TriangularSizes:
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2); the sine of alpha_1m
         is written without the difference of nearly equal angles. Infinite where no such position exists.
         """
-        first = sin(self.beta1)
-        unlike = 2 * cos((self.beta1 + self.beta2) / 2) * sin((self.beta2 - self.beta1) / 2)
-        more = (self.delta * first + self.R2 * unlike) / self.D
+        mirror, D, R2 = self.signs[0], self.side * self.D, self.signed_radii[1]
+        first = mirror * sin(self.beta1)
+        unlike = mirror * 2 * cos((self.beta1 + self.beta2) / 2) * sin((self.beta2 - self.beta1) / 2)
+        more = (self.delta * first + R2 * unlike) / D
         line = first + more
-        if line >= 1:
-            return inf
+        if abs(line) >= 1:
+            return copysign(inf, line)
         cosine = cos(self.beta1)
         return asin(more * (2 * first + more) / (line * cosine + sqrt((1 - line) * (1 + line)) * first))
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Whether the flanks of each wheel lean beyond the perpendicular where tips meet: few, deep teeth."""
+        """Whether the flanks of each wheel lean beyond the perpendicular where tips meet: few, deep teeth.
+
+        Never in an internal pair, whose flank and driven radius turn the same way.
+        """
+        if self.ring:
+            return False, False
         most = pi / 2 - self.reach1 - self.reach2 - _NEARLY_GRAZING
         return self.beta1 > most, self.beta2 > most
 
@@ -171,26 +222,29 @@ class TriangularSizes:
 
     @cached_property
     def greatest_excess(self) -> float:
-        """Excess beyond which tips never touch."""
-        return min(self.depths) / self.least_distance
+        """Excess beyond which tips never touch, or in an internal pair the tip circles overlap all round."""
+        apart = min(self.depths) / self.deepest_distance
+        return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)
 
     @cached_property
     def has_valleys(self) -> bool:
-        """True if beta + 180/z < 90 deg for both wheels: else two flanks never meet in a valley."""
-        return self.beta1 + pi / self.z1 < pi / 2 and self.beta2 + pi / self.z2 < pi / 2
+        """True if two flanks meet in a valley: beta + 180/z < 90 deg, for a ring beta > 180/z."""
+        wheels = zip(self.signs, (self.z1, self.z2), self.half_angles, strict=True)
+        return all(0 < beta + sign * pi / z < pi / 2 for sign, z, beta in wheels)
 
     def swapped(self) -> TriangularSizes:
         """The same pair with the second wheel driving."""
-        return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess)
+        ring: Literal[0, 1, 2] = 2 if self.ring == 1 else 1 if self.ring == 2 else 0
+        return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess, ring)
 
     def at(self, excess: float) -> TriangularSizes:
         """The same wheels at another clearance."""
-        return TriangularSizes(self.z1, self.z2, self.R1, self.R2, self.beta1, self.beta2, excess)
+        return replace(self, excess=excess)
 
 
-def equal_depth(z1: int, z2: int, beta1: float, beta2: float) -> tuple[float, float]:
-    """Outer radii of wheels with equally deep teeth, Eq. (3), with R1 = 1."""
-    return 1.0, depth(z1, beta1) / depth(z2, beta2)
+def equal_depth(z1: int, z2: int, beta1: float, beta2: float, ring: int = 0) -> tuple[float, float]:
+    """Tip radii of wheels with equally deep teeth, Eq. (3), with R1 = 1."""
+    return 1.0, abs(depth(-z1 if ring == 1 else z1, beta1) / depth(-z2 if ring == 2 else z2, beta2))
 
 
 def pitch_true(z1: int, z2: int) -> tuple[float, float]:

@@ -3,7 +3,9 @@
 alpha_1 = x and alpha_2 = y are the angles of the two apices from the line of centres, positive on the entry side, and
 decrease as the driver pushes. In approach the driven apex slides on the driver's flank, in recess the driver's apex on
 the driven flank. Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems"; they are
-written so that nothing cancels at large tooth numbers. Each function takes numbers with `m = math`, or arrays with
+written so that nothing cancels at large tooth numbers. In an internal pair the radius of the ring and the centre
+distance are negative in them and alpha_2, tau and its slope change their sign; where the ring drives, the half
+apertures are negative too, which mirrors the pair. Each function takes numbers with `m = math`, or arrays with
 `m = numpy` (2.0 or later).
 """
 
@@ -31,12 +33,14 @@ DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
 class ToothCouple:
     """The constants of one couple of teeth, and what follows from them at any position."""
 
-    __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "sin1", "sin2")
+    __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
 
     def __init__(self, sizes: TriangularSizes) -> None:
-        self.R1, self.R2, self.D, self.delta = sizes.R1, sizes.R2, sizes.D, sizes.delta
-        self.sin1, self.cos1 = math.sin(sizes.beta1), math.cos(sizes.beta1)
-        self.sin2, self.cos2 = math.sin(sizes.beta2), math.cos(sizes.beta2)
+        self.R1, self.R2 = sizes.signed_radii
+        self.side, (self.mirror, self.sign2) = sizes.side, sizes.signs
+        self.D, self.delta = self.side * sizes.D, sizes.delta
+        self.sin1, self.cos1 = self.mirror * math.sin(sizes.beta1), math.cos(sizes.beta1)
+        self.sin2, self.cos2 = self.mirror * math.sin(sizes.beta2), math.cos(sizes.beta2)
         self.entry, self.leans = math.sin(sizes.reach1 / 2), sizes.lean[0]
 
     # ------------------------------------------------------------------------------------------------------- approach
@@ -60,7 +64,7 @@ class ToothCouple:
     def _angle_on_flank(self, line: FlankLine, m: ModuleType) -> Any:
         _, sin_psi, cos_psi, c, s, q = line
         # sin(alpha_2) = s cos psi - q sin psi as a product with c = s - sin psi: the difference cancels at large z
-        return m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
+        return self.side * m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
         """R1 cos(beta1) - v, with v of Eq. (9): from the contact to the foot of O1 on the flank's line."""
@@ -75,7 +79,7 @@ class ToothCouple:
 
     def _arms_on_flank(self, line: FlankLine) -> tuple[Any, Any]:
         u, _, cos_psi, _, _, q = line
-        return self._driver_arm(u, cos_psi, q), self.R2 * q
+        return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
 
     def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
         """tau in approach, Eq. (12)."""
@@ -89,7 +93,7 @@ class ToothCouple:
         """d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
         u, sin_psi, cos_psi, _, s, q = self._line(x, m)
         more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
-        return more * (more * s / q - sin_psi / cos_psi)
+        return self.side * more * (more * s / q - sin_psi / cos_psi)
 
     def approach_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
         """Side of the line of centres (sign of alpha_2), and the tangents tan2, tan1 of Eq. (32).
@@ -97,14 +101,15 @@ class ToothCouple:
         The driver turning wheel 2 loses eta = (1 - f side tan2) / (1 - f side tan1).
         """
         u, sin_psi, cos_psi, c, s, q = self._line(x, m)
-        side = m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
-        return side, s / q, self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
+        side = self.side * m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
+        mirror = self.mirror
+        return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
 
     def approach_sliding(self, x: Any, m: ModuleType = math) -> Any:
         """Speed of sliding in approach over the driver's: R2 |sin y| / cos psi, the distance from C, times 1 + tau."""
         _, sin_psi, cos_psi, c, s, q = self._line(x, m)
         # (1 + tau) / cos psi is D over the driven wheel's distance from the normal
-        return self.D * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
+        return abs(self.D) * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
 
     # --------------------------------------------------------------------------------------------------------- recess
 
@@ -114,7 +119,9 @@ class ToothCouple:
         sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         foot = self.R2 * self.cos2
-        arm = m.sqrt(foot * foot - W)
+        square = foot * foot - W
+        # below 0 where teeth overlap down past their flanks; the greater of it and 0, for arrays and numbers
+        arm = self.sign2 * m.sqrt((square + abs(square)) / 2)
         # the lesser root foot - arm as a quotient: the difference would cancel
         v = W / (foot + arm)
         across, along = self.R1 * sine, self.R2 - self.delta + 2 * self.R1 * u * u
@@ -125,7 +132,7 @@ class ToothCouple:
     def recess_angle(self, x: Any, m: ModuleType = math) -> Any:
         """alpha_2 in recess, Eq. (17) with its quadrants."""
         *_, sin_y, cos_y = self._apex(x, m)
-        return m.atan2(sin_y, cos_y)
+        return self.side * m.atan2(sin_y, cos_y)
 
     def _turned(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
         """arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, sine of x."""
@@ -139,7 +146,7 @@ class ToothCouple:
 
     def _arms_at_apex(self, apex: DrivenApex) -> tuple[Any, Any]:
         arm, q, *_ = self._turned(apex)
-        return self.R1 * q, arm
+        return self.mirror * self.R1 * q, self.sign2 * arm
 
     def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
         """tau in recess, Eq. (19)."""
@@ -156,17 +163,18 @@ class ToothCouple:
         """
         arm, q, s, sin_psi, cos_psi, _ = self._turned(self._apex(x, m))
         tau = self.R1 * q / arm
-        return tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
+        return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
         """Side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
         arm, q, s, _, _, sine = self._turned(self._apex(x, m))
-        return m.copysign(1.0, sine), self.R2 * self.sin2 / arm, s / q
+        mirror = self.mirror
+        return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
         """Speed of sliding in recess over the driver's: R1 |sin x| / cos psi2 times 1 + tau."""
         sine, _, arm, _, _ = self._apex(x, m)
-        return self.D * self.R1 * abs(sine) / arm
+        return abs(self.D * self.R1 * sine / arm)
 
     # ------------------------------------------------------------------------------------------------------- returning
 
@@ -209,7 +217,7 @@ class ToothCouple:
             return self._angle_on_flank(line, m), self._speed_on_flank(line)
         apex = self._apex(x, m)
         *_, sin_y, cos_y = apex
-        return m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
+        return self.side * m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """d tau / d alpha_1 (1/rad)."""
@@ -248,7 +256,7 @@ class ToothCouple:
     def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """O1C: where the common normal meets the line of centres, from the driver's axis, docs/teeth.md (11b)."""
         n1, n2 = self.normal_arms(phase, x, m)
-        return self.D * n1 / (n1 + n2)
+        return self.D * self.mirror * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
         """f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact, whatever the phase."""

@@ -26,14 +26,9 @@ _PLACE = ("pair", "drives", "clearance", "window", "verdict")
 _LAW = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
 
 
-def _factor(excess: float) -> float:
-    """The clearance factor of an excess."""
-    return 1 + excess
-
-
 _WINDOW = (
-    *(Key("jam", to=_factor), "jam_kind", Key("run", to=_factor), "run_kind"),
-    *(Key("reach", to=_factor), "works"),
+    *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
+    *(Key("reach", "reach_factor"), "works"),
 )
 _SIZES = (
     *("radii", "half_angles", "depths", Key("centre_distance", "D")),
@@ -54,7 +49,7 @@ class TriangularFigures(PairFigures):
 
     KEYS = (
         *PairFigures.KEYS,
-        *(Key("clearance", "sizes.excess", _factor), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
+        *(Key("clearance", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
         *(Key("intervals", keys=("phase", "start", "end")), "jumps", "impacts"),
     )
 
@@ -75,9 +70,11 @@ def triangular_account(mesh: TriangularMesh) -> PairAccount:
 def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
     law, window = mesh.law, mesh.window
     where = (
-        "-" if window is None else f"{1 + window.jam:.5f} {window.jam_kind} .. {1 + window.run:.5f} {window.run_kind}"
+        "-"
+        if window is None
+        else f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
     )
-    return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
+    return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{law.sizes.clearance_factor:.6g}", where, law.verdict.kind)
 
 
 def _law_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from geartrain.teeth.triangular.triangular_form import OTHER_SHAPES
+
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -13,18 +15,19 @@ def explain_clearance(law: TriangularTransmission, window: ClearanceWindow | Non
     """Why a pair does not turn, and what would let it: the window of clearance, and which end was passed."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
-    excess = law.sizes.excess
+    excess, jam, run = law.sizes.excess, window.jam_factor, window.run_factor
     if not window:
         return (
-            f"up to a clearance factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from "
-            f"{1 + window.run:.6g} on {window.run_kind}: no clearance works",
-            "use more teeth, a ratio nearer to 1, or another half_angle",
+            f"up to a clearance factor of {jam:.6g} there is {window.jam_kind}, and from "
+            f"{run:.6g} on {window.run_kind}: no clearance works",
+            OTHER_SHAPES[bool(law.sizes.ring)],
         )
-    end = "below" if excess < window.jam else "above"
+    factor = window.factor(excess)
+    end = "below" if factor < min(jam, run) else "above"
     return (
-        f"the clearance factor {1 + excess:.6g} is {end} the window of this pair, {1 + window.jam:.6g} "
-        f"({window.jam_kind}) to {1 + window.run:.6g} ({window.run_kind})",
-        f"give a clearance between the two, or `window: 0.5`, which is {1 + window.at(0.5):.6g}",
+        f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
+        f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
+        f"give a clearance between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
@@ -28,7 +30,13 @@ FEWEST = 3
 _UNLIKE = 10  # how far radii may be from the ratio of their teeth
 _THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
 TRIANGULAR_SCOPE = (
-    "the model covers external pairs of spur wheels, no rings, racks or bevels; a contrate is taken for a spur wheel"
+    "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate is taken for a spur wheel"
+)
+
+
+OTHER_SHAPES = (
+    "use more teeth, a ratio nearer to 1, or another half_angle",
+    "use `radii: pitch_true` (teeth of equal depth do not suit a ring), more teeth, or another half_angle",
 )
 
 
@@ -59,9 +67,15 @@ class Triangular(ToothForm):
         description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
     clearance: Figure | None = Field(
-        None, description="Centre distance over its least, where a tip would touch the bottom of a space; above 1"
+        None,
+        description="Centre distance over that at which a tip touches the bottom of a space: above 1, in a ring "
+        "below 1",
     )
-    excess: Figure | None = Field(None, description="Clearance factor less 1, above 0")
+    excess: Figure | None = Field(
+        None,
+        description="The part of that distance by which the wheels are apart, above 0: clearance less 1, in a ring 1 "
+        "less clearance",
+    )
     backlash: Length | None = Field(
         None, description="Least play over a pitch, as an arc of the second wheel's pitch circle"
     )
@@ -69,10 +83,11 @@ class Triangular(ToothForm):
     window: Figure | None = Field(
         None, description="Where between jamming (0) and losing contact (1) the clearance lies"
     )
-    radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure = Field(
-        "equal_depth",
-        description="How the outer radii follow from the tooth numbers, or the two radii themselves, or one number: "
-        "the second over the first, in the ratio of their teeth (1 is pitch_true)",
+    radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
+        None,
+        description="How the tip radii follow from the tooth numbers, or the two radii themselves, or one number: "
+        "the second over the first, in the ratio of their teeth (1 is pitch_true). Default equal_depth, with a ring "
+        "pitch_true",
     )
 
     @model_validator(mode="after")
@@ -103,7 +118,7 @@ class Triangular(ToothForm):
 
     def _check_clearance(self) -> None:
         bounds = (
-            (self.clearance, 1, None, "a clearance factor is above 1: at 1 a tip touches the bottom of a space"),
+            (self.clearance, 0, None, "a clearance factor is above 1, in a ring between 0 and 1"),
             (self.excess, 0, None, "an excess is above 0: at 0 a tip touches the bottom of a space"),
             (self.window, 0, 1, "a window's fraction lies between 0, jamming, and 1, losing contact"),
         )
@@ -168,7 +183,7 @@ class Triangular(ToothForm):
         bool
             True where lengths with a unit are declared, or radii follow from a module.
         """
-        return self.has_lengths or (module is not None and isinstance(self.radii, str))
+        return self.has_lengths or (module is not None and not isinstance(self.radii, Figure | tuple))
 
     # ------------------------------------------------------------------------------------------------------- a pair
 
@@ -180,13 +195,13 @@ class Triangular(ToothForm):
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving: a contrate is as a spur wheel, rings and bevels are refused."""
+        """The mesh of a pair, its first wheel driving: a contrate is as a spur wheel, bevels are refused."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle
         if why := refusal(wheels.kinds, any(wheels.internal)):
             raise refused("it cannot have triangular teeth", why, f"{TRIANGULAR_SCOPE}; {IDEAL}")
-        law = self.law(*wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.distance)
+        law = self.law(*wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring)
         return TriangularMesh(wheels, self, wheels.driver, law)
 
     def own_play(self, pair: str) -> Problem:
@@ -203,7 +218,9 @@ class Triangular(ToothForm):
             "leave --backlash out, or declare more `clearance`",
         )
 
-    def sizes(self, z1: int, z2: int, pitch_distance: float | None = None) -> TriangularSizes:
+    def sizes(
+        self, z1: int, z2: int, pitch_distance: float | None = None, ring: Literal[0, 1, 2] = 0
+    ) -> TriangularSizes:
         """Radii, half angles and clearance of a pair.
 
         Parameters
@@ -211,42 +228,64 @@ class Triangular(ToothForm):
         z1, z2 : int
             Teeth of the driver and of the driven wheel, 3 or more.
         pitch_distance : float, optional
-            Half the module of each wheel times its teeth, summed [m]; the least centre distance.
+            Half the module of each wheel times its teeth, summed, of a ring subtracted [m]; the centre distance at
+            which a tip touches the bottom of a space.
+        ring : {0, 1, 2}
+            Which wheel has its teeth inside; 0 for an external pair.
 
         Returns
         -------
         TriangularSizes
-            Lengths in m, or in the unit of plain radii, or with an outer radius of 1 where nothing gives a length.
+            Lengths in m, or in the unit of plain radii, or with a tip radius of 1 where nothing gives a length.
 
         Raises
         ------
         GearTrainError
             Where the declaration gives no pair that can be built.
         """
-        from geartrain.teeth.triangular.clearance_window import excess_of_backlash
-        from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
-
         for z in (z1, z2):
             if z < FEWEST:
                 what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
                 raise refused(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
+        if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
+            what = f"a ring of {(z1, z2)[ring - 1]} teeth has no room for a wheel of {(z2, z1)[ring - 1]}"
+            raise refused(what, "it needs one tooth more at least", "give the ring more teeth")
+        sizes = self._placed(self._unplaced(z1, z2, ring), pitch_distance)
+        if sizes.surrounds:
+            raise refused(
+                "the teeth overlap all round",
+                f"the tips of the ring lie {sizes.D:.6g} or less within those of its wheel on every side",
+                "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
+            )
+        return sizes
+
+    def _unplaced(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
+        """The two wheels, at the distance at which a tip touches the bottom of a space."""
+        from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
+
         beta1, beta2 = (angle.si for angle in self.half_angle)
-        if self.radii == "pitch_true":
+        radii = self.radii or ("pitch_true" if ring else "equal_depth")
+        if radii == "pitch_true":
             R1, R2 = pitch_true(z1, z2)
-        elif self.radii == "equal_depth":
-            R1, R2 = equal_depth(z1, z2, beta1, beta2)
-        elif isinstance(self.radii, Figure):
-            R1, R2 = 1.0, float(self.radii.value) * z2 / z1
+        elif radii == "equal_depth":
+            R1, R2 = equal_depth(z1, z2, beta1, beta2, ring)
+        elif isinstance(radii, Figure):
+            R1, R2 = 1.0, float(radii.value) * z2 / z1
         else:
-            R1, R2 = (radius.si for radius in self.radii)
-        sizes = TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0)
+            R1, R2 = (radius.si for radius in radii)
+        return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
+
+    def _placed(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
+        """The same wheels at the declared clearance, and in m where a pitch distance is given."""
+        from geartrain.teeth.triangular.clearance_window import excess_of_backlash
+
         if not sizes.has_valleys:
-            return sizes.at(self._factor())
+            return sizes.at(self._factor(sizes))
         if not self._given_radii and pitch_distance is not None:
-            scale = pitch_distance / sizes.least_distance
-            sizes = TriangularSizes(z1, z2, R1 * scale, R2 * scale, beta1, beta2, 0.0)
+            scale = pitch_distance / sizes.deepest_distance
+            sizes = replace(sizes, R1=sizes.R1 * scale, R2=sizes.R2 * scale)
         if self.clearance is not None or self.excess is not None:
-            return sizes.at(self._factor())
+            return sizes.at(self._factor(sizes))
         if self.window is not None:
             window = sizes_window(sizes)
             return sizes.at(window.at(float(self.window.value)))
@@ -259,14 +298,23 @@ class Triangular(ToothForm):
                 "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
             )
         if self.centre_distance is not None:
-            return sizes.at(self.centre_distance.si / sizes.least_distance - 1)
+            return sizes.at(sizes.side * (self.centre_distance.si / sizes.deepest_distance - 1))
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
-    def _factor(self) -> float:
-        """The declared excess, taken exactly before it is rounded."""
+    def _factor(self, sizes: TriangularSizes) -> float:
+        """The declared excess, taken exactly before it is rounded. Raises `GearTrainError` where it is below 0."""
         if self.excess is not None:
             return float(self.excess.value)
-        return float(self.clearance.value - 1) if self.clearance is not None else 0.0
+        excess = Fraction(0) if self.clearance is None else sizes.side * (self.clearance.value - 1)
+        if excess < 0:
+            assert self.clearance is not None
+            deepest = "maximum, in a ring" if sizes.ring else "minimum"
+            raise refused(
+                f"a clearance factor of {self.clearance.text} presses a tip into the bottom of a space",
+                f"the centre distance at which a tip touches the bottom is the {deepest}",
+                f"give a factor {'below' if sizes.ring else 'above'} 1, or `excess`",
+            )
+        return float(excess)
 
     def law(
         self,
@@ -276,6 +324,7 @@ class Triangular(ToothForm):
         driver: int = 1,
         direction: int = 1,
         pitch_distance: float | None = None,
+        ring: Literal[0, 1, 2] = 0,
     ) -> TriangularTransmission:
         """The transmission function of a pair.
 
@@ -291,6 +340,8 @@ class Triangular(ToothForm):
             -1 turns back, on the other flanks.
         pitch_distance : float, optional
             As in `sizes` [m].
+        ring : {0, 1, 2}
+            Which wheel has its teeth inside; 0 for an external pair.
 
         Returns
         -------
@@ -304,15 +355,16 @@ class Triangular(ToothForm):
         """
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-        sizes = self.sizes(z1, z2, pitch_distance)
+        sizes = self.sizes(z1, z2, pitch_distance, ring)
         return TriangularTransmission(sizes if driver == 1 else sizes.swapped(), friction, direction)
 
 
 def refusal(kinds: tuple[str, str], internal: bool) -> str:
     """Why a pair cannot have triangular teeth; empty if it can."""
-    if internal:
-        return "a ring has its teeth inside"
-    odd = [kind for kind in kinds if kind not in ("spur", "contrate")]
+    known = ("spur",) if internal else ("spur", "contrate")
+    odd = [kind for kind in kinds if kind not in known]
+    if odd and internal:
+        return f"a {odd[0]} wheel does not mesh with a ring as a spur wheel does"
     return f"a {odd[0]} wheel does not mesh as two spur wheels do" if odd else ""
 
 
@@ -324,8 +376,8 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
     if not window:
         raise refused(
             f"no clearance lets {sizes.z1} and {sizes.z2} triangular teeth turn",
-            f"up to a factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from {1 + window.run:.6g} on "
-            f"{window.run_kind}",
-            "use more teeth, a ratio nearer to 1, or another half_angle",
+            f"up to a factor of {window.jam_factor:.6g} there is {window.jam_kind}, and from "
+            f"{window.run_factor:.6g} on {window.run_kind}",
+            OTHER_SHAPES[bool(sizes.ring)],
         )
     return window

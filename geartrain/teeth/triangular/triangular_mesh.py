@@ -32,6 +32,7 @@ class TriangularTooth(WheelRequirement):
     z: int
     tip_radius: float
     half_angle: float
+    ring: bool = False
 
     @property
     def tip(self) -> float:
@@ -51,9 +52,14 @@ class TriangularTooth(WheelRequirement):
 
         del others
         tip, half = self.tip_radius, pi / self.z
-        root = tip * (1 - depth(self.z, self.half_angle))
+        root = tip * (1 - depth(-self.z if self.ring else self.z, self.half_angle))
         corners = ((root, -half), (tip, 0.0), (root, half))
-        return CutTooth("external", tip, root, tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in corners))
+        return CutTooth(
+            "ring" if self.ring else "external",
+            tip,
+            root,
+            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in corners),
+        )
 
 
 @dataclass(frozen=True)
@@ -111,29 +117,30 @@ class TriangularMesh(GearMesh):
         """Of the centre distance that the law has, where that is in m; else as large as the modules say."""
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
-        z1, z2 = self.wheels.counts
-        return self.law.sizes.D * z1 / (z1 + z2)
+        return self.law.sizes.D * self.wheels.counts[0] / self.law.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
         """A point at the tip radius; straight flanks need no tolerance."""
         del tolerance
         sizes = self.law.sizes
-        z, R, beta = (sizes.z1, sizes.R1, sizes.beta1) if wheel == self.driver else (sizes.z2, sizes.R2, sizes.beta2)
-        return TriangularTooth(z, R * scale, beta)
+        at = 0 if wheel == self.driver else 1
+        z, R, beta = (sizes.z1, sizes.z2)[at], sizes.radii[at], sizes.half_angles[at]
+        return TriangularTooth(z, R * scale, beta, sizes.signs[at] < 0)
 
     @cached_property
     def separation(self) -> float:
         """Mean force between the axes over that along the pitch circles, under a constant torque on the driven wheel.
 
-        The normal leans by psi against the pitch line and passes both centres at n1 + n2 = D cos(psi): (31) of
-        docs/strength.md.
+        The normal leans by psi against the pitch line and passes both centres at n1 + n2 = D cos(psi), with a ring at
+        the difference: (31) of docs/strength.md.
         """
         sizes, arms = self.law.sizes, self.law.contact.path.couple.normal_arms
-        radius, total, whole = sizes.D * sizes.z2 / (sizes.z1 + sizes.z2), 0.0, 0.0
+        radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0
+        s1, s2 = sizes.signs
         for interval, x, weights in self.law.nodes:
             if interval.held is None:
                 n1, n2 = arms(interval.phase, x, np)
-                total += float(weights @ (radius / n2 * np.sqrt(1 - ((n1 + n2) / sizes.D) ** 2)))
+                total += float(weights @ (radius / n2 * np.sqrt(1 - ((s1 * n1 + s2 * n2) / sizes.D) ** 2)))
                 whole += float(weights.sum())
         return total / whole
 

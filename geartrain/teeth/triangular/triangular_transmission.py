@@ -90,7 +90,7 @@ class TriangularTransmission(TransmissionFunction):
     def sliding(self, phase: str, x: Floats) -> Floats:
         """Speed of sliding at alpha_1 = x (rad) over that of the pitch line."""
         sizes = self.sizes
-        found: Floats = self.contact.path.couple.sliding(phase, x, np) * (sizes.z1 + sizes.z2) / (sizes.D * sizes.z1)
+        found: Floats = self.contact.path.couple.sliding(phase, x, np) * sizes.pitch_sum / (sizes.D * sizes.z1)
         return found
 
     def coefficient(self, phase: str, x: Floats, by: PairFriction | None) -> float | Floats:

@@ -89,7 +89,7 @@ def _teeth(wheel: CutWheel, trials: int) -> ToothArrays:
 
 def _sizes(pair: CutGearPair) -> CutPairSizes:
     at = pair.sizes
-    return CutPairSizes(at.z1, at.z2, pair.count, at.R1, at.R2, at.D, at.delta, at.p1, at.p2)
+    return CutPairSizes(at.z1, at.z2, pair.count, *at.signed_radii, at.side * at.D, at.delta, at.p1, at.p2, at.side)
 
 
 def _candidates(pair: CutGearPair) -> JamCandidates:

@@ -5,7 +5,7 @@ There they serve arrays, here a loop over teeth that is compiled. Equations are 
 
 from __future__ import annotations
 
-from math import asin, atan2, cos, inf, sin, sqrt
+from math import asin, atan2, copysign, cos, inf, sin, sqrt
 from typing import NamedTuple
 
 from geartrain.numerics.kernels import kernel
@@ -32,10 +32,12 @@ def make_couple(
     R1: float, R2: float, D: float, delta: float, flank1: tuple[float, float], flank2: tuple[float, float]
 ) -> CutCouple:
     """A couple of two teeth; `flank1` and `flank2` are sine and cosine of the half angles that meet."""
+    mirror = copysign(1.0, R1)
     entry, leaving = _half_sine(R1, R2, D, delta), _half_sine(R2, R1, D, delta)
     # tips that pass clear of each other touch nowhere
     reach = 2.0 * asin(entry) if delta > 0 else -inf
-    return CutCouple(R1, R2, D, delta, flank1[0], flank1[1], flank2[0], flank2[1], entry, reach, -2.0 * asin(leaving))
+    sin1, sin2 = mirror * flank1[0], mirror * flank2[0]
+    return CutCouple(R1, R2, D, delta, sin1, flank1[1], sin2, flank2[1], entry, reach, -2.0 * asin(leaving))
 
 
 @kernel
@@ -54,11 +56,12 @@ def approach(couple: CutCouple, x: float) -> tuple[float, float, float]:
     c = (2 * couple.R1 * u * (couple.cos1 * w - couple.sin1 * u) - couple.delta * sin_psi) / couple.R2
     s = sin_psi + c
     q = sqrt(abs((1 - s) * (1 + s)))
-    y = asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
+    side = copysign(1.0, couple.D)
+    y = side * asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
     W = 4 * couple.D * couple.R1 * (couple.entry - u) * (couple.entry + u)
     arm = couple.R1 * couple.cos1 - W / (couple.D * cos_psi - couple.R1 * couple.cos1 + couple.R2 * q)
     tau = arm / (couple.R2 * q)
-    return y, tau, (1 + tau) * ((1 + tau) * s / q - sin_psi / cos_psi)
+    return y, side * tau, side * (1 + tau) * ((1 + tau) * s / q - sin_psi / cos_psi)
 
 
 @kernel
@@ -68,7 +71,7 @@ def recess(couple: CutCouple, x: float) -> tuple[float, float, float]:
     sine, cosine = 2 * u * cos(x / 2), 1 - 2 * u * u
     W = 4 * couple.D * couple.R1 * (couple.entry - u) * (couple.entry + u)
     foot = couple.R2 * couple.cos2
-    arm = sqrt(foot * foot - W)
+    arm = copysign(sqrt(max(foot * foot - W, 0.0)), couple.R2)
     v = W / (foot + arm)
     across, along = couple.R1 * sine, couple.R2 - couple.delta + 2 * couple.R1 * u * u
     inner, outer = couple.R2 - v * couple.cos2, v * couple.sin2
@@ -78,7 +81,12 @@ def recess(couple: CutCouple, x: float) -> tuple[float, float, float]:
     cos_psi = couple.cos2 * cos_y + couple.sin2 * sin_y
     q, s = cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine
     tau = couple.R1 * q / arm
-    return atan2(sin_y, cos_y), tau, tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
+    side = copysign(1.0, couple.D)
+    return (
+        side * atan2(sin_y, cos_y),
+        side * tau,
+        side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi),
+    )
 
 
 @kernel

@@ -33,17 +33,19 @@ _CONSTANTS = ("R1", "R2", "D", "delta", "sin1", "cos1", "sin2", "cos2", "entry",
 class CutToothPairs(ToothCouple):
     """Couples of a driver's and a driven tooth; all arrays broadcast against each other and the angles asked for.
 
-    R1, R2         radii of the tips
+    R1, R2         radii of the tips, that of a ring negative
     beta1, beta2   half angles of the two flanks that meet (rad)
-    D, delta       centre distance, and R1 + R2 - D given apart: it must not suffer from cancellation
+    D, delta       centre distance, negative in an internal pair, and R1 + R2 - D given apart: it must not suffer from
+                   cancellation
     """
 
     __slots__ = ("exit_angle", "reach")
 
     def __init__(self, R1: Any, R2: Any, beta1: Any, beta2: Any, D: Any, delta: Any) -> None:
         self.R1, self.R2, self.D, self.delta = R1, R2, D, delta
-        self.sin1, self.cos1 = np.sin(beta1), np.cos(beta1)
-        self.sin2, self.cos2 = np.sin(beta2), np.cos(beta2)
+        self.mirror, self.sign2, self.side = (-1 if np.any(np.asarray(each) < 0) else 1 for each in (R1, R2, D))
+        self.sin1, self.cos1 = self.mirror * np.sin(beta1), np.cos(beta1)
+        self.sin2, self.cos2 = self.mirror * np.sin(beta2), np.cos(beta2)
         self.leans = False
         self.entry = _half_sine(R1, R2, D, delta)
         # tips that pass clear of each other touch nowhere
@@ -53,18 +55,19 @@ class CutToothPairs(ToothCouple):
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
         """Couples of the teeth of a pair: tips higher and half angles wider by so much, axles so much farther apart."""
+        R1, R2 = sizes.signed_radii
         return cls(
-            sizes.R1 + tips[0],
-            sizes.R2 + tips[1],
+            R1 + tips[0],
+            R2 + tips[1],
             sizes.beta1 + flanks[0],
             sizes.beta2 + flanks[1],
-            sizes.D + shift,
-            sizes.delta + (tips[0] + tips[1]) - shift,
+            sizes.side * (sizes.D + shift),
+            sizes.delta + (tips[0] + tips[1]) - sizes.side * shift,
         )
 
     def contact(self, x: Any) -> Any:
         """f(x) = min(approach, recess): alpha_2 at first contact, where |x| is within the reach."""
-        return np.minimum(self.approach_angle(x, np), self.recess_angle(x, np))
+        return np.fmin(self.approach_angle(x, np), self.recess_angle(x, np))  # far out of reach one is no number
 
     def approaches(self, x: Any) -> Any:
         """True where the contact at x is in approach."""
@@ -77,7 +80,7 @@ class CutToothPairs(ToothCouple):
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
         """Some of the couples, or all in another order: `pick` of every constant."""
         found = CutToothPairs.__new__(CutToothPairs)
-        found.leans = False
+        found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
         for name in _CONSTANTS:
             setattr(found, name, pick(getattr(self, name)))
         return found
@@ -89,8 +92,9 @@ class CutToothPairs(ToothCouple):
     @property
     def leaning(self) -> NDArray[np.bool_]:
         """True where a flank leans beyond the perpendicular where the tips meet."""
-        flank = np.arcsin(np.clip(np.maximum(self.sin1, self.sin2), -1.0, 1.0))
-        found: NDArray[np.bool_] = np.asarray(flank + np.maximum(self.reach, 0.0) - self.exit_angle >= np.pi / 2)
+        flank = np.arcsin(np.clip(np.maximum(abs(self.sin1), abs(self.sin2)), -1.0, 1.0))
+        turned = np.maximum(self.reach, 0.0) - self.side * self.exit_angle
+        found: NDArray[np.bool_] = np.asarray(flank + turned >= np.pi / 2)
         return found
 
     @property
@@ -157,11 +161,11 @@ class CutGearPair:
     def widest(self) -> float:
         """No couple reaches farther (rad of the driver); -inf where none touches."""
         one, two, sizes = self.first, self.second, self.sizes
-        least = float(np.min(self.shift))
-        tips = float(one.tip.max()) + float(two.tip.max())
-        R1, R2 = sizes.R1 + float(one.tip.min()), sizes.R2 + float(two.tip.max())
-        farthest = CutToothPairs(R1, R2, sizes.beta1, sizes.beta2, sizes.D + least, sizes.delta + tips - least)
-        return float(farthest.reach)
+        shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
+        R1, R2 = sizes.signed_radii
+        low, high = R1 + float(one.tip.min()), R2 + float(two.tip.max())
+        delta = sizes.delta + float(one.tip.max()) + float(two.tip.max()) - sizes.side * shift
+        return float(CutToothPairs(low, high, sizes.beta1, sizes.beta2, sizes.side * (sizes.D + shift), delta).reach)
 
     @cached_property
     def leans(self) -> Bools:

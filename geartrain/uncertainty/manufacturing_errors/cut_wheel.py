@@ -3,7 +3,8 @@
 Teeth are numbered in the order in which they pass the line of centres as the wheel turns forward. The tip of tooth i
 stands at the angle i p + place[i] behind that of an even wheel's tooth 0 (p the pitch), at radius R + tip[i]; its
 flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip. The leading flank looks
-forward: it pushes where the wheel drives, and the trailing flank is pushed where it is driven.
+forward: it pushes where the wheel drives, and the trailing flank is pushed where it is driven. The radius of a ring is
+negative, as in the equations of its pair: a tip that is higher lies farther inwards.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ class CutWheel:
     Attributes
     ----------
     radius : float
-        Outer radius R of the even wheel [any one unit].
+        Tip radius R of the even wheel [any one unit], negative for a ring.
     half_angle : float
         Half aperture of its teeth [rad].
     place : ndarray
@@ -88,7 +89,7 @@ class CutWheel:
         z : int
             Tooth number.
         radius : float
-            Outer radius [any one unit].
+            Tip radius [any one unit], negative for a ring.
         half_angle : float
             Half aperture of its teeth [rad].
         """
@@ -123,7 +124,7 @@ class CutWheel:
                     f"give {even.z} values of each, in the order in which teeth pass",
                 )
             )
-        place, tip = teeth[0] - np.arange(even.z) * even.pitch, teeth[1] - even.radius
+        place, tip = teeth[0] - np.arange(even.z) * even.pitch, even.sign * teeth[1] - even.radius
         return replace(
             even, place=place, tip=tip, leading=teeth[2] - even.half_angle, trailing=teeth[3] - even.half_angle
         ).checked()
@@ -141,6 +142,11 @@ class CutWheel:
         return np.broadcast_shapes(*(each.shape[:-1] for each in (self.place, self.tip, self.leading, self.trailing)))
 
     @property
+    def sign(self) -> int:
+        """-1 for a ring, else 1."""
+        return -1 if self.radius < 0 else 1
+
+    @property
     def pitch(self) -> float:
         """Even pitch (rad)."""
         return 2 * pi / self.z
@@ -152,7 +158,7 @@ class CutWheel:
 
     @property
     def r(self) -> Floats:
-        """Radius of every tip."""
+        """Radius of every tip, negative in a ring."""
         return self.radius + self.tip
 
     @property
@@ -227,16 +233,28 @@ class CutWheel:
         towards : array_like
             Direction of the centre from the axle [rad].
         """
+        return self.moved(e, towards).checked()
+
+    def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
+        """The wheel of `eccentric`, whether its teeth can be cut or not.
+
+        Parameters
+        ----------
+        e : array_like
+            Distance of the two centres, one or one for each trial [as R].
+        towards : array_like
+            Direction of the centre of the teeth from the axle [rad].
+        """
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
-        out, turned = displaced(self.r, self.theta, far, direction)
-        return CutWheel(
-            self.radius,
-            self.half_angle,
-            self.place + turned,
-            self.tip + out,
-            self.leading - turned,
-            self.trailing + turned,
-        ).checked()
+        out, turned = displaced(np.abs(self.r), self.theta, far, direction)
+        lean = self.sign * turned
+        return replace(
+            self,
+            place=self.place + turned,
+            tip=self.tip + self.sign * out,
+            leading=self.leading - lean,
+            trailing=self.trailing + lean,
+        )
 
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
         """The same teeth with flanks lowered along their normals: each tip moves down the other flank.
@@ -250,10 +268,11 @@ class CutWheel:
         # the other flank meets the lowered one this much farther down
         down, across = 1 / np.sin(ahead + behind), trailing * np.sin(ahead) - leading * np.sin(behind)
         radial = self.r - down * (leading * np.cos(behind) + trailing * np.cos(ahead))
-        late = -np.arctan2(down * across, radial)
-        tip = np.hypot(radial, down * across) - self.radius
+        late = -np.arctan2(down * across, np.abs(radial))
+        tip = self.sign * np.hypot(radial, down * across) - self.radius
+        lean = self.sign * late
         return replace(
-            self, place=self.place + late, tip=tip, leading=self.leading - late, trailing=self.trailing + late
+            self, place=self.place + late, tip=tip, leading=self.leading - lean, trailing=self.trailing + lean
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
@@ -297,9 +316,9 @@ class CutWheel:
         gap = self.pitch + np.roll(self.place, -1, -1) - self.place
         near, far = np.broadcast_arrays(self.r, np.roll(self.r, -1, -1))
         # the angle at each tip between its radius and the line to the other tip; the flanks must lie inside both
-        at_near = np.arctan2(far * np.sin(gap), near - far * np.cos(gap))
-        at_far = np.arctan2(near * np.sin(gap), far - near * np.cos(gap))
+        at_near = np.arctan2(np.abs(far) * np.sin(gap), near - far * np.cos(gap))
+        at_far = np.arctan2(np.abs(near) * np.sin(gap), far - near * np.cos(gap))
         trailing, leading = self.half_angle + self.trailing, self.half_angle + np.roll(self.leading, -1, -1)
-        good = (near > 0) & (gap > 0) & (gap < pi) & (trailing > 0) & (leading > 0)
+        good = (self.sign * near > 0) & (gap > 0) & (gap < pi) & (trailing > 0) & (leading > 0)
         tipped: NDArray[np.bool_] = good & (trailing < at_near) & (leading < at_far)
         return tipped

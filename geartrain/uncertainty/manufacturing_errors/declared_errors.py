@@ -51,7 +51,8 @@ class ErrorOverride:
 class WheelErrors:
     """How one wheel is cut.
 
-    pitch, half_angle  of the even wheel (rad); `depth` of its teeth over its outer radius
+    pitch, half_angle  of the even wheel (rad); `depth` of its teeth over the radius of its tips
+    ring               its teeth are inside
     errors             by kind: placement in pitches, aperture in half angles, the others in depths
     towards            where its middle lies from the axle, from the first tooth (rad); None for anywhere
     tables             measured tooth by tooth, by kind, in the same fractions
@@ -65,6 +66,7 @@ class WheelErrors:
     towards: float | None = None
     tables: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     displaced: DisplacedWheelSizes | None = None
+    ring: bool = False
 
     @property
     def pitch(self) -> float:
@@ -73,8 +75,8 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Depth of a tooth over the outer radius; of displaced flanks in modules, or rad on cones."""
-        return self.displaced.depth if self.displaced else depth(self.z, self.half_angle)
+        """Depth of a tooth over the radius of the tips; of displaced flanks in modules, or rad on cones."""
+        return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property
     def true(self) -> bool:
@@ -195,7 +197,8 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
             deep = even.depth * even.displaced.modules * module
         else:
             # the pitch circle lies half way down the tooth
-            deep = even.depth * module * even.z / 2 / (1 - even.depth / 2)
+            half = even.depth / 2
+            deep = even.depth * module * even.z / 2 / (1 + half if even.ring else 1 - half)
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
     return {"placement": even.pitch, "aperture": 2 * even.half_angle, **lengths}
 

@@ -65,13 +65,14 @@ class FileableCutPair:
         flank = out.argmax(axis=0)
         # a flank leans by its half angle and, where it touches, by the reach: the arm is no shorter than this
         lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
-        gain = 1 / ((sizes.R2 - sizes.depths[1]) * max(cos(min(lean, 1.4)), 0.1))
+        nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
+        gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
         return TightPlace(play, flank // 2, teeth[flank, rows], flank % 2, np.full(len(play), gain))
 
 
 def _stands_out(wheel: CutWheel, side: int) -> Floats:
     """How far each flank, leading or trailing, stands out along its normal half way down the tooth, (trials, z)."""
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
-    half = (wheel.radius - wheel.radius * cos(np.pi / wheel.z)) / 2
-    found = cos(wheel.half_angle) * wheel.r * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean
+    half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
+    found = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean
     return np.broadcast_to(found, (*wheel.trials, wheel.z)) if wheel.trials else found[None]

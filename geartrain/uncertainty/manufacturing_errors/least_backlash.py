@@ -91,7 +91,7 @@ def least_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
     with np.errstate(all="ignore"):
         values = [least_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
         ends = [np.where(low < high, front.contact(x) + back.contact(delta - x), inf) for x in (low, high)]
-        return np.minimum.reduce(np.broadcast_arrays(*values, *ends))
+        return np.fmin.reduce(np.broadcast_arrays(*values, *ends))
 
 
 def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:

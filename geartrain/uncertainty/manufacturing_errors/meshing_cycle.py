@@ -143,7 +143,8 @@ class MeshingCycle:
             # the least of each trial comes last, and stays
             less = less[np.argsort(-exact[less], kind="stable")]
             where[0, rows[less]], where[1, rows[less]] = columns[less], n
-            np.minimum.at(play, rows, exact)
+            # tips that reach round a quarter of the wheel have no angle: such teeth jam at their other couples
+            np.fmin.at(play, rows, exact)
             open_[rows, columns] = False
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 

@@ -201,4 +201,4 @@ def _shifted(pair: CutGearPair) -> TriangularSizes:
     """The sizes at the centre distance the axles really have."""
     if not pair.shift:
         return pair.sizes
-    return pair.sizes.at((pair.sizes.D + pair.shift) / pair.sizes.least_distance - 1)
+    return pair.sizes.at(pair.sizes.side * ((pair.sizes.D + pair.shift) / pair.sizes.deepest_distance - 1))

@@ -26,7 +26,10 @@ class ToothArrays(NamedTuple):
 
 
 class CutPairSizes(NamedTuple):
-    """A pair as designed, and the couples of its cycle."""
+    """A pair as designed, and the couples of its cycle; `side` is -1 for an internal pair.
+
+    The radius of a ring and the centre distance of an internal pair are negative.
+    """
 
     z1: int
     z2: int
@@ -37,6 +40,7 @@ class CutPairSizes(NamedTuple):
     delta: float
     p1: float
     p2: float
+    side: int
 
 
 class JamCandidates(NamedTuple):

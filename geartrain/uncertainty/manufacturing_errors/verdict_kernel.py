@@ -78,8 +78,8 @@ def _fill(
             couple = make_couple(
                 sizes.R1 + tip1,
                 sizes.R2 + tip2,
-                sizes.D + shift,
-                sizes.delta + (tip1 + tip2) - shift,
+                sizes.D + sizes.side * shift,
+                sizes.delta + (tip1 + tip2) - sizes.side * shift,
                 (flank1[0], flank1[1]),
                 (flank2[0], flank2[1]),
             )
@@ -98,7 +98,8 @@ def _leans(front: Floats, back: Floats) -> bool:
     for k in range(len(front)):
         for side in range(2):
             row = front[k] if side == 0 else back[k]
-            sine, turned = max(row[4], row[6]), max(row[9], 0.0) - row[10]
+            side_of = -1.0 if row[2] < 0 else 1.0
+            sine, turned = max(abs(row[4]), abs(row[6])), max(row[9], 0.0) - side_of * row[10]
             upright = sine < _UPRIGHT[0] and turned < _UPRIGHT[1]
             if not upright and asin(min(max(sine, -1.0), 1.0)) + turned >= pi / 2:
                 return True

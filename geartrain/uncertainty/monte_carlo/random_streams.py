@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel, displaced
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
 
 if TYPE_CHECKING:
@@ -75,8 +75,8 @@ def draw_wheel(
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
     """Wheels, arrays (trials, z) where drawn, and whether each can be cut (trials,).
 
-    Triangular ones have the outer radius 1. Those that cannot be cut are handed back even, so that nothing downstream
-    meets teeth without tips.
+    Triangular ones have the tip radius 1, rings -1. Those that cannot be cut are handed back even, so that nothing
+    downstream meets teeth without tips.
     """
     shape = (trials, wheel.z)
     zero = np.zeros(wheel.z)
@@ -91,17 +91,14 @@ def draw_wheel(
     eccentric = _eccentric(wheel, item, streams, trials) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
         return _displaced(place, tip, flank, eccentric, trials)
-    leading = trailing = flank
+    cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
     if eccentric is not None:
-        e, towards = eccentric
-        out, turned = displaced(1.0 + tip, np.arange(wheel.z) * wheel.pitch + place, e[:, None], towards[:, None])
-        place, tip, leading, trailing = place + turned, tip + out, flank - turned, flank + turned
-    cut = CutWheel(1.0, wheel.half_angle, place, tip, leading, trailing)
+        cut = cut.moved(*eccentric)
     good = np.broadcast_to(cut.cuttable.all(axis=-1), (trials,))
     if good.all():
         return cut, good
-    kept = [np.where(good[:, None], each, 0.0) for each in (place, tip, leading, trailing)]
-    return CutWheel(1.0, wheel.half_angle, *kept), good
+    kept = [np.where(good[:, None], each, 0.0) for each in (cut.place, cut.tip, cut.leading, cut.trailing)]
+    return CutWheel(cut.radius, wheel.half_angle, *kept), good
 
 
 def _displaced(
@@ -122,6 +119,6 @@ def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, trials: in
 
 
 def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
-    """A wheel of radius 1 in the sizes of a pair, and as the pair sees it turn."""
-    found = CutWheel(radius, half_angle, wheel.place, radius * wheel.tip, wheel.leading, wheel.trailing)
+    """A wheel of radius 1, or a ring of -1, in the sizes of a pair, and as the pair sees it turn."""
+    found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
     return found.mirrored() if mirrored else found

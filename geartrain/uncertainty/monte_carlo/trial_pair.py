@@ -136,13 +136,14 @@ class TriangularTrialPair(TrialPair):
     def question(self) -> tuple[float, ...]:
         """Radii, half angles, distance."""
         sizes = self.sizes
-        return sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.excess
+        return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
         """Wheels of outer radius 1 in the sizes of the pair."""
         sizes = self.sizes
-        first = fitted(wheels[self.first], sizes.R1, sizes.beta1, self.mirrored[0])
-        second = fitted(wheels[self.second], sizes.R2, sizes.beta2, self.mirrored[1])
+        R1, R2 = sizes.signed_radii
+        first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
+        second = fitted(wheels[self.second], R2, sizes.beta2, self.mirrored[1])
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
@@ -174,7 +175,7 @@ class TriangularTrialPair(TrialPair):
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """A factor of the least centre distance (1 and above), or a share of the pair's own window."""
+        """1 and the excess, which of an external pair is its clearance factor, or a share of the pair's own window."""
         return replace(self, sizes=self._cleared(clearance))
 
     def _cleared(self, clearance: float) -> TriangularSizes:

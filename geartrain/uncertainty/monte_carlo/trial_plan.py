@@ -251,8 +251,9 @@ def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelEr
     counts = [train.declaration.wheels[name][1].count or 0 for name in (mesh.driver, mesh.driven)]
     contact = mesh.displaced_contact
     if contact is None:
-        angles = mesh.cut_sizes.beta1, mesh.cut_sizes.beta2
-        return WheelErrors(mesh.driver, counts[0], angles[0]), WheelErrors(mesh.driven, counts[1], angles[1])
+        named = zip((mesh.driver, mesh.driven), counts, mesh.cut_sizes.half_angles, mesh.cut_sizes.signs, strict=True)
+        driver, driven = (WheelErrors(name, z, angle, ring=sign < 0) for name, z, angle, sign in named)
+        return driver, driven
     first, second = contact.wheels
     return (
         WheelErrors(mesh.driver, counts[0], first.half_angle, displaced=first),

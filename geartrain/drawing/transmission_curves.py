@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from itertools import pairwise
 from math import degrees
 from textwrap import fill
@@ -89,7 +90,7 @@ def law_figure(law: TriangularTransmission, friction: PairFriction | None = None
         _panel(axes, law, row, friction)
     _matching(panels, law)
     _jumps(panels[1], law)
-    _instant_centre(panels[1])
+    _instant_centre(panels[1], law.sizes.signs)
     _arms_key(panels[-1])
     _time(panels[-1])
     panels[0].set_title(_title(law, friction), fontsize=TEXT, loc="left", color=BLACK)
@@ -149,7 +150,7 @@ def _values(
         eta = couple.efficiency(phase, x, rub, np)
         eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
         arms = couple.moment_arms(phase, x, rub, np)
-        rolling = (sizes.D * z / (sizes.z1 + sizes.z2) for z in (sizes.z1, sizes.z2))
+        rolling = (sizes.D * z / sizes.pitch_sum for z in (sizes.z1, sizes.z2))
         relative = tuple(arm / radius for arm, radius in zip(arms, rolling, strict=True))
         return (np.degrees(couple.angle(phase, x, np)),), (couple.speed(phase, x, np),), (eta,), relative
 
@@ -227,35 +228,38 @@ def _arms_key(axes: Axes) -> None:
     legend_above(axes, 2)
 
 
-def _centre_at(tau: Any) -> Any:
-    """O1C / D; an axis may show tau down to -1 beyond the real path, where there is none."""
-    return tau / np.maximum(1 + tau, 0.1)
+def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
+    """O1C / D; an axis may show tau beyond the real path, where there is none. `signs` are -1 for a ring."""
+    first, second = signs
+    return tau / np.maximum(first + second * tau, 0.1)
 
 
-def _ratio_at(centre: Any) -> Any:
+def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
     """tau of O1C / D."""
-    return centre / np.maximum(1 - centre, 0.1)
+    first, second = signs
+    return centre / np.maximum(first * (1 - second * centre), 0.1)
 
 
-def _centres(low: float, high: float) -> list[float]:
+def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
     """Places of the instant centre to write down between two speed ratios: round ones, far enough from each other."""
-    least, most = (float(_centre_at(tau)) for tau in (low, high))
+    least, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
         found = MaxNLocator(nbins=bins, steps=(1, 2, 2.5, 5, 10)).tick_values(least, most)
         ticks = [float(at) for at in found if least <= at <= most]
-        if all(_ratio_at(b) - _ratio_at(a) > (high - low) / (2 * _CENTRES) for a, b in pairwise(ticks)):
+        ratios = [float(_ratio_at(signs, at)) for at in ticks]
+        if all(abs(b - a) > (high - low) / (2 * _CENTRES) for a, b in pairwise(ratios)):
             break
     return ticks
 
 
-def _instant_centre(axes: Axes) -> None:
-    """Where the instant centre is on the line of centres, as a share of it: tau/(1 + tau)."""
-    beside = axes.secondary_yaxis("right", functions=(_centre_at, _ratio_at))
+def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
+    """The instant centre on the line of centres, over its length: tau/(1 + tau), with a ring tau/|1 - tau|."""
+    beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
     # on this bent scale numbers crowd where tau is near 0
-    beside.set_yticks(_centres(*axes.get_ylim()))
+    beside.set_yticks(_centres(signs, *axes.get_ylim()))
 
 
 def _time(axes: Axes) -> None:

@@ -530,6 +530,8 @@ def test_the_force_between_the_axes_is_that_of_the_drawn_normal() -> None:
             here = tooth_pair_pose(mesh.law, float(x))
             (px, py), (nx, ny) = here.contact, here.normal
             arm = abs((px - here.axis2) * ny - py * nx)
+            centre = mesh.law.contact.path.couple.instant_centre(here.phase, float(x))
+            assert here.centre[0] == pytest.approx(centre, rel=1e-9)
             found.append(sizes.D * sizes.z2 / 40 / arm * abs(nx))
         assert mesh.separation == pytest.approx(float(np.mean(found)), rel=1e-4)
 

@@ -256,7 +256,7 @@ class ToothCouple:
     def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """O1C: where the common normal meets the line of centres, from the driver's axis, docs/teeth.md (11b)."""
         n1, n2 = self.normal_arms(phase, x, m)
-        return self.D * self.mirror * n1 / (self.mirror * n1 + self.sign2 * n2)
+        return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
         """f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact, whatever the phase."""

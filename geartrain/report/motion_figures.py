@@ -187,7 +187,7 @@ def collect_motion(
         turns=run.turns,
         positions=run.done,
         period=motion.period,
-        drivers={pair: driver for pair, driver in motion.train.drivers.items() if pair in used},
+        drivers={pair: motion.train.drivers[pair] for pair in motion.train.drivers if pair in used},
         turned_back=sorted(run.turned_back),
         rigid=[mesh.name for mesh in motion.train.rigid],
         outputs=outputs,

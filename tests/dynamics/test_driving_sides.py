@@ -18,9 +18,11 @@ from commands import call
 from hypothesis import settings
 from joint_rates import Row, Skeleton, Space, inputs_of, move, rigid, sides
 from random_trains import RandomTrain, driven_train
+from test_energy import lossy
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Motion
+from geartrain.dynamics.torques.torque_analysis import find_idle_pairs
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors as errors_in_scene
 
@@ -230,6 +232,66 @@ def test_no_order_of_declaration_changes_who_drives_in_random_trains(seeds: rang
         train, outputs = asked(seed)
         plain = GearTrain.declare({**train.data, "outputs": {f"out {link}": {"of": link} for link in outputs}})
         assert dict(shuffled(plain, Random(seed)).drivers()) == dict(plain.drivers()), seed
+
+
+# --------------------------------------------------------------------------------------------- what is found on demand
+
+
+def test_pairs_that_no_load_reaches_carry_nothing_whatever_pairs_lose(seeds: range) -> None:
+    """Random efficiencies, bearings and loads, against the torques that they give."""
+    idle, answered = 0, 0
+    for seed in seeds[:: max(1, len(seeds) // 200)]:
+        data = lossy(seed, oblique=bool(seed % 2))
+        for link in data["links"].values() if seed % 4 else ():
+            link.pop("bearing", None)
+        data["loads"] = dict(list(data.get("loads", {}).items())[: 1 + seed % 2])
+        train = GearTrain.declare(data)
+        setting = train._setting(None)
+        assert setting is not None
+        torques = train.torques()
+        names = find_idle_pairs(setting)
+        if torques.pairs:
+            answered, idle = answered + 1, idle + len(names)
+            assert not [name for name in names if torques.pairs[name].multiplier], seed
+    assert answered > 100
+    assert idle > 50
+
+
+def test_drivers_found_one_by_one_follow_the_torques_under_all_efficiencies() -> None:
+    """In shipped trains: power flows so under the loads where the torques say so, and nowhere else."""
+    found = 0
+    for name in shipped.trains():
+        for state in shipped.train(name).states or (None,):
+            if not shipped.train(name).declaration.is_loaded(state):
+                continue
+            torques, train = shipped.train(name).torques(state), load(name)
+            flows = {each.id: each.driver for each in torques.pairs.values() if each.driver and not each.loose}
+            flows = flows if torques.verdict else {}
+            # the last first: no order of reading has a part in it
+            drivers = {pair: train.drivers(state)[pair] for pair in reversed(list(train.drivers(state)))}
+            said = {pair: who.wheel for pair, who in drivers.items() if who.why.startswith("power flows so under the")}
+            declared = {pair for pair, who in drivers.items() if who.why == "declared"}
+            assert said == {pair: flows[pair] for pair in flows if pair in drivers and pair not in declared}, (
+                name,
+                state,
+            )
+            assert drivers == dict(shipped.train(name).drivers(state))
+            found += len(said)
+    assert found > 13
+
+
+@pytest.mark.parametrize("name", TOOTHED)
+def test_an_output_moves_alone_as_it_does_with_all_others(name: str) -> None:
+    """To the last bit, both ways, though only the pairs that it depends on are in its solved order."""
+    train = shipped.train(name)
+    state = next(iter(train.states), None)
+    together = train.motion(state)
+    for turns in (1.7, -1.3):
+        (every,) = together.passages(turns, 101)
+        for at, output in enumerate(together.outputs):
+            (own,) = train.motion(state, outputs=[output]).passages(turns, 101)
+            assert (own.error[0] == every.error[at]).all(), output
+            assert (own.rate[0] == every.rate[at]).all(), output
 
 
 @pytest.mark.parametrize("name", ["pennestri-2002-teeth", "moon-triangular"])

@@ -184,7 +184,7 @@ class InertialContacts:
     def _senses(self) -> Floats:
         """1, or -1 where the driven side of a pair turns backwards on average, by pair."""
         circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
-        errors = PairErrors(self.moving, None)
+        errors = PairErrors(self.moving, None, ())
         return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
 
     def _by_link(self, values: Mapping[str, float]) -> Floats:

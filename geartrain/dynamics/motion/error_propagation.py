@@ -7,7 +7,7 @@ that every link is a sum over a few links before it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,6 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.block_triangular import Block, find_blocks
+from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.numerics.elimination import LinearForm, eliminate
 
 if TYPE_CHECKING:
@@ -47,12 +48,21 @@ class PropagationBlock(NamedTuple):
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """The solved order of a train: `parts` in order, over `links` and `pairs` by index."""
+    """The solved order of a train: `parts` in order, over `links` and `pairs` by index.
+
+    joints   by pair, each made when it is first read
+    parts    as far as the wanted links depend on them: all others have no error here
+    """
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
-    joints: tuple[ErrorPath, ...]
+    joints: Mapping[int, ErrorPath]
     parts: tuple[PropagationBlock, ...]
+
+    @property
+    def reached(self) -> frozenset[int]:
+        """The pairs whose error reaches the wanted links, directly or by the angle of another pair's driver."""
+        return frozenset(pair for part in self.parts for pair in part.pairs)
 
     def errors(self, deltas: Floats) -> Floats:
         """Errors of all links, (links, n), from those of all pairs, (pairs, n): linear, the pairs left as they are."""
@@ -61,15 +71,6 @@ class ErrorPropagation:
             spread = part.from_known @ found[list(part.known)] + part.from_pairs @ deltas[list(part.pairs)]
             found[list(part.links)] = spread
         return found
-
-    def reaching(self, links: Iterable[int]) -> frozenset[int]:
-        """The pairs whose error reaches some links, directly or by the angle of a driver that theirs depend on."""
-        wanted, found = set(links), set[int]()
-        for part in reversed(self.parts):
-            if wanted.intersection(part.links):
-                found.update(part.pairs)
-                wanted.update(part.known, *(self.joints[pair][::2] for pair in part.pairs))
-        return frozenset(found)
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
         """Radians of a link, seen from another, per radian of each pair's driven error, by the adjoint: one walk back.
@@ -95,34 +96,49 @@ class ErrorPropagation:
         return found
 
 
-def find_error_propagation(system: WillisSystem, joints: Mapping[str, ErrorPath]) -> ErrorPropagation | None:
-    """The solved order of a square system; None where its rows do not determine all links.
+def find_error_propagation(
+    system: WillisSystem, ends: Mapping[str, Sequence[int]], path: Callable[[str], ErrorPath], wanted: Iterable[int]
+) -> ErrorPropagation | None:
+    """The solved order of a square system before some links; None where its rows do not determine them.
 
-    joints   by the label of the row; rows without one (inputs, locks, what is held) have no error
+    ends     both sides and the carrier of each pair, by the label of its row; other rows have no error (inputs, locks)
+    path     of a pair by its label: called for pairs that the wanted links depend on, and for others when they are read
+    wanted   links by index
     """
     at = {link: number for number, link in enumerate(system.links)}
     rows = [{at[link]: coefficient for link, coefficient in row.terms} for row in system.equations]
-    pair_of = {label: number for number, label in enumerate(joints)}
+    pairs = tuple(ends)
+    pair_of = {label: number for number, label in enumerate(pairs)}
     own = [pair_of.get(row.label, -1) for row in system.equations]
-    every = list(joints.values())
     if len(rows) != len(at):
         return None
     # the angle of a pair depends on its driver and its carrier even where the row does not hold them
-    also = [(every[pair].driver, every[pair].carrier) if pair >= 0 else () for pair in own]
+    also = [ends[pairs[pair]] if pair >= 0 else () for pair in own]
     blocks = find_blocks([tuple(row) for row in rows], also)
     if blocks is None:
         return None
+    joints = ItemwiseMapping(range(len(pairs)), lambda pair: path(pairs[pair]))
     parts = []
-    for block in blocks:
-        part = _solve(block, rows, own, every)
+    for block in _before(wanted, blocks, [(*row, *more) for row, more in zip(rows, also, strict=True)]):
+        part = _solve(block, rows, own, joints)
         if part is None:
             return None
         parts.append(part)
-    return ErrorPropagation(system.links, tuple(joints), tuple(every), tuple(parts))
+    return ErrorPropagation(system.links, pairs, joints, tuple(parts))
+
+
+def _before(wanted: Iterable[int], blocks: Sequence[Block], rows: Sequence[Sequence[int]]) -> list[Block]:
+    """The blocks that some columns depend on, in their order; `rows` as the columns that each depends on."""
+    needed, kept = set(wanted), []
+    for block in reversed(blocks):
+        if needed.intersection(block.columns):
+            needed.update(*(rows[row] for row in block.rows))
+            kept.append(block)
+    return kept[::-1]
 
 
 def _solve(
-    block: Block, rows: Sequence[Mapping[int, int]], own: Sequence[int], joints: Sequence[ErrorPath]
+    block: Block, rows: Sequence[Mapping[int, int]], own: Sequence[int], joints: Mapping[int, ErrorPath]
 ) -> PropagationBlock | None:
     """One block, exactly: its links as forms of what is known before it and of its pairs' errors."""
     inside = {column: number for number, column in enumerate(block.columns)}

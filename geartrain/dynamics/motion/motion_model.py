@@ -80,7 +80,7 @@ class Motion(PicturedMotion):
         fast: bool | None = None,
     ) -> None:
         self.train, self.outputs, self.tolerance, self.fast = train, outputs, tolerance, fast
-        self._errors = PairErrors(train, tolerance)
+        self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
         if tolerance is not None and not 0 < tolerance < 1:
             why = "a table's accuracy is a part of a pitch"
@@ -92,7 +92,7 @@ class Motion(PicturedMotion):
 
     @property
     def spread(self) -> ErrorPropagation:
-        """The solved order of the train, over all pairs."""
+        """The solved order of the train, as far as its outputs depend on it."""
         return self._errors.spread
 
     def path(self, pair: str) -> ErrorPath:

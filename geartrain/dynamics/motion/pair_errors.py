@@ -36,10 +36,12 @@ class PairErrors:
     """The pairs of a train with their laws, as paths of error.
 
     tolerance   laws are read from tables of this accuracy (in pitches); None asks the laws themselves
+    links       those whose errors are wanted: the teeth of pairs that they do not depend on are not made
     """
 
     train: MotionProblem
     tolerance: float | None
+    links: Collection[str]
 
     @cached_property
     def index(self) -> Mapping[str, int]:
@@ -48,12 +50,12 @@ class PairErrors:
 
     @cached_property
     def spread(self) -> ErrorPropagation:
-        """The solved order of the train, over all pairs."""
-        joints = {circuit.id: self._joint(circuit) for circuit in self.train.circuits}
+        """The solved order of the train before the wanted links."""
         held = {row.label for row in self.train.system.equations}
-        found = find_error_propagation(
-            self.train.system, {name: joint for name, joint in joints.items() if name in held}
-        )
+        circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
+        ends = {name: [self.index[link] for link in (each.i, each.j, each.carrier)] for name, each in circuits.items()}
+        wanted = [self.index[link] for link in self.links]
+        found = find_error_propagation(self.train.system, ends, lambda name: self._joint(circuits[name]), wanted)
         if found is None:
             raise GearTrainError(
                 Problem(
@@ -81,17 +83,19 @@ class PairErrors:
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
-    def _meshes(self, reach: Collection[int]) -> list[GearMesh]:
-        """The pairs with real teeth among some pairs, by index."""
-        names = [name for at, name in enumerate(self.spread.pairs) if at in reach and name in self.train.meshes]
+    @cached_property
+    def _meshes(self) -> list[GearMesh]:
+        """The pairs with real teeth that the wanted links depend on."""
+        reached = self.spread.reached
+        names = [name for at, name in enumerate(self.spread.pairs) if at in reached and name in self.train.meshes]
         return [self.train.meshes[name] for name in names]
 
-    def play(self, way: int, reach: Collection[int]) -> Floats:
+    def play(self, way: int) -> Floats:
         """What the play of teeth that keep their ratio adds to the angle of each link (rad): the same everywhere.
 
-        Nothing while the input turns as declared. `reach` as of `sources`.
+        Nothing while the input turns as declared.
         """
-        laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes(reach) if mesh.rigid}
+        laws = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes if mesh.rigid}
         ahead = {name: law.error_moments()[0] for name, law in laws.items()}
         circuits = self._circuits
         deltas = [ahead[name] * self.sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
@@ -103,13 +107,12 @@ class PairErrors:
         forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
         return forward if circuit.a * circuit.b < 0 else -forward
 
-    def sources(self, way: int, reach: Collection[int], besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
+    def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
         """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way.
 
-        reach     pairs by index: the teeth of others are not made
         besides   pairs that keep their ratio and are wanted as well
         """
-        meshes = [mesh for mesh in self._meshes(reach) if not mesh.rigid or mesh.name in besides]
+        meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in meshes}
         laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
         circuits = self._circuits

@@ -29,9 +29,8 @@ class PointerCompositions:
 
     def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
         """The composition while the input turns that way; `besides` as of `PairErrors.sources`."""
-        play, (teeth, pins) = self.errors.play(way, self._reach), self._start
-        sources = tuple(self.errors.sources(way, self._reach, besides))
-        found = ErrorComposition(self.errors.spread, sources, self.outputs)
+        play, (teeth, pins) = self.errors.play(way), self._start
+        found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
         sources = tuple(
             replace(
                 each,
@@ -43,15 +42,11 @@ class PointerCompositions:
         return replace(found, sources=sources, offsets=tuple(each.difference(play - teeth) for each in self.outputs))
 
     @cached_property
-    def _reach(self) -> frozenset[int]:
-        return self.errors.spread.reaching({link for seen in self.outputs for link in (seen.of, seen.base)})
-
-    @cached_property
     def _start(self) -> tuple[Floats, Floats]:
         """What teeth, and what pins add to the angle of each link at turn 0 (rad): linear, as all drivers are known."""
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
-        for each in self.errors.sources(1, self._reach):
+        for each in self.errors.sources(1):
             deltas[each.pair, int(each.id in pins)] = each.sense * float(each.law.error(each.phase))
         teeth, slots = self.errors.spread.errors(deltas).T
         return teeth, slots

@@ -1,10 +1,11 @@
 """Which side drives each gear pair and coupling: from which power flows through it, seen from its carrier.
 
-"Who drives a pair" in docs/torques.md, section 3. Where loads are declared the torques tell. Else every pointer on a
-dial is taken to resist its motion, with a torque that is not known: without loss the multiplier of a pair is linear in
-these torques, x = sum c_o T_o with T_o >= 0, so if all c_o of a pair have one sign power flows one way whatever the
-pointers weigh, and else the way is open. For pairs through which no pointer takes power, resistance is assumed at the
-outputs on shafts, then at all outputs, all shafts, and at last every joint. The order of declaration has no part in it.
+"Who drives a pair" in docs/torques.md, section 3. Where loads are declared the torques decide, for all pairs that a
+load reaches. Else every pointer on a dial is taken to resist its motion, with a torque that is not known: without
+loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0, so if all c_o of a pair have
+one sign power flows one way whatever the pointers weigh, and else the way is open. For pairs through which no pointer
+takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and at last every joint.
+The order of declaration has no part in it.
 """
 
 from __future__ import annotations
@@ -12,11 +13,13 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.load_influence import NOTHING, LoadGroup, find_load_influence
-from geartrain.dynamics.torques.torque_analysis import build_balance, find_torques, power_inputs
+from geartrain.dynamics.torques.torque_analysis import build_balance, find_idle_pairs, find_torques, power_inputs
+from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.teeth.meshing_wheels import MeshDriver
 
 if TYPE_CHECKING:
@@ -49,23 +52,15 @@ class FlowDirections(NamedTuple):
         return FlowDirections(ahead, back, self.shared or other.shared, self.note)
 
 
-def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> dict[str, MeshDriver]:
-    """The driver of every pair, and of every coupling, in one case: a wheel, or a link.
+def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
+    """The driver of every pair, and of every coupling, in one case: a wheel, or a link. Each is found when it is read.
 
     circuits   those that are in; `setting` may have more
     setting    the case with its speeds; None where they are not determined, and only what is declared tells
     """
     if setting is None:
         return _undetermined(train, circuits, "the speeds of the train are not determined")
-    setting = replace(setting, circuits=circuits)
-    found = _declared(train)
-    if train.is_loaded(setting.case.state) and (loaded := find_torques(setting, flows_only=True)).verdict:
-        found = _under_loads(loaded) | found
-    rest = [circuit for circuit in setting.circuits if circuit.id not in found]
-    ways = _ways(setting, {circuit.id for circuit in rest if setting.turn(circuit)})
-    source = " and ".join(sorted(power_inputs(setting)))
-    found |= {circuit.id: _judged(setting, circuit, ways.get(circuit.id, FlowDirections()), source) for circuit in rest}
-    return {circuit.id: found[circuit.id] for circuit in setting.circuits}
+    return _Drivers(replace(setting, circuits=circuits)).found
 
 
 def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
@@ -77,6 +72,41 @@ def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[s
 
 def _declared(train: Train) -> dict[str, MeshDriver]:
     return {gear.name: MeshDriver(gear.driver, "declared") for gear in train.gears if gear.driver is not None}
+
+
+class _Drivers:
+    """The drivers in one case with its speeds; efficiencies, which need teeth, enter only where a load acts."""
+
+    def __init__(self, setting: LoadCase) -> None:
+        self.setting = setting
+        self.declared = _declared(setting.train)
+        self.circuits = {circuit.id: circuit for circuit in setting.circuits}
+        self.found = ItemwiseMapping(self.circuits, self._driver)
+
+    def _driver(self, name: str) -> MeshDriver:
+        if name in self.declared:
+            return self.declared[name]
+        if name not in self._idle and name in self._loaded:
+            return self._loaded[name]
+        source = " and ".join(sorted(power_inputs(self.setting)))
+        return _judged(self.setting, self.circuits[name], self._ways.get(name, FlowDirections()), source)
+
+    @cached_property
+    def _idle(self) -> Collection[str]:
+        """The pairs that no load reaches: efficiencies do not matter. Sought only where these need teeth."""
+        return find_idle_pairs(self.setting) if self.setting.meshes else ()
+
+    @cached_property
+    def _loaded(self) -> Mapping[str, MeshDriver]:
+        if not self.setting.train.is_loaded(self.setting.case.state):
+            return {}
+        loaded = find_torques(self.setting, flows_only=True)
+        return _under_loads(loaded) if loaded.verdict else {}
+
+    @cached_property
+    def _ways(self) -> Mapping[str, FlowDirections]:
+        rest = (circuit for name, circuit in self.circuits.items() if name not in self.declared)
+        return _ways(self.setting, {circuit.id for circuit in rest if self.setting.turn(circuit)})
 
 
 def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from geartrain.dynamics.torques.balance_order import generic_balance, idle_pairs
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.load_sharing import find_shares, find_ties
@@ -53,6 +54,20 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
     if isinstance(question, TorqueVerdict):
         return Torques(setting.case.state, question)
     return _balanced(setting, question.loads, question.asked, flows_only=flows_only)
+
+
+def find_idle_pairs(setting: LoadCase) -> Collection[str]:
+    """The pairs that carry no torque under the declared loads, whatever any pair loses; empty where no torques follow.
+
+    They are zero-force members (statics of trusses).
+    """
+    # proof: nothing but such pairs acts on the links beyond them, so the balance of these links is homogeneous for all
+    # efficiencies, which only scale its coefficients: the multipliers are 0, or open between redundant pairs
+    question = find_question(setting, setting.case.solve_for)
+    if isinstance(question, TorqueVerdict):
+        return ()
+    known = _acting(question.loads, _rubbing(setting))
+    return idle_pairs(generic_balance(build_balance(setting, known, question.asked.links)))
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
@@ -152,9 +167,7 @@ def _balanced(
     flows_only: bool = False,
 ) -> Torques:
     rubbing = _rubbing(setting) if bearings else {}
-    known = dict(loads)
-    for link, torque in rubbing.items():
-        known[link] = known.get(link, Fraction(0)) + torque
+    known = _acting(loads, rubbing)
     state = setting.case.state
     if not asked.enough and (lacking := find_imbalance(setting, known, asked.links)) is not None:
         return Torques(state, _with_reason(asked, lacking), asked.links)
@@ -234,6 +247,11 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
     if min(a * senses[0], b * senses[1], key=abs) < 0:
         a, b = -a, -b
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
+
+
+def _acting(loads: Mapping[str, Fraction], rubbing: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """What is known of the torque on each link."""
+    return {link: loads.get(link, Fraction(0)) + rubbing.get(link, Fraction(0)) for link in {**loads, **rubbing}}
 
 
 def _rubbing(setting: LoadCase) -> dict[str, Fraction]:

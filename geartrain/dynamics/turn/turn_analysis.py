@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.motion_model import Motion
+from geartrain.dynamics.torques.balance_order import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
 from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
-from geartrain.dynamics.turn.balance_order import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.turn.compiled_turn import compiled_turn
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, CycleFigures, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.dynamics.turn.extreme_search import find_extreme

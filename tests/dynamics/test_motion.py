@@ -676,6 +676,53 @@ def test_newton_is_kept_from_leaping_over_corners_and_refuses_a_dead_centre() ->
         solve_coupled_errors(CoupledErrors(("m",), one.laws, np.array([1.0]), np.array([[4.0]])), base, [1.0])
 
 
+class Points(ExactRatio):
+    """A law of straight pieces through some points of one turn; it jumps where two of them have the same S."""
+
+    def __init__(self, S: list[float], q: list[float]) -> None:
+        super().__init__(Fraction(1), 2 * pi)
+        self.S, self.q = np.array([0, *S, 2 * pi]), np.array([0, *q, 2 * pi])
+
+    def error(self, S: np.ndarray) -> np.ndarray:
+        x = np.mod(S, 2 * pi)
+        return np.interp(x, self.S, self.q) - x
+
+    def speed(self, S: np.ndarray) -> np.ndarray:
+        at = np.searchsorted(self.S, np.mod(S, 2 * pi), side="right") - 1
+        return (np.diff(self.q) / np.where(np.diff(self.S) > 0, np.diff(self.S), 1))[at]
+
+
+@pytest.mark.parametrize(
+    ("S", "q"),
+    [([1.0, 2.0], [1.4, 1.4]), ([1.0, 2.0, 4.0, 5.0], [1.9, 1.9, 4.8, 4.8]), ([2.0, 3.0, 3.0], [2.1, 2.1, 3.4])],
+    ids=["a dwell", "two dwells", "a dwell that ends in a jump"],
+)
+def test_a_driver_that_is_turned_by_what_it_drives_is_followed_past_dwells_and_jumps(
+    S: list[float], q: list[float]
+) -> None:
+    """Where the driven wheel is given, q = base, the driver is at the inverse of the law, which is exact by points."""
+    base = np.linspace(0, 2 * pi, 4001)[None, 1:-1]
+    pair = CoupledErrors(("m",), (Points(S, q),), np.array([1.0]), np.array([[-1.0]]))
+    delta, _, _ = solve_coupled_errors(pair, base, [1.0])
+    inverse = np.interp(base[0], [0, *q, 2 * pi], [0, *S, 2 * pi])
+    clear = np.abs(base[0][:, None] - q).min(axis=1) > 1e-6  # in a dwell the driver is anywhere
+    assert np.abs(base[0] - delta[0] - inverse)[clear].max() < 1e-9
+
+
+def test_a_driver_that_is_turned_by_what_it_drives_is_infinitely_behind_where_nothing_touches() -> None:
+    class Apart(ExactRatio):
+        def error(self, S: np.ndarray) -> np.ndarray:
+            return np.full_like(S, -np.inf)
+
+        def speed(self, S: np.ndarray) -> np.ndarray:
+            return np.zeros_like(S)
+
+    pair = CoupledErrors(("m",), (Apart(Fraction(1), 2 * pi),), np.array([1.0]), np.array([[-1.0]]))
+    delta, rate, _ = solve_coupled_errors(pair, np.zeros((1, 3)), [1.0])
+    assert (delta == -np.inf).all()
+    assert not rate.any()
+
+
 def test_extremes_are_found_between_the_positions() -> None:
     """Twenty turns in 200,000 positions miss the peaks of the teeth; the search between them does not."""
     motion = load("moon-triangular").motion(outputs=["moon"])

@@ -9,9 +9,8 @@ import numpy as np
 
 from geartrain.dynamics.motion.composition_arrays import make_composition_arrays
 from geartrain.dynamics.motion.composition_kernel import compose, compose_apart
-from geartrain.dynamics.motion.coupled_errors import DEAD_CENTRE, NO_FIT, refusal
-from geartrain.dynamics.motion.coupled_kernel import FOLLOWED
-from geartrain.dynamics.motion.coupled_kernel import NO_FIT as FOUND_NO_FIT
+from geartrain.dynamics.motion.coupled_errors import DEAD_CENTRE, refusal
+from geartrain.dynamics.motion.coupled_kernel import FOLLOWED, NO_FIT
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
 from geartrain.numerics.kernels import is_fast
 
@@ -47,9 +46,11 @@ class CompiledComposition:
         found, step = kernel.chosen(self.fast)(
             self.arrays, turns, PLAIN / farthest if farthest else np.inf, error, rate, behind
         )
+        if found == NO_FIT:  # numpy bisects as well
+            return self.composition.at(turns)
         if found != FOLLOWED:
             names = [self.composition.sources[at].id for at in self.composition.steps[step].sources]
-            raise refusal(names, NO_FIT if found == FOUND_NO_FIT else DEAD_CENTRE)
+            raise refusal(names, DEAD_CENTRE)
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
         return ErrorSamples(turns, error, rate, back)
 

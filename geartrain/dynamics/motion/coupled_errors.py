@@ -1,7 +1,8 @@
 """Pairs that depend on each other, as around a differential: their errors at one position are found together.
 
 Newton's method with halved steps, equation (5) of docs/motion.md, on delta_m = sense_m error_m(S_m + gain_m delta), at
-all positions at once. Laws have corners, so a step that does not lessen the residual is halved.
+all positions at once. Laws have corners, so a step that does not lessen the residual is halved. A pair by itself is
+bisected where that fails: no step leaves a dwell, in which the driven wheel rests while its driver turns.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 MOST_STEPS = 120  # halved steps count too
 SETTLED = 2e-15  # rad, over the scale of the angles added
 FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
+_HALVINGS = 64  # of four pitches, or of four turns of cut wheels: to rounding
 
 NO_FIT = "no angles of theirs fit all laws at once"
 DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is driven by it"
@@ -75,6 +77,7 @@ def solve_coupled_errors(
     return delta, rate, list(speed + pairs.gain @ rate)
 
 
+@np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     """Errors, and the slopes of the laws there."""
     tolerance = SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
@@ -102,9 +105,31 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
         if not left.any():
             return delta, slopes
         active, now, step, length, size = active[left], now[:, left], step[:, left], length[left], size[left]
-    if float(size.max()) > FORGIVEN:
-        raise refusal(pairs.names, NO_FIT)
+    stuck = active[size > FORGIVEN]
+    if stuck.size:
+        delta[:, stuck], slopes[:, stuck] = _bisected(pairs, base[:, stuck], stuck)
     return delta, slopes
+
+
+@np.errstate(invalid="ignore")
+def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
+    """Errors of a pair by itself, and the slopes of its law there: short of a dead centre, delta - error grows.
+
+    Where a law jumps over the error, as that of cut teeth that clash, it is where the law jumps, and has no slope; it is
+    the law's own where that is infinite, since nothing touches.
+    """
+    if len(pairs.laws) > 1:
+        raise refusal(pairs.names, NO_FIT)
+    high = np.full_like(base, 2 * float(pairs.laws[0].ratio) * pairs.laws[0].period)
+    low = -high
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        error, slope = pairs.laws_at(base + pairs.gain * middle, columns)
+        if (slope * pairs.gain > 1 + FORGIVEN).any():
+            raise refusal(pairs.names, DEAD_CENTRE)
+        low, high = np.where(middle < error, middle, low), np.where(middle < error, high, middle)
+    slope[np.abs(middle - error) > FORGIVEN] = 0.0
+    return np.where(np.isfinite(error), middle, error), slope
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:

@@ -105,7 +105,8 @@ Written by
 
     python docs/make_dynamics_accuracy.py --measure
 
-on a machine with two cores, busy with other work too: times are of single runs, compiled. Three ways for one pair, a
+on a machine with two cores, busy with other work too: times are of single runs, compiled, and kept from an earlier
+run with the same settings. Three ways for one pair, a
 pin at 10 in a slot whose axis is 2 off and which is 0.4 wider, an inertia of 1e-5 kg m2 behind it under a friction of
 1 N mm. It is driven at 32 rad/s; from 20.4 rad/s on teeth part. Two turns, without restitution and with one of 0.5.
 

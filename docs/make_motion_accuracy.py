@@ -226,14 +226,15 @@ Written by
     python docs/make_motion_accuracy.py --measure
 
 on a machine with two cores, busy with other work too. Compare times within a train only: they are medians of five
-rounds, and ratios to the direct composition in the same round. The methods:
+rounds, and ratios to the direct composition in the same round. Run times and memory are kept from an earlier run with
+the same settings. The methods:
 
 - **direct**: the composition of `geartrain motion`. In the solved order of the train every pair's law is asked at the
   angle that the errors before it give its driver. Errors and speeds come together.
 - **tabulated**: the same composition, laws read from tables of the given tolerance (in pitches):
   `geartrain motion --tabulated`.
-- **superposition**: the sum of all pairs' errors times the output's sensitivity, each pair at the angle its driver has
-  on average; **with lag**, the mean errors counted in these angles.
+- **superposition**: the sum of all pairs' errors times the output's sensitivity, each driver turning evenly from its
+  angle at turn 0; **with lag**, about the angle to which the mean errors of all pairs bring it.
 - **sum of ranges**: sensitivities times the ranges of the pairs' errors, a bound on the peak-to-peak ripple.
 - **independent rms**: the rms ripple if no phases were related. Neither asks for a position.
 - **marching**: what a general multibody program does. All angles are advanced in time; at each stage every pair says
@@ -264,8 +265,8 @@ train, whatever the span. The sum is {bound} percent above the peak-to-peak ripp
 
 - Superpose with lag to see the shape of a ripple or its spectrum, not for its values: the greatest error is {lag}
 percent, the rms error {lag_rms} percent of the peak-to-peak ripple, at {cheap} of the direct time. Without the lag the
-greatest error is {nominal} percent: useless in trains of teeth, where drivers lag by some tenths of a pitch. Where one
-pin alone stands between input and output, superposition is the truth.
+greatest error is {nominal} percent: it leaves out by how much the mean lag differs from that of turn 0. Where one pin
+alone stands between input and output, superposition is the truth.
 
 - Do not march. One step a position takes {march} times as long and is {march_off} degrees off already at the first
 1/200 of the way, because steps go over the corners of the laws, where a tooth hands over to the next. Error control

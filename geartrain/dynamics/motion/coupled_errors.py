@@ -115,8 +115,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
     """Errors of a pair by itself, and the slopes of its law there: short of a dead centre, delta - error grows.
 
-    Where a law jumps over the error, as that of cut teeth that clash, it is where the law jumps, and has no slope; it is
-    the law's own where that is infinite, since nothing touches.
+    A law may jump past the error, as that of cut teeth that clash: the error is then where the law jumps, its slope 0.
+    Where nothing touches, the error is that of the law, infinite.
     """
     if len(pairs.laws) > 1:
         raise refusal(pairs.names, NO_FIT)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 
 from geartrain.scene.parts.coaxial_order import CoaxialLink, clash, nested
 from geartrain.scene.parts.processes import Process
@@ -22,7 +23,7 @@ HAND = 1.6  # mm that an arbor stands out beyond the pipe round it where both be
 _LEAST = 0.8  # mm: the thinnest arbor
 USUAL = 2 / 3
 """Diameter of an arbor over the root radius of its smallest wheel."""
-_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way
+_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _LEAST)  # mm: arbors that are tried where a wheel is in the way, thickest first
 _PIVOT = 0.55  # of its arbor: so that the shoulder bears
 _WIDEST = 6.0  # mm, of one whose size nobody gives
 
@@ -98,7 +99,7 @@ class AxisColumn:
         return max([*wide, self.core / 2 if self.low < high and low < self.high else 0.0])
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ColumnProblem:
     """An axis with its discs, those of other axes, and what reaches out to dials.
 
@@ -121,21 +122,36 @@ class ColumnProblem:
     pivot: float | None = None
     head: float = SHAKE + HEAD
 
+    @cached_property
+    def beside(self) -> list[tuple[StackDisc, float]]:
+        """Discs of other axes with the gaps to them, which are the same at all places of plates."""
+        return beside(self.axis, self.at, self.others)
+
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
         """Ways to bear the axis, the better first; each says what is in its way."""
-        return (self._thinned(bearing, places) for bearing in self._bearings(places))
+        order, tangled = self._ordered(places)
+        return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
         """Borne in a bridge alone, between two collars."""
-        return self._thinned(AxisBearing.BRIDGE, FramePlaces(bridge, bridge))
+        places = FramePlaces(bridge, bridge)
+        return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
-    def _thinned(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
+    def _thinned(
+        self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
+    ) -> AxisColumn:
         """With the thickest usual core that passes all wheels, if no core is given; else with the first."""
-        first = self._column(bearing, places)
-        if self.core is not None or not first.hit:
+        stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
+
+        def column(core: float) -> AxisColumn:
+            return self._column(bearing, places, self._members(order, core, stud), tangled, core)
+
+        first = column(self._core(order, stud))
+        thinner = [core for core in _CORES if core < first.core]
+        # a column becomes thinner with its core at every height: what blocks the thinnest blocks all
+        if self.core is not None or not first.hit or not thinner or column(thinner[-1]).hit:
             return first
-        thinner = (replace(self, core=core) for core in _CORES if core < first.core)
-        return next((each for each in (one._column(bearing, places) for one in thinner) if not each.hit), first)
+        return next(each for each in map(column, thinner) if not each.hit)
 
     def _bearings(self, places: FramePlaces) -> list[AxisBearing]:
         back, front = sum(places.back) / 2, sum(places.front) / 2
@@ -214,11 +230,14 @@ class ColumnProblem:
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
 
-    def _column(self, bearing: AxisBearing, places: FramePlaces) -> AxisColumn:
-        order, tangled = self._ordered(places)
-        stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
-        core = self._core(order, stud)
-        members = _stepped(self._members(order, core, stud), order)
+    def _column(
+        self,
+        bearing: AxisBearing,
+        places: FramePlaces,
+        members: tuple[ColumnMember, ...],
+        tangled: tuple[str, str] | None,
+        core: float,
+    ) -> AxisColumn:
         low = min((each.low for each in members), default=places.back[1])
         high = max((each.high for each in members), default=places.front[0])
         head = self.head
@@ -229,12 +248,12 @@ class ColumnProblem:
         else:
             beyond = COLLAR + SHAKE if bearing is AxisBearing.BRIDGE else 0.0
             low, high = min(low, places.back[0] - beyond), max(high, places.front[1] + beyond)
-        if members and not stud:
+        if members and not members[0].inner:
             members = (replace(members[0], low=low, high=high), *members[1:])
         pivot = round(_PIVOT * core, 2) if self.pivot is None else min(self.pivot, core)
         pivot = core if bearing is AxisBearing.BRIDGE else pivot
         column = AxisColumn(self.axis, self.at, bearing, core, pivot, low, high, members, (), tangled)
-        return with_hits(column, self.others)
+        return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
         """Diameter of the core: as given, or so that every pipe fits into the roots of its smallest wheel."""
@@ -246,30 +265,28 @@ class ColumnProblem:
         found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
         return max(_LEAST, round(min(found), 2))
 
-    def _members(self, order: Sequence[CoaxialLink], core: float, stud: bool) -> Iterator[ColumnMember]:
+    def _members(self, order: Sequence[CoaxialLink], core: float, stud: bool) -> tuple[ColumnMember, ...]:
         found: list[ColumnMember] = []
-        for at, each in enumerate(order):
-            low, high = each.low - OVER, each.high + OVER
-            if not at and not stud:
+        for each, (low, high) in zip(order, _reach(order), strict=True):
+            if not found and not stud:
                 found.append(ColumnMember(each.link, low, high, 0.0, core, each.discs, each.fixed))
                 continue
             # the first is the core, and goes through all
-            under = [other.outer for k, other in enumerate(found) if (not k and not stud) or _overlap(other, low, high)]
+            under = [one.outer for k, one in enumerate(found) if not (k or stud) or (one.low < high and low < one.high)]
             inner = round(max([core, *under]) + self.process.running, 3)
             outer = round(inner + 2 * self.process.wall, 3)
             found.append(ColumnMember(each.link, low, high, inner, outer, each.discs, each.fixed))
-        yield from found
+        return tuple(found)
 
 
-def _stepped(members: Iterable[ColumnMember], order: Sequence[CoaxialLink]) -> tuple[ColumnMember, ...]:
-    """What goes out to hands goes the further out the further inside it is."""
+def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
+    """Ends of each piece: what goes out to hands goes the further out the further inside it is."""
     found, steps = [], [0, 0]
-    for member, each in reversed(list(zip(members, order, strict=True))):
+    for each in reversed(order):
         below, above = each.ends
-        low, high = member.low - HAND * steps[0] * below, member.high + HAND * steps[1] * above
-        found.append(replace(member, low=low, high=high))
+        found.append((each.low - OVER - HAND * steps[0] * below, each.high + OVER + HAND * steps[1] * above))
         steps = [steps[0] + below, steps[1] + above]
-    return tuple(reversed(found))
+    return found[::-1]
 
 
 def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool:
@@ -277,21 +294,15 @@ def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool
     return min(disc.middle, plate[0]) < height < max(disc.middle, plate[1])
 
 
-def _overlap(member: ColumnMember, low: float, high: float) -> bool:
-    return member.low < high and low < member.high
+def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[StackDisc, float]]:
+    """Discs of other axes, each with the gap (mm) between it and the middle of an axis."""
+    return [(disc, disc.room_for(at, 0.0)) for disc in discs if disc.axis != axis]
 
 
-def with_hits(column: AxisColumn, others: Iterable[StackDisc]) -> AxisColumn:
-    """The column with all that is in its way."""
-    return replace(column, hit=tuple(_hits(column, others)))
-
-
-def _hits(column: AxisColumn, others: Iterable[StackDisc]) -> Iterator[tuple[StackDisc, float]]:
-    """Discs of other axes at heights of the column that leave too little room."""
-    widest = max([column.core, *(each.outer for each in column.members)]) / 2
-    for disc in others:
-        # most discs are too far off for any part of the column, and its radius at their height is not asked for
-        if disc.axis == column.axis or (free := disc.room_for(column.at, 0.0)) - widest >= APART:
-            continue
-        if (radius := column.radius(disc.low, disc.high)) and free - radius < APART:
-            yield disc, free - radius
+def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
+    """The column with all that is in its way: discs at its heights that leave too little room."""
+    # most discs are too far off for any part of the column, and its radius at their height is not computed
+    room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
+    near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
+    hit = tuple((disc, free - radius) for disc, free, radius in near if radius and free - radius < APART)
+    return replace(column, hit=hit)

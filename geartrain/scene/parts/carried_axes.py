@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from math import dist
 
-from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, AxisColumn, ColumnProblem, FramePlaces, with_hits
+from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, AxisColumn, ColumnProblem, FramePlaces, beside, with_hits
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 
@@ -136,7 +136,7 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
     else:
         end = min(each.low for each in near.members) - SHAKE / 2
         near, far = replace(near, low=end, topped=True), replace(far, high=end, on=near.axis)
-    return with_hits(near, others), with_hits(far, others)
+    return tuple(with_hits(each, beside(each.axis, each.at, others)) for each in (near, far))
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:

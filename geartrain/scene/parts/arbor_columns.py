@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
-from geartrain.scene.parts.coaxial_order import CoaxialLink, clash, nested
+from geartrain.scene.parts.coaxial_order import CoaxialLink, nested
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc, by_piece
 
@@ -171,16 +171,25 @@ class ColumnProblem:
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
         """Pieces from the innermost, and two links of which neither can be inside the other, if there are such."""
-        moving, tangled = list(self._moving()), None
-        for still in self._still(places, [height for each in moving for height in each.hubs]):
-            if order := nested([*still, *moving]):
+        if not self._standing:
+            return self._turning_order
+        tangled = None
+        for still in self._still(places, [height for each in self._moving for height in each.hubs]):
+            order, clash = nested([*still, *self._moving])
+            if not clash:
                 return order, None
-            tangled = tangled or clash([*still, *moving])
-        whole = [*self._in_one(places), *moving]
-        return nested(whole) or tuple(whole), tangled
+            tangled = tangled or clash
+        return nested([self._in_one(places), *self._moving])[0], tangled
 
-    def _moving(self) -> Iterator[CoaxialLink]:
+    @cached_property
+    def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
+        """The same if nothing stands still on the axis: then it does not depend on the places of plates."""
+        return nested(self._moving)
+
+    @cached_property
+    def _moving(self) -> tuple[CoaxialLink, ...]:
         """Pieces of what turns."""
+        found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
         for (link, apart), discs in pieces.items():
@@ -191,32 +200,30 @@ class ColumnProblem:
             low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
             low, high = (self.span[0] if below else low), (self.span[1] if above else high)
             hubs = tuple(disc.middle for disc in discs)
-            yield CoaxialLink(link, hubs, low, high, discs=tuple(discs), ends=(below, above))
+            found.append(CoaxialLink(link, hubs, low, high, discs=tuple(discs), ends=(below, above)))
+        return tuple(found)
 
-    @property
+    @cached_property
     def _standing(self) -> list[StackDisc]:
         """Wheels that stand still, from below."""
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
-    def _in_one(self, places: FramePlaces) -> Iterator[CoaxialLink]:
+    def _in_one(self, places: FramePlaces) -> CoaxialLink:
         """What stands still as one piece, to the nearer plate, whatever is in its way."""
-        if own := self._standing:
-            middle = (own[0].low + own[-1].high) / 2
-            near = min((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
-            held = self._held(own, near)
-            yield replace(held, hubs=held.hubs[:-1])
+        held = self._held(self._standing, self._nearer(places)[0])
+        return replace(held, hubs=held.hubs[:-1])
+
+    def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
+        """Both plates, first the one that is nearer to what stands still."""
+        middle = (self._standing[0].low + self._standing[-1].high) / 2
+        return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _still(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
         """Ways to hold what stands still: in one piece, or what nothing parts from a plate by a piece of its own.
 
         hubs   heights of all that turns on the axis
         """
-        own = self._standing
-        if not own:
-            yield []
-            return
-        middle = (own[0].low + own[-1].high) / 2
-        plates = sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
+        own, plates = self._standing, self._nearer(places)
         yield from ([self._held(own, plate)] for plate in plates)
         for plate in plates:
             next_to = [disc for disc in own if not any(_between(height, disc, plate) for height in hubs)]

@@ -114,16 +114,17 @@ def carried_columns(
     Where two axes are so near that their studs would meet, the farther one stands on the end of the nearer: one stud,
     turned with a step.
     """
-    found = [_carried_column(axis, seat, discs, process, core, head) for axis in axes]
+    seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
+    found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]
     for one, other in combinations(range(len(axes)), 2):
         near, far = sorted((one, other), key=lambda at: _away(axes[at], seat))
         apart, meeting = dist(axes[near].at, axes[far].at), (found[near].core + found[far].core) / 2 + _BLADE
         if 0 < apart < meeting and found[near].bearing is found[far].bearing and found[near].is_stud:
             thin = min(found[far].core, _STEP)
             wide = round(thin + 2 * apart + _BLADE, 2)  # the nearer wheel's end holds all of the farther stud
-            foot = _carried_column(axes[near], seat, discs, process, wide, head)
-            end = _carried_column(axes[far], seat, discs, process, thin, head)
-            found[near], found[far] = _stepped(foot, end, _others(axes[near], seat, discs))
+            foot = _carried_column(axes[near], seat, seen, process, wide, head)
+            end = _carried_column(axes[far], seat, seen, process, thin, head)
+            found[near], found[far] = _stepped(foot, end, _others(axes[near], seen))
     return found
 
 
@@ -136,7 +137,7 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
     else:
         end = min(each.low for each in near.members) - SHAKE / 2
         near, far = replace(near, low=end, topped=True), replace(far, high=end, on=near.axis)
-    return tuple(with_hits(each, beside(each.axis, each.at, others)) for each in (near, far))
+    return with_hits(near, beside(near.axis, near.at, others)), with_hits(far, beside(far.axis, far.at, others))
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
@@ -147,7 +148,7 @@ def _away(axis: CarriedAxis, seat: StackDisc) -> float:
 def _carried_column(
     axis: CarriedAxis,
     seat: StackDisc,
-    discs: Sequence[StackDisc],
+    seen: Sequence[StackDisc],
     process: Process,
     core: float | None,
     head: float,
@@ -155,14 +156,13 @@ def _carried_column(
     """The first way, as there is but one plate."""
     ends: Mapping[str, tuple[bool, bool]] = {}
     faces = seat.low, seat.high
-    others = _others(axis, seat, discs)
+    others = _others(axis, seen)
     problem = ColumnProblem(axis.label, axis.at, axis.discs, others, ends, faces, "", process, core, head=head)
     return next(problem.columns(FramePlaces(faces, faces)))
 
 
-def _others(axis: CarriedAxis, seat: StackDisc, discs: Sequence[StackDisc]) -> tuple[StackDisc, ...]:
-    passed = {seat.name, *axis.through}
-    return tuple(seen_from_carrier(axis.carrier, seat.at, disc) for disc in discs if disc.name not in passed)
+def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
+    return [disc for disc in seen if disc.name not in axis.through]
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:

@@ -34,22 +34,16 @@ class CoaxialLink:
         return any(self.low < height < self.high for height in other.hubs)
 
 
-def nested(links: Sequence[CoaxialLink]) -> tuple[CoaxialLink, ...]:
-    """Links from the innermost, each outside all before it; none if that cannot be."""
-    left, order = list(links), list[CoaxialLink]()
+def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
+    """Links from the innermost, each outside all before it; if that cannot be, as given, with two that clash."""
+    around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
+    left, order = list(range(len(links))), list[int]()
     while left:
         # one that no other must be inside of; of several the one that reaches farthest, what does not turn last
-        free = [each for each in left if not any(other is not each and other.covers(each) for other in left)]
+        free = [at for at in left if around[at].isdisjoint(left)]
         if not free:
-            return ()
-        order.append(min(free, key=lambda each: (each.fixed, each.low - each.high)))
+            both = ((links[a].link, links[b].link) for a in left for b in left if a in around[b] and b in around[a])
+            return tuple(links), next(both, (links[0].link, links[-1].link))
+        order.append(min(free, key=lambda at: (links[at].fixed, links[at].low - links[at].high)))
         left.remove(order[-1])
-    return tuple(order)
-
-
-def clash(links: Sequence[CoaxialLink]) -> tuple[str, str] | None:
-    """Two links that cannot be nested, if any."""
-    if nested(links):
-        return None
-    both = ((a.link, b.link) for a in links for b in links if a is not b and a.covers(b) and b.covers(a))
-    return next(both, (links[0].link, links[-1].link) if links else None)
+    return tuple(links[at] for at in order), None

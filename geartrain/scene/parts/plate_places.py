@@ -23,26 +23,14 @@ class PlateChoice:
     """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis.
 
     outside   1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not
-    blocked   obstacles on axes that carriers bear, and wheels across that stand in a plate
+    cost      obstacles on all axes, with wheels across that a plate would cut; then studs and arbors that pass a plate
     """
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
-    blocked: int = 0
-
-    @property
-    def cost(self) -> tuple[int, float]:
-        """Obstacles, then studs and arbors that pass."""
-        return self.blocked + obstacles(self.columns), sum(self._effort(each) for each in self.columns)
-
-    def _effort(self, column: AxisColumn) -> float:
-        passing = [plate for plate in (self.places.back, self.places.front) if column.passes(plate)]
-        if column.is_stud:
-            inside = any(self.places.back[1] < each.high and each.low < self.places.front[0] for each in column.members)
-            return _INSIDE if inside else _OUTSIDE
-        return _PASSING * len(passing)
+    cost: tuple[int, float]
 
 
 def best_places(
@@ -64,7 +52,6 @@ def best_places(
     best: PlateChoice | None = None
     crossed = [cut(height) for height in slab_gaps]
     pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
-    pairs.sort(key=lambda pair: pair[0] > 0 and pair[1] < count - 1)
     ways = []
     for chosen in islice(product(*seats), _TRIED):
         every = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
@@ -72,27 +59,36 @@ def best_places(
     for inside in (False, True):
         for chosen, problems, bad in ways:
             for low, high in pairs:
-                if (low > 0 and high < count - 1) == inside:
-                    places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
-                    start = PlateChoice(
-                        places, chosen, (), (high < count - 1) - (low > 0), bad + crossed[low] + crossed[high]
-                    )
-                    best = _extended(start, problems, best) or best
+                if (low > 0 and high < count - 1) != inside:
+                    continue
+                places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
+                start = bad + crossed[low] + crossed[high], 0.0
+                if found := _columns(problems, places, start, None if best is None else best.cost):
+                    best = PlateChoice(places, chosen, found[0], (high < count - 1) - (low > 0), found[1])
         if best is not None and not best.cost[0]:
             break
     assert best is not None
     return best
 
 
-def _extended(choice: PlateChoice, problems: Sequence[ColumnProblem], best: PlateChoice | None) -> PlateChoice | None:
-    """The choice with the best column of every axis; None as soon as it cannot become better than the best one."""
-    if best is not None and choice.cost >= best.cost:
-        return None
+def _columns(
+    problems: Sequence[ColumnProblem], places: FramePlaces, cost: tuple[int, float], bound: tuple[int, float] | None
+) -> tuple[tuple[AxisColumn, ...], tuple[int, float]] | None:
+    """The best column of every axis and what all cost together; None as soon as that reaches the bound."""
+    columns = []
     for problem in problems:
-        choice = replace(choice, columns=(*choice.columns, best_column(problem.columns(choice.places))))
-        if best is not None and choice.cost >= best.cost:
+        if bound is not None and cost >= bound:
             return None
-    return choice
+        columns.append(best_column(problem.columns(places)))
+        cost = cost[0] + obstacles(columns[-1:]), cost[1] + _effort(columns[-1], places)
+    return None if bound is not None and cost >= bound else (tuple(columns), cost)
+
+
+def _effort(column: AxisColumn, places: FramePlaces) -> float:
+    if column.is_stud:
+        inside = any(places.back[1] < each.high and each.low < places.front[0] for each in column.members)
+        return _INSIDE if inside else _OUTSIDE
+    return _PASSING * sum(column.passes(plate) for plate in (places.back, places.front))
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:

@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, product
+from math import inf
 
 from geartrain.scene.parts.arbor_columns import AxisColumn, ColumnProblem, FramePlaces
 from geartrain.scene.parts.carried_axes import CarrierSeat
 from geartrain.scene.parts.stack_discs import StackDisc
 
 _TRIED = 64  # ways to place plates of carriers
-_INSIDE, _OUTSIDE, _PASSING = 3.0, 1.5, 1.1  # costs: a stud between the plates, one beyond them, an arbor through one
+_INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs: a stud between the plates, one beyond them, an arbor through one
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +31,7 @@ class PlateChoice:
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
-    cost: tuple[int, float]
+    cost: tuple[int, int]
 
 
 def best_places(
@@ -62,9 +63,10 @@ def best_places(
                 if (low > 0 and high < count - 1) != inside:
                     continue
                 places = FramePlaces((slab_gaps[low],) * 2, (slab_gaps[high],) * 2)
-                start = bad + crossed[low] + crossed[high], 0.0
-                if found := _columns(problems, places, start, None if best is None else best.cost):
-                    best = PlateChoice(places, chosen, found[0], (high < count - 1) - (low > 0), found[1])
+                cost = bad + crossed[low] + crossed[high], 0
+                if found := _columns(problems, places, cost, (inf, 0) if best is None else best.cost):
+                    columns = tuple(found[0][axis.axis] for axis in axes)
+                    best = PlateChoice(places, chosen, columns, (high < count - 1) - (low > 0), found[1])
         if best is not None and not best.cost[0]:
             break
     assert best is not None
@@ -72,19 +74,23 @@ def best_places(
 
 
 def _columns(
-    problems: Sequence[ColumnProblem], places: FramePlaces, cost: tuple[int, float], bound: tuple[int, float] | None
-) -> tuple[tuple[AxisColumn, ...], tuple[int, float]] | None:
-    """The best column of every axis and what all cost together; None as soon as that reaches the bound."""
-    columns = []
-    for problem in problems:
-        if bound is not None and cost >= bound:
-            return None
-        columns.append(best_column(problem.columns(places)))
-        cost = cost[0] + obstacles(columns[-1:]), cost[1] + _effort(columns[-1], places)
-    return None if bound is not None and cost >= bound else (tuple(columns), cost)
+    problems: list[ColumnProblem], places: FramePlaces, cost: tuple[int, int], bound: tuple[float, int]
+) -> tuple[dict[str, AxisColumn], tuple[int, int]] | None:
+    """The best column of every axis and the cost of all; None as soon as that reaches the bound.
+
+    The axis that reaches it becomes the first, because it is likely to exclude the next places too.
+    """
+    found: dict[str, AxisColumn] = {}
+    for at, problem in enumerate(problems if cost < bound else ()):
+        column = found[problem.axis] = best_column(problem.columns(places))
+        cost = cost[0] + obstacles([column]), cost[1] + _effort(column, places)
+        if cost >= bound:
+            problems.insert(0, problems.pop(at))
+            break
+    return (found, cost) if cost < bound else None
 
 
-def _effort(column: AxisColumn, places: FramePlaces) -> float:
+def _effort(column: AxisColumn, places: FramePlaces) -> int:
     if column.is_stud:
         inside = any(places.back[1] < each.high and each.low < places.front[0] for each in column.members)
         return _INSIDE if inside else _OUTSIDE

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
-from math import cos, pi, sin
+from math import cos, dist, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -95,4 +95,4 @@ def _around(tried: Floats, axes: Floats, count: int, least_edge: float, even: bo
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
     """Least distance (mm) of a point from some circles, below 0 inside one."""
-    return min((float(np.hypot(at[0] - x, at[1] - y)) - reach for (x, y), reach in circles), default=np.inf)
+    return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)

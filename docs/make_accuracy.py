@@ -122,8 +122,11 @@ construction: its circuits are all coupled, and its exact numbers grow with the 
 floats would; coupled planetary stages cost five to seven times that, a few hundredths of a second for a thousand
 links. In return nobody has to judge conditioning, and mobility and gridlock are decided without a tolerance. Exact
 elimination has a budget: beyond linear work it may spend 400 000 coefficient operations, long numbers counting more. A
-coupled system past it is solved in floats with one refinement step whose residual is taken to twice the working
-precision; its verdict is then taken modulo the prime 2^61 - 1, and the answer says so by `method: floats` and a tilde.
+coupled system whose elimination is predicted to exceed it is solved in floats with one refinement step whose residual
+is taken to twice the working precision. The prediction is the elimination modulo the prime 2^61 - 1, whose numbers stay
+short, and it stops after 40 000 operations beyond linear work. The verdict follows from the factors where their
+condition is below 2^40, a thousand times less than that of a singular matrix, and is taken modulo the prime otherwise.
+The answer says so by `method: floats` and a tilde, and `solve` prints the reason and the estimate of the error.
 
 The float path reports an error estimate for each speed: two more solves with the residual left after refinement, and
 what errors of any sign within twice the precision may move (by the inverse up to 400 links, by random signs beyond).

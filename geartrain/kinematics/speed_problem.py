@@ -16,7 +16,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import OutputResult, Relative, SpeedValue, judge_outputs
 from geartrain.kinematics.relative_speeds import relative_speed
-from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, solve
+from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, determined_verdict, exact_verdict, solve
 from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
 from geartrain.kinematics.verdict import Verdict
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
@@ -72,13 +72,15 @@ class SpeedProblem:
         if case.problems:
             verdict = Verdict("refused", "; ".join(problem.text for problem in case.problems))
             return self._judged(case, verdict, {}, _unknown, wanted, 0, {})
-        if method in ("sparse", "floats"):
-            return self._answer_in_floats(part, case, wanted)
-        try:
+        solution, in_floats = None, method in ("sparse", "floats")
+        with suppress(TooDenseError):
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
-        except TooDenseError:
-            with suppress(RangeError):  # no digit of some speed is known in floats
-                return self._answer_in_floats(part, case, wanted)
+        if solution is None or in_floats:
+            try:
+                return self._answer_in_floats(part, case, wanted, solution)
+            except RangeError:  # no digit of some speed is known in floats
+                if in_floats:
+                    raise
             solution = solve(part, case, self.signs, None)
         if not case.exact:  # radians beside turns are no fractions, and none are shown
             return self._rounded(part, case, wanted, solution)
@@ -144,22 +146,19 @@ class SpeedProblem:
 
     # --------------------------------------------------------------------------------------------------- three methods
 
-    def _answer_in_floats(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Answer:
-        """Floats with their estimate, and with their true error where the exact answer is cheap."""
+    def _answer_in_floats(
+        self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
+    ) -> Answer:
+        """Floats with their estimate, and with their true error where the exact solution is known."""
         from geartrain.kinematics.speeds import solve_floats
 
-        truth: Mapping[str, Fraction] = {}
-        try:
-            solution = solve(part, case, self.signs)
-        except TooDenseError:
-            verdict = exact_verdict(part.reduced, case, self.signs)
-            still = verdict.kind == "locked" and not any(case.inputs.values())
-            solution = Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
-        else:
-            truth = solution.speeds
+        truth = solution.speeds if solution is not None else {}
+        system = self._system(part, case)
+        if solution is None:
+            solution = self._without_speeds(part, case, system)
         if not solution.verdict:  # no square system to factorise
             return self._rounded(part, case, wanted, solution)
-        found = solve_floats(self._system(part, case), condition_of=self._conditioned(part, case, wanted))
+        found = solve_floats(system, condition_of=self._conditioned(part, case, wanted))
         powers = found.exponents.values[:, 0].tolist()
         speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
 
@@ -183,6 +182,17 @@ class SpeedProblem:
         told, work = LazyMapping(accuracy), len(part.circuits)
         answer = self._judged(case, solution.verdict, speeds, relative, wanted, work, None, told)
         return replace(answer, residual=LazyMapping(residual))
+
+    def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
+        """The verdict on a dense system: by its float factors where they leave no doubt, else modulo a prime."""
+        from geartrain.kinematics.speeds import is_regular
+
+        moved = any(case.inputs.values())
+        if moved and is_regular(system):
+            return Solution(determined_verdict(case, part.reduced), {}, {}, self.signs)
+        verdict = exact_verdict(part.reduced, case, self.signs)
+        still = verdict.kind == "locked" and not moved
+        return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
     def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
         """Links whose condition number is told: each costs a solve, so of long trains those of the outputs."""

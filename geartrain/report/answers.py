@@ -11,6 +11,7 @@ from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.judged_outputs import OutputResult, magnitude
 from geartrain.kinematics.tooth_sensitivity import Sensitivity
 from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
+from geartrain.report.speeds_text import why_floats
 from geartrain.train import Train
 from geartrain.train.dials import looks_away
 
@@ -97,8 +98,7 @@ def _speed_section(train: GearTrain, answer: Answer, head: str) -> Section:
     given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
     lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
     if answer.method == "floats":
-        why = "the coupled system is too dense for exact elimination" if case.exact else "radians are mixed with turns"
-        lines.append(f"Solved in floats: {why}.")
+        lines.append(why_floats(answer) if case.exact else "Solved in floats: radians are mixed with turns.")
     return Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
 
 

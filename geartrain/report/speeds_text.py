@@ -31,8 +31,20 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
         lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
     if answer.residual:
         row, most = max(answer.residual.items(), key=lambda each: each[1])
+        if any(each.true_error is None for each in answer.accuracy.values()):
+            lines.append(f"  {why_floats(answer)}")
         lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
     return "\n".join(lines)
+
+
+def why_floats(answer: Answer) -> str:
+    """Why a coupled system was solved in floats, how large their errors are, and how to get fractions."""
+    error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
+    why = "the system is coupled too densely for exact elimination within about a second"
+    return (
+        f"Solved in floats: {why}. The estimated error of every speed is at most {error:.1e}. "
+        "`geartrain solve FILE --method exact` solves it in fractions, however long it takes."
+    )
 
 
 def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:

@@ -9,8 +9,10 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from studies.train_families import FAMILIES, grid
 
 from geartrain import GearTrain, GearTrainError
+from geartrain.kinematics.speeds import exact_speeds
 from geartrain.numerics.decimal_text import decimal
 
 Data = dict[str, Any]
@@ -334,3 +336,64 @@ def test_a_locked_train_is_locked_whatever_the_method() -> None:
     train = GearTrain.declare(lattice(4, diagonal=True)[0])
     assert train.solve(method="exact").verdict.kind == "locked"
     assert train.solve(method="floats").verdict.kind == "locked"
+
+
+# Coupled systems: the method is chosen before long numbers are computed ----------------------------------------------
+
+
+def count_eliminations(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The modulus of every elimination to come; 0 is an elimination in fractions."""
+    met: list[int] = []
+    eliminate = exact_speeds.eliminate
+
+    def count(rows: Any, budget: int | None = None, modulus: int = 0) -> Any:
+        met.append(modulus)
+        return eliminate(rows, budget, modulus)
+
+    monkeypatch.setattr(exact_speeds, "eliminate", count)
+    return met
+
+
+def test_a_large_grid_of_differentials_is_solved_in_floats_without_a_single_fraction(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    met, data = count_eliminations(monkeypatch), grid(6666)
+    answer = GearTrain.declare(data).solve()
+    assert answer.method == "floats"
+    assert answer.verdict.kind == "determined"
+    assert len(met) == 1, "one prediction, and no second elimination for the verdict"
+    assert met[0] > 0
+    wheels = {
+        name: (link, entry) for link, each in data["links"].items() for name, entry in each.get("wheels", {}).items()
+    }
+    for sun, (first, teeth) in ((name, wheel) for name, wheel in wheels.items() if name.startswith("sun")):
+        place = sun.removeprefix("sun")
+        second, ring = wheels[f"ring{place}"]
+        carrier, one, other = (Fraction(answer[link]) for link in (f"s{place}", first, second))
+        assert abs(teeth * (one - carrier) + ring["teeth"] * (other - carrier)) <= ring["teeth"] * 1e-13, place
+    for link, speed in data["inputs"].items():
+        assert answer[link] == speed
+
+
+@pytest.mark.parametrize(
+    ("change", "kind"),
+    [
+        pytest.param({"s20_20": 1}, "contradictory", id="one input too many"),
+        pytest.param({"s0_0": None, "s20_20": 1}, "contradictory", id="as many equations as links, and singular"),
+        pytest.param({"s0_5": None}, "free", id="one input too few"),
+    ],
+)
+def test_a_large_grid_that_is_not_determined_is_never_called_determined(change: Data, kind: str) -> None:
+    data = grid(4000)
+    data["inputs"] = {link: speed for link, speed in (data["inputs"] | change).items() if speed is not None}
+    assert GearTrain.declare(data).solve().verdict.kind == kind
+
+
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_every_family_is_solved_exactly_up_to_a_thousand_links(family: str) -> None:
+    assert GearTrain.declare(FAMILIES[family](1000)).solve().method == "exact"
+
+
+def test_only_fill_is_predicted_and_length_is_not() -> None:
+    assert GearTrain.declare(FAMILIES["cascade"](20_000)).solve().method == "exact"
+    assert GearTrain.declare(grid(1700)).solve().method == "exact"

@@ -4,23 +4,31 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, Solution, exact_verdict, solve
+from geartrain.kinematics.speeds.exact_speeds import (
+    EXACT_BUDGET,
+    Solution,
+    determined_verdict,
+    exact_verdict,
+    solve,
+)
 from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
+    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, is_regular, solve_floats
 
 __all__ = [
     "EXACT_BUDGET",
     "FloatSpeeds",
     "Mobility",
     "Solution",
+    "determined_verdict",
     "exact_verdict",
     "find_mobility",
+    "is_regular",
     "solve",
     "solve_floats",
 ]
 
 # the float path brings numpy and scipy
-__getattr__ = lazy_names(__name__, {"FloatSpeeds": "float_speeds", "solve_floats": "float_speeds"})
+__getattr__ = lazy_names(__name__, dict.fromkeys(("FloatSpeeds", "is_regular", "solve_floats"), "float_speeds"))

@@ -20,13 +20,22 @@ from geartrain.kinematics.speeds.diagnosis import (
 from geartrain.kinematics.speeds.propagation import propagate
 from geartrain.kinematics.verdict import Verdict
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.elimination import PRIME, LinearForm, add_into, eliminate, rank_modulo, residues
+from geartrain.numerics.elimination import PRIME, Echelon, LinearForm, add_into, eliminate, rank_modulo, residues
 from geartrain.train import StateCase
 
 _GIVEN = -1  # the column in which prescribed numbers stand
 
 EXACT_BUDGET = 400_000
 """Coefficient operations after which exact elimination gives way to floats; about a second."""
+
+_PREDICTED = 40_000
+"""Operations modulo a prime beyond which exact elimination is not tried.
+
+Fill makes numbers long: in grids and random networks of differentials, this many operations with short numbers are some
+400,000 of `EXACT_BUDGET`.
+"""
+
+_FEW = 100  # equations up to which the prediction would cost as much as it saves
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +131,8 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
         return Solution(determined_verdict(case), walked, ratios, signs)
     reduced = part.reduced
     budget = elimination_budget(reduced, budget)
-    echelon = eliminate([*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)], budget)
+    rows = [*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)]
+    echelon = eliminate_within(rows, budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
     if not any(case.inputs.values()) and _all_still(reduced, case, budget):
@@ -139,6 +149,16 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
     """The budget for one system: uncoupled equations cost a few operations each, and are always allowed."""
     return None if budget is None else budget + 30 * len(reduced.equations)
+
+
+def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
+    """Exact elimination within a budget; `TooDenseError` at once where its fill is predicted to exceed it.
+
+    The prediction is the same elimination modulo a prime, whose numbers are short, and it stops at its own limit.
+    """
+    if budget is not None and len(rows) > _FEW:
+        eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)
+    return eliminate(rows, budget)
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:

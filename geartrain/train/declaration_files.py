@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from functools import cache
 from itertools import count
 from pathlib import Path
@@ -13,7 +14,8 @@ from typing import Any
 from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.declaration import Train
 from geartrain.train.inheritance import merge_parent
-from geartrain.train.short_forms import written_out
+from geartrain.train.json_text import JsonMarks, parse_json
+from geartrain.train.short_forms import has_short_forms, written_out
 from geartrain.train.validation import declare
 from geartrain.train.yaml_nodes import YamlNode, as_yaml, node_from_data, parse_yaml
 
@@ -79,7 +81,20 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
     if isinstance(source, str) and "\n" in source:
         return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
     path = _find(source, known)
+    if path.suffix == ".json" and (train := _read_json(path)) is not None:
+        return train
     return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
+
+
+def _read_json(path: Path) -> Train | None:
+    """The train that a JSON file declares by itself; None where it inherits, has short forms, or has a problem."""
+    text = _read(path)
+    data = parse_json(text)
+    if data is None or "extends" in data or "remove" in data or has_short_forms(data):
+        return None
+    with suppress(DeclarationError):  # it is raised again by the YAML parser's nodes, which have places
+        return declare({"name": path.stem, **data}, JsonMarks(text, str(path)))
+    return None
 
 
 def write_declaration(train: Train) -> str:

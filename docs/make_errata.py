@@ -163,7 +163,7 @@ def table_4() -> Iterator[str]:
 
 def table_7() -> Iterator[str]:
     """Row 18 of the adjacency matrix."""
-    cells = adjacency_labels(paper().graph)[17]
+    cells = adjacency_labels(paper().declaration)[17]
     found = ", ".join(f"{cell} at column {column}" for column, cell in enumerate(cells, 1) if cell)
     yield from ("## Table 7", "")
     yield f"Row 18 of the matrix holds {found}; the paper prints G19 at column 19, and has"

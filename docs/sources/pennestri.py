@@ -112,7 +112,7 @@ def circuit(name: str) -> str:
 
 def cells(link: int) -> str:
     """What stands in a row of the adjacency matrix."""
-    return " ".join(cell for cell in adjacency_labels(paper().graph)[link - 1] if cell)
+    return " ".join(cell for cell in adjacency_labels(paper().declaration)[link - 1] if cell)
 
 
 def introduction() -> Iterator[Row]:

@@ -174,10 +174,11 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
     """Documents as HTML or Markdown to a file, or to be read: within the terminal's width, or 80 columns of a pipe."""
-    from geartrain.report.html_page import to_html
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":
+        from geartrain.report.html_page import to_html
+
         emit(to_html(documents), out)
     elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console

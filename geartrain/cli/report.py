@@ -25,7 +25,6 @@ def run(
 
     A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
     """
-    from geartrain.report.html_page import to_html
     from geartrain.report.train_data import collect_report
     from geartrain.report.train_report import describe_train
 
@@ -37,6 +36,8 @@ def run(
     if json or to.suffix == ".json":
         emit(as_json([collect_report(train) for train in trains]), to)
     elif to.suffix == ".html":
+        from geartrain.report.html_page import to_html
+
         emit(to_html([_shared(train, view) for train in trains]), to)
     else:
         show([describe_train(collect_report(train)) for train in trains], to)

@@ -6,7 +6,7 @@ Direction is never read from an undirected edge: teeth, pins and slots are on th
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import printable
@@ -32,22 +32,22 @@ def build_graph(train: Train) -> Graph:
     graph: Graph = LazyGraph(name=train.name)
     for name, link in train.links.items():
         graph.add_node(name, declared=link, frame=name == train.frame)
+    for links, key, kind, label, declared in _edges(train):
+        graph.add_edge(*links, key=key, kind=kind, label=label, declared=declared)
+    return graph
+
+
+def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]:
+    """For each edge: its two links, its key, kind and label, and the declared object."""
     for at, joint in enumerate(train.revolutes):
-        graph.add_edge(*joint.pair, key=f"revolute {at}", kind="revolute", label=joint.axis, declared=joint)
+        first, second = joint.pair
+        yield (first, second), f"revolute {at}", "revolute", joint.axis, joint
     wheels = train.wheels
     for gear in train.gears:
         first, second = (wheels[wheel][0] for wheel in gear.pair)
-        graph.add_edge(first, second, key=gear.name, kind="gear", label=gear.name, declared=gear)
+        yield (first, second), gear.name, "gear", gear.name, gear
     for coupling in train.couplings:
-        graph.add_edge(
-            coupling.pin,
-            coupling.slot,
-            key=coupling.name,
-            kind=coupling.kind,
-            label=coupling.name,
-            declared=coupling,
-        )
-    return graph
+        yield (coupling.pin, coupling.slot), coupling.name, coupling.kind, coupling.name, coupling
 
 
 MOST_SQUARE = 48
@@ -59,12 +59,12 @@ def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 
-def adjacency_labels(graph: Graph) -> list[list[str]]:
+def adjacency_labels(train: Train) -> list[list[str]]:
     """The adjacency matrix in letters: `R(axis)` for a turning pair, the id for a gear pair or coupling."""
-    at = {link: position for position, link in enumerate(graph)}
+    at = {link: position for position, link in enumerate(train.links)}
     cells: list[list[list[str]]] = [[[] for _ in at] for _ in at]
-    for first, second, data in graph.edges(data=True):
-        text = f"R({data['label']})" if data["kind"] == "revolute" else str(data["label"])
+    for (first, second), _, kind, label, _ in _edges(train):
+        text = f"R({label})" if kind == "revolute" else label
         cells[at[first]][at[second]].append(text)
         cells[at[second]][at[first]].append(text)
     return [[" ".join(cell) for cell in row] for row in cells]

@@ -9,8 +9,8 @@ from geartrain.report.document import Document, Section, Table
 
 def adjacency_table(train: GearTrain) -> Table:
     """Links by links; R(axis) is a turning pair, gear pairs and couplings stand by their ids."""
-    names = list(train.graph)
-    cells = adjacency_labels(train.graph)
+    names = list(train.declaration.links)
+    cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
 
 

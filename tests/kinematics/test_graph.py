@@ -150,7 +150,7 @@ def test_names_with_quotes_and_signs_survive_every_export() -> None:
 @given(trains())
 def test_the_numeric_adjacency_is_symmetric_and_counts_every_edge(data: Data) -> None:
     train = GearTrain.declare(data)
-    matrix, labels = adjacency_matrix(train.graph), adjacency_labels(train.graph)
+    matrix, labels = adjacency_matrix(train.graph), adjacency_labels(train.declaration)
     values = matrix.values
     assert (values == values.T).all()
     assert values.sum() == 2 * len(edges_of(train))
@@ -162,10 +162,11 @@ def test_the_numeric_adjacency_is_symmetric_and_counts_every_edge(data: Data) ->
 
 
 def test_turning_pairs_and_gear_pairs_can_be_counted_apart() -> None:
-    graph = planetary().graph
+    train = planetary()
+    graph = train.graph
     assert adjacency_matrix(graph, ["revolute"]).values.sum() == 2 * 3
     assert adjacency_matrix(graph, ["gear"]).values.sum() == 2 * 2
-    assert adjacency_labels(graph)[0] == ["", "R(main)", "R(main)", "outer"]
+    assert adjacency_labels(train.declaration)[0] == ["", "R(main)", "R(main)", "outer"]
 
 
 @given(trains())

@@ -73,7 +73,7 @@ def test_adjacency_matrix_is_in_the_style_of_table_7(train: GearTrain) -> None:
         pairs[int(i), int(j)] = name
     for (i, j), text in pairs.items():
         expected[i - 1][j - 1] = expected[j - 1][i - 1] = text
-    assert adjacency_labels(train.graph) == expected
+    assert adjacency_labels(train.declaration) == expected
 
 
 def test_numeric_adjacency_counts_37_edges_and_is_symmetric(train: GearTrain) -> None:

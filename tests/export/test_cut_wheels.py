@@ -158,7 +158,8 @@ class Meshed:
         """Common area when the first wheel is t on, the second `lag` (rad) ahead of the middle of its play."""
         if self.law is not None:
             law = self.law.turned_back() if back else self.law
-            turn = pi - float(law.angle(np.array(t))) - lag
+            turned = float(law.angle(np.array(t))) + lag
+            turn = turned if self.ring else pi - turned
         elif self.ring:
             turn = pi / self.z2 + t * self.z1 / self.z2 + lag
         else:

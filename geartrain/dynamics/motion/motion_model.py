@@ -179,8 +179,9 @@ class Motion(PicturedMotion):
             Of the same outputs and tolerance.
         """
         declared = self.train.phases
-        fixed = {*declared, *self.train.idlers}  # the first pair of a planet places its teeth in the second
-        drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in fixed}
+        # the first pair of a planet places its teeth in the second
+        free = [mesh.name for mesh in self.train.rippling if self.train.placed_by(mesh.name) is None]
+        drawn = {name: float(random.random()) for name in free if name not in declared}
         return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
 
     # -------------------------------------------------------------------------------------------------- what it answers

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import permutations
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.circuits import Circuit
@@ -31,8 +32,8 @@ class MotionProblem:
     meshes    pairs with real teeth by name, as they are driven, each made when it is first read
     drivers   who drives each pair and coupling, and how that is known
     angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
-    idlers    by pair whose driver another pair about the same line drives: that pair, and whether the wheel has its two
-              contacts on opposite sides. Its teeth start where that pair puts them
+    shared    by pair and wheel, the other pairs of that wheel about the same line, and whether its contacts lie on
+              opposite sides
     loops     loops that are redundant: real teeth in them contradict the rest
     """
 
@@ -47,7 +48,7 @@ class MotionProblem:
     drivers: Mapping[str, MeshDriver]
     angles: Mapping[str, float] = field(default_factory=dict)
     phases: Mapping[str, float] = field(default_factory=dict)
-    idlers: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
+    shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
     loops: Sequence[Loop] = ()
 
     @property
@@ -66,6 +67,14 @@ class MotionProblem:
     def relative(self, link: str, carrier: str) -> Fraction:
         """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
+
+    def placed_by(self, pair: str) -> tuple[str, bool] | None:
+        """The pair that drives the driver of a pair, and so places its teeth; of `shared`, None where there is none."""
+        if pair not in self.drivers:
+            return None
+        wheel = self.drivers[pair].wheel
+        others = self.shared.get((pair, wheel), ())
+        return next((each for each in others if self.drivers[each[0]].wheel != wheel), None)
 
     @property
     def teeth(self) -> list[GearMesh]:
@@ -123,30 +132,26 @@ def build_motion_problem(
         drivers,
         {name: link.angle.si for name, link in train.links.items() if link.angle is not None},
         {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
-        find_idlers(circuits, drivers, tree) if meshes else {},
+        find_shared_wheels(circuits, tree) if meshes else {},
         [parts.loop(chord) for chord in parts.closing] if meshes or pins else [],
     )
 
 
-def find_idlers(
-    circuits: Sequence[Circuit], drivers: Mapping[str, MeshDriver], tree: Tree
-) -> dict[str, tuple[str, bool]]:
-    """Pairs whose driver is driven by another pair with a coaxial mate, as a planet between sun and ring.
+def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
+    """Wheels with coaxial mates, as a planet between sun and ring: their lines of centres are one line.
 
-    The lines of centres are one line then, and the contacts lie on opposite sides where one mate is a ring.
+    The contacts lie on opposite sides where one mate is a ring.
     """
-    gears = [circuit for circuit in circuits if circuit.kind == "gear"]
-    driven: dict[str, tuple[Circuit, str]] = {}
-    for circuit in gears:
-        at = circuit.wheels.index(drivers[circuit.id].wheel)
-        driven.setdefault(circuit.wheels[1 - at], (circuit, (circuit.i, circuit.j)[at]))
-    found = {}
-    for circuit in gears:
-        wheel = drivers[circuit.id].wheel
-        before, mate = driven.get(wheel, (None, ""))
-        if before is None or before.carrier != circuit.carrier:
-            continue
-        other = (circuit.i, circuit.j)[1 - circuit.wheels.index(wheel)]
-        if tree.axis_seen_from(circuit.carrier, mate) == tree.axis_seen_from(circuit.carrier, other):
-            found[circuit.id] = before.id, (before.a * before.b < 0) != (circuit.a * circuit.b < 0)
+    of_wheel: dict[str, list[tuple[Circuit, str]]] = {}
+    for circuit in circuits:
+        if circuit.kind == "gear":
+            for at, wheel in enumerate(circuit.wheels):
+                axis = tree.axis_seen_from(circuit.carrier, (circuit.j, circuit.i)[at])
+                of_wheel.setdefault(wheel, []).append((circuit, axis))
+    found: dict[tuple[str, str], list[tuple[str, bool]]] = {}
+    for wheel, pairs in of_wheel.items():
+        for (one, axis), (other, second) in permutations(pairs, 2):
+            if one.carrier == other.carrier and axis == second:
+                opposite = (one.a * one.b < 0) != (other.a * other.b < 0)
+                found.setdefault((one.id, wheel), []).append((other.id, opposite))
     return found

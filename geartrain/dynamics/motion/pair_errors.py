@@ -164,8 +164,9 @@ class PairErrors:
         planet between sun and ring has no phase of its own in its second pair: there its teeth are where the first puts
         them, half a pitch off where their number is odd and the contacts lie on opposite sides.
         """
-        if circuit.id in self.train.idlers and circuit.id not in self.train.phases:
-            before, opposite = self.train.idlers[circuit.id]
+        placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
+        if placed is not None:
+            before, opposite = placed
             if (mesh := self.train.meshes.get(before)) is not None:
                 first = self._circuits[before]
                 start = self._phase(first, mesh.law, self.driven_side(first))

@@ -16,7 +16,9 @@ def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
     """Rule P2 for teeth that run at any distance, as triangular ones: the shared wheel fixes the size of both pairs."""
-    free = [pair for pair in pairs if pair.parallel and pair.form is not None and pair.form.any_distance]
+    free = [
+        pair for pair in pairs if pair.parallel and pair.form and pair.form.any_distance and not pair.form.conjugate
+    ]
     for one, other in combinations(free, 2):
         if one.axis_pair != other.axis_pair or not set(one.wheels) & set(other.wheels):
             continue

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
@@ -302,12 +301,11 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _factor(self, sizes: TriangularSizes) -> float:
-        """The declared excess, taken exactly before it is rounded. Raises `GearTrainError` where it is below 0."""
-        if self.excess is not None:
-            return float(self.excess.value)
-        excess = Fraction(0) if self.clearance is None else sizes.side * (self.clearance.value - 1)
-        if excess < 0:
-            assert self.clearance is not None
+        """The declared excess, taken exactly before it is rounded. Raises `GearTrainError` where it is not above 0."""
+        if self.excess is not None or self.clearance is None:
+            return 0.0 if self.excess is None else float(self.excess.value)
+        excess = sizes.side * (self.clearance.value - 1)
+        if excess <= 0:
             deepest = "maximum, in a ring" if sizes.ring else "minimum"
             raise refused(
                 f"a clearance factor of {self.clearance.text} presses a tip into the bottom of a space",

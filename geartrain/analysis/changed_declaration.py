@@ -111,7 +111,7 @@ class ChangeableTrain(TrainUnderLoad):
         Raises
         ------
         DeclarationError
-            For what a declaration cannot say.
+            For changes that a declaration does not allow.
 
         Examples
         --------

@@ -64,7 +64,7 @@ def is_sound(train: GearTrain, state: str | None) -> bool:
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """The state that is named, else all in which speeds can be calculated; a note says why another is left out."""
+    """The named state, or all states in which speeds can be calculated; a note says why another is left out."""
     if state is not None:
         return (state,)
     for case in train.cases.values():

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 FAMILY = "family.json"
 MOST_TURNING = 200
-_LARGE = 15  # decimal logarithm of choices of counts from which their number is told first
+_LARGE = 15  # decimal logarithm of choices of counts above which their number is printed first
 _STEPS = 1000
 """Of a progress bar."""
 _PATIENCE = 2.0  # seconds before a progress bar is shown

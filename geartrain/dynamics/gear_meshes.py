@@ -46,7 +46,7 @@ class PinMesh:
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
-    """Every gear pair with real teeth, by name: its first wheel drives, until `GearMesh.driven_by` says better.
+    """Every gear pair with real teeth, by name: its first wheel drives unless `GearMesh.driven_by` says otherwise.
 
     The teeth of a pair are made when it is first read, which raises `GearTrainError` where they cannot be built.
 

@@ -19,7 +19,7 @@ _FORCES = (
     "At the circles on which wheels roll, as means. Axial above 0 along the direction of the axis; radial towards the "
     "axis, below 0 outwards. Both wheels of a pair bear the same force: friction reduces the torque on one of them, "
     "and the greater torque over radius counts, except on crossed axes. Friction counts along teeth that slide along "
-    "each other, not up and down them. Where no form says it the pressure angle is 20 degrees."
+    "each other, not up and down them. The pressure angle is 20 degrees by default."
 )
 _CONTACT = (
     "Hertz pressure of smooth flanks under the mean torque; couples that touch at once carry the same force, as rigid "

@@ -89,12 +89,12 @@ class MeshingWheels:
 
     @property
     def module(self) -> float | None:
-        """Mean transverse module (m); None where no length says it."""
+        """Mean transverse module (m); None without a declared length."""
         return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
 
     @property
     def pitch_distance(self) -> float | None:
-        """Distance (m) at which pitch circles of the declared modules touch; None where no length says it."""
+        """Distance (m) at which pitch circles of the declared modules touch; None without a declared length."""
         z1, z2 = self.counts
         return (
             self.distance

@@ -136,7 +136,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
 
 
 def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
-    """Percentile of values in order; its interval is between two order statistics, whatever their distribution."""
+    """Percentile of values in order; its interval is between two order statistics, for any distribution."""
     n, p = len(ordered), percent / 100
     if not n:
         return IntervalEstimate(nan, -inf, inf)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 FARTHEST = 1000.0  # rad in a step: beyond, it is no motion but an error that grows
-_SHORT = 2  # steps apart after which flanks stay in contact whatever their restitution
+_SHORT = 2  # steps apart after which flanks stay in contact at any restitution
 _AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
 _NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
 _JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before

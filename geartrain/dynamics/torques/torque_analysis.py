@@ -57,7 +57,7 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
-    """The pairs that carry no torque under the declared loads, whatever any pair loses; empty where no torques follow.
+    """The pairs that carry no torque under the declared loads, at any losses; empty where no torques follow.
 
     They are zero-force members (statics of trusses).
     """

@@ -79,7 +79,7 @@ class Journal:
             raise _refused("the file is no journal", "it is no regular file", "remove it, or name another", self.path)
         try:
             with ExitStack() as opened:
-                # whatever was read last, what is written goes to the end
+                # whatever was read last, writes go to the end
                 self._file = opened.enter_context(self.path.open("a+b", buffering=0))
                 self._reader = opened.enter_context(self.path.open("rb"))
                 opened.enter_context(_only_writer(self.path))
@@ -220,7 +220,7 @@ class Journal:
 
 @contextmanager
 def _only_writer(path: Path) -> Iterator[None]:
-    """Lock a journal for this process, by a file beside it; the lock ends with the process, whatever ends that."""
+    """Lock a journal for this process, by a file beside it; the lock ends with the process, however it ends."""
     from filelock import FileLock, Timeout
 
     lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)

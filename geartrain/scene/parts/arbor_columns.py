@@ -183,7 +183,7 @@ class ColumnProblem:
 
     @cached_property
     def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """The same if nothing stands still on the axis: then it does not depend on the places of plates."""
+        """The same if nothing on the axis is at rest: then it does not depend on the places of plates."""
         return nested(self._moving)
 
     @cached_property
@@ -214,7 +214,7 @@ class ColumnProblem:
         return replace(held, hubs=held.hubs[:-1])
 
     def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
-        """Both plates, first the one that is nearer to what stands still."""
+        """Both plates, first the one that is nearer to what is at rest."""
         middle = (self._standing[0].low + self._standing[-1].high) / 2
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 

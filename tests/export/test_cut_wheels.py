@@ -242,7 +242,7 @@ def overlapping(trains: Iterable[str], play: float, count: int) -> tuple[int, li
 # ------------------------------------------------------------------------------------------------------ one source
 
 
-@pytest.mark.parametrize("name", TRAINS)
+@pytest.mark.parametrize("name", shipped.every_train(TRAINS))
 def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
     """Every vertex of either outline lies on the other, for every wheel that is cut.
 

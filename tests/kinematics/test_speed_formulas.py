@@ -9,8 +9,8 @@ import pytest
 import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shipped import every_train
 from shipped import train as load
-from shipped import trains
 
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
@@ -87,7 +87,7 @@ def test_two_inputs_are_a_sum() -> None:
     assert train.formula("MG2", "cruising").text == "MG2 = (1 + z_s30/z_r78) · engine - z_s30/z_r78 · MG1"
 
 
-@pytest.mark.parametrize("name", trains())
+@pytest.mark.parametrize("name", every_train())
 def test_every_formula_of_every_train_gives_what_solving_gives(name: str) -> None:
     train = load(name)
     for state in train.states or (None,):
@@ -98,7 +98,7 @@ def test_every_formula_of_every_train_gives_what_solving_gives(name: str) -> Non
             assert formula.value == answer.outputs[formula.output].speed
 
 
-@pytest.mark.parametrize("name", trains())
+@pytest.mark.parametrize("name", every_train())
 def test_every_text_read_as_arithmetic_gives_the_value(name: str) -> None:
     """Text, LaTeX and sympy are three writings of one number."""
     train = load(name)

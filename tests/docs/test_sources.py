@@ -17,6 +17,7 @@ from typer.main import get_command
 
 from geartrain.cli import app
 
+
 def sections() -> dict[str, str]:
     """The page of errata by the anchors of its headings."""
     found = {}

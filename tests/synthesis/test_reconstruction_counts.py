@@ -27,6 +27,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
+LONG = {"b byzantine", "random 1016", "medium 7004"}  # each some seconds
 QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
 
 
@@ -63,7 +64,12 @@ def _dial(given: dict[str, Any]) -> SearchedDial:
     return SearchedDial(given["name"], least, greatest, signed, NEW if place == "new" else place)
 
 
-@pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question["name"].replace(" ", "-"))
+def _parameter(question: dict[str, Any]) -> Any:
+    name = question["name"]
+    return pytest.param(question, id=name.replace(" ", "-"), marks=[pytest.mark.slow] if name in LONG else [])
+
+
+@pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])
 def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
     found = find_reconstructions(asked(question), listed=0)
     assert found.complete

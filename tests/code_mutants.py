@@ -6,8 +6,8 @@
 A mutant is the package with one operator or constant changed: the sign of a term, a product for a quotient, a
 comparison at its boundary, `and` for `or`, a whole number off by one. Places are drawn at random, from a seed, in
 kinematics, dynamics, teeth and numerics. A mutant is killed if a test of the folder of the same name fails or does not
-end; the files that import the mutated module run first. `--again` tries the mutants of an earlier run by the tests
-there are now: those that were killed then, or with `--all` every one.
+end; the files that import the mutated module run first, and with `--near` only those. `--again` tries the mutants of an
+earlier run by the tests there are now: those that were killed then, or with `--all` every one.
 """
 
 from __future__ import annotations
@@ -113,15 +113,23 @@ def _others(node: ast.expr) -> Iterator[ast.expr]:
             yield ast.Constant(value + 1)
 
 
-def drawn(number: int, seed: int, rooms: tuple[str, ...]) -> list[Fault]:
+def drawn(number: int, seed: int, rooms: tuple[str, ...], near_only: bool) -> list[Fault]:
     """Faults drawn at random: as many in each room, or nearly."""
     random, found = Random(seed), []
     for at, room in enumerate(rooms):
-        known = [each for path in sorted((ROOT / "geartrain" / room).rglob("*.py")) for each in faults(path)]
+        paths = sorted((ROOT / "geartrain" / room).rglob("*.py"))
+        known = [each for path in paths if not near_only or near(ROOT, path.relative_to(ROOT)) for each in faults(path)]
         share = number // len(rooms) + (at < number % len(rooms))
         found += random.sample(known, min(share, len(known)))
     random.shuffle(found)
     return found
+
+
+def near(root: Path, path: Path) -> list[Path]:
+    """Files of tests, in the folder of the same name, that name a module of the package."""
+    module = str(path.with_suffix("")).replace("/", ".").removesuffix(".__init__")
+    every = sorted((root / "tests" / path.parts[1]).glob("test_*.py"))
+    return [each for each in every if re.search(rf"\b{re.escape(module)}\b", each.read_text(encoding="utf-8"))]
 
 
 class Trial:
@@ -136,13 +144,12 @@ class Trial:
             elif part.exists():
                 shutil.copy(part, folder / name)
 
-    def files(self, path: str) -> list[list[str]]:
+    def files(self, path: str, near_only: bool) -> list[list[str]]:
         """Files of tests for a module of the package: those that name it, then the others of its folder."""
-        room = Path(path).parts[1]
-        module = path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
-        every = sorted((self.folder / "tests" / room).glob("test_*.py"))
-        near = [each for each in every if re.search(rf"\b{re.escape(module)}\b", each.read_text(encoding="utf-8"))]
-        return [[str(each) for each in some] for some in (near, [each for each in every if each not in near]) if some]
+        first = near(self.folder, Path(path))
+        every = sorted((self.folder / "tests" / Path(path).parts[1]).glob("test_*.py"))
+        others = [] if near_only else [each for each in every if each not in first]
+        return [[str(each) for each in some] for some in (first, others) if some]
 
     def test(self, files: list[str], patience: float) -> tuple[str, float]:
         """The first test that fails, `timeout`, or nothing; and the seconds it took."""
@@ -161,13 +168,13 @@ class Trial:
         failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.M)
         return (failed[0] if failed else "collection"), taken
 
-    def killer(self, fault: Fault, patience: float) -> str:
+    def killer(self, fault: Fault, patience: float, near_only: bool) -> str:
         """The test that finds a fault, or nothing."""
         path = self.folder / fault.path
         source = path.read_bytes()
         path.write_bytes(source[: fault.start] + fault.after.encode() + source[fault.end :])
         try:
-            for files in self.files(fault.path):
+            for files in self.files(fault.path, near_only):
                 found, _ = self.test(files, patience)
                 if found:
                     return found
@@ -182,6 +189,7 @@ def main() -> None:
     parser.add_argument("--number", type=int, default=200, help="how many faults are drawn (200)")
     parser.add_argument("--seed", type=int, default=0, help="the seed of the drawing (0)")
     parser.add_argument("--rooms", nargs="*", default=list(ROOMS), help="folders of the package")
+    parser.add_argument("--near", action="store_true", help="only modules that tests import, and those tests (no)")
     parser.add_argument("--again", type=Path, help="try the faults that an earlier run wrote to this file")
     parser.add_argument("--all", action="store_true", help="with --again: also those that no test found then")
     parser.add_argument("--patience", type=float, default=1800, help="seconds after which tests are ended (1800)")
@@ -196,12 +204,12 @@ def main() -> None:
             if asked.all or each["killer"]
         ]
     else:
-        chosen = drawn(asked.number, asked.seed, tuple(asked.rooms))
+        chosen = drawn(asked.number, asked.seed, tuple(asked.rooms), asked.near)
     killed = 0
     with tempfile.TemporaryDirectory() as folder, asked.out.open("w", encoding="utf-8") as out:
         trial = Trial(Path(folder))
         for at, fault in enumerate(chosen, 1):
-            killer = trial.killer(fault, asked.patience)
+            killer = trial.killer(fault, asked.patience, asked.near)
             killed += bool(killer)
             print(json.dumps({**asdict(fault), "killer": killer}), file=out, flush=True)
             print(f"{at}/{len(chosen)} {killed} killed: {fault.path}:{fault.line} {killer or 'LIVES'}", flush=True)

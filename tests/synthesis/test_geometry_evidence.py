@@ -292,10 +292,11 @@ def _orders_against_all_permutations(seed: int) -> None:
 # pruning
 
 
-def test_pairs_kept_apart_lose_no_possible_candidate() -> None:
+@pytest.mark.parametrize("seeds", [range(35), pytest.param(range(35, 70), marks=pytest.mark.slow)])
+def test_pairs_kept_apart_lose_no_possible_candidate(seeds: range) -> None:
     """Random questions with random places: what is possible is the same with the pairs and without."""
     refused = possible = 0
-    for seed in range(70):
+    for seed in seeds:
         dice = random.Random(seed)
         problem = random_problem(seed, idlers=True)
         arbors = (problem.input, *problem.arbors)
@@ -316,8 +317,8 @@ def test_pairs_kept_apart_lose_no_possible_candidate() -> None:
         assert {*able} == {one.arbor for one in fewer if candidate_likelihood(one.arbor, geometry)}, seed
         refused += len(every) - len(able)
         possible += len(able)
-    assert refused > 40
-    assert possible > 40
+    assert refused > 20
+    assert possible > 20
 
 
 # from evidence

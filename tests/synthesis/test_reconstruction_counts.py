@@ -109,6 +109,7 @@ def test_back_wheels_have_as_many_trains_with_five_added_as_another_program_foun
     assert [each.mechanisms for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
 
 
+@pytest.mark.slow
 def test_counts_in_doubt_have_the_trains_of_each_combination() -> None:
     whole = _read(evidence_question(read_evidence("back-wheels")).problem, {"l1": (37, 38), "e3": (222, 223)})
     each = [_read(whole, {"l1": (one,), "e3": (other,)}) for one in (37, 38) for other in (222, 223)]

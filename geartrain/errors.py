@@ -196,7 +196,7 @@ _MEGABYTES = {
     "sympy": 80,
     "watch": 7,
 }
-"""What each extra adds to the core on the disk, rounded up to 1; measured by docs/make_extras.py."""
+"""What each extra adds to the core on the disk, rounded up to 1; measured by docs/scripts/make_extras.py."""
 
 
 def install_command(extra: str) -> str:

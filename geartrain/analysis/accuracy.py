@@ -2,7 +2,7 @@
 
 In goes a train and a number of positions; out comes a row a method with its time, the ratio of that to the cheapest
 method of its stage, and its error with what it was held against. A stage that the train does not have is named with the
-reason, and costs nothing. How methods do on whole families of trains is measured in docs/studies/.
+reason, and costs nothing. How methods do on whole families of trains is measured in docs/scripts/studies/.
 """
 
 from __future__ import annotations

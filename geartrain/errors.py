@@ -191,8 +191,6 @@ _MEGABYTES = {
     "errors": 362,
     "fast": 213,
     "fmu": 1,
-    "film": 302,
-    "fem": 2,
     "sympy": 80,
     "watch": 7,
 }

@@ -5,33 +5,28 @@ Each is the picture that the diagram itself draws when its page is opened, with 
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import sys
 from pathlib import Path
 
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page
+from stills import open_browser
 
 DOCS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(DOCS / "scripts" / "site"))
 
 import diagrams  # noqa: E402  # it is found in the folder of the site's makers
 
-BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 LINE = 24  # of the numbers below a picture
 
 
 def main() -> None:
     """Write the stills of all kinds."""
-    program = next(filter(None, map(shutil.which, (os.environ.get("GEARTRAIN_BROWSER", ""), *BROWSERS))), None)
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+    with open_browser() as browser:
         page = browser.new_page()
         for kind in diagrams.KINDS:
             (DOCS / "images" / f"diagram-{kind}.svg").write_text(still(page, kind), encoding="utf-8")
             print(f"wrote docs/images/diagram-{kind}.svg")
-        browser.close()
 
 
 def still(page: Page, kind: str) -> str:

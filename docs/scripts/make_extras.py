@@ -28,9 +28,7 @@ FOR = {
     "errors": "Sobol indices, Parquet and pandas: `montecarlo`, `.to_frame()`",
     "fast": "compiled runs of `motion`, `torques --turns`, `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
-    "fem": "`strength --elements`",
     "sympy": "`train.formula(...)` as an expression of sympy",
-    "film": "`view` of `--png`, `--gif`, `--mp4`",
     "watch": "`watch`: pages that follow a file",
     "all": "all of these but `step`",
 }
@@ -56,7 +54,6 @@ In a copy of the sources `pip install -e '.[plot]'` does the same by the name of
 
 Sizes are those of installed files, before Python compiles them. Extras share packages: together they weigh less than
 their sum. `step` is no part of `all`, for what it weighs; `dev` is for working on geartrain, `site` for this site.
-`film` needs a browser too: a Chromium on the path, or the one that `playwright install chromium` brings (some 300 MB).
 """
 
 

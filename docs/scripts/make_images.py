@@ -12,6 +12,7 @@ from math import radians
 from pathlib import Path
 
 from rich.console import Console
+from stills import can_draw, gif, stills
 
 import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
@@ -20,6 +21,7 @@ from geartrain.report.document import Document
 from geartrain.report.text import to_terminal
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
+from geartrain.scene import build_scene
 from geartrain.spherical import from_polyhedron
 from geartrain.spherical.gear_sphere import GearSphere
 
@@ -42,9 +44,11 @@ def main() -> None:
 
 def turning() -> None:
     """A worm, whose wheel and crank stand as before after half a turn of the wheel; left as it is without a browser."""
-    asked = ["--turns", "15", "--seconds", "10", "--fps", "10", "--size", "360x270", "--background", "white", "--force"]
-    command = [sys.executable, "-m", "geartrain", "view", "worm", "-o", str(IMAGES / "turning.gif"), *asked]
-    subprocess.run(command, check=False)
+    if can_draw():
+        turns = [Fraction(15 * n, 100) for n in range(100)]
+        pictures = list(stills(build_scene(geartrain.load("worm")), (360, 270), turns, "white"))
+        (IMAGES / "turning.gif").write_bytes(gif(pictures, 10))
+        print("wrote docs/images/turning.gif")
 
 
 def trains() -> None:

@@ -7,11 +7,11 @@ only what has changed. GEARTRAIN_GALLERY=NAME,NAME limits the gallery to some tr
 
 from __future__ import annotations
 
-import io
 import logging
 import os
 import re
 import shutil
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from fractions import Fraction
@@ -21,15 +21,18 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from geartrain.viewer import Shot
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.append(str(ROOT / "docs" / "scripts"))
+
+from stills import can_draw, pace_of, stills, webp  # noqa: E402  # it is found in the folder of the documentation's scripts
 
 if TYPE_CHECKING:
     from geartrain.scene import Scene
 
-ROOT = Path(__file__).resolve().parents[3]
 KEPT = ROOT / "build" / "gallery"
 WORKERS = 2
-SHOT = Shot(size=(320, 240), at=Fraction(1, 3), fps=10, seconds=3)  # pointers stand apart then
+SIZE, RATE, COUNT = (320, 240), 10, 30  # of films: px, pictures a second, pictures
+AT = Fraction(1, 3)  # turns of the lead where they begin: pointers stand apart then
 _log = logging.getLogger("mkdocs.hooks")
 _ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
 _WALL = re.compile(r"^<!-- all trains -->$", re.MULTILINE)
@@ -168,32 +171,19 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
 
 def _moving(name: str, scene: Scene) -> Iterator[tuple[str, bytes]]:
     """A still and a film of a train, where there is what draws them; of what stands the still alone."""
-    from geartrain.viewer import film
-
     if not _draws():
         return
-    yield f"still/{name}.webp", _still(film(scene, ".png", SHOT))
-    if scene.movement.kind != "still":
-        yield f"film/{name}.webp", film(scene, ".webp", SHOT)
-
-
-def _still(picture: bytes) -> bytes:
-    """A PNG as a WebP, a tenth as large."""
-    from PIL import Image
-
-    out = io.BytesIO()
-    Image.open(io.BytesIO(picture)).convert("RGB").save(out, "WEBP", quality=80)
-    return out.getvalue()
+    moves = scene.movement.kind != "still"
+    step = pace_of(scene, RATE) / RATE
+    pictures = list(stills(scene, SIZE, [AT + step * n for n in range(COUNT if moves else 1)]))
+    yield f"still/{name}.webp", webp(pictures[:1])
+    if moves:
+        yield f"film/{name}.webp", webp(pictures, RATE)
 
 
 @cache
 def _draws() -> bool:
-    from geartrain.errors import GearTrainError
-    from geartrain.viewer.browser import check_browser
-
-    try:
-        check_browser()
-    except GearTrainError as error:
-        _log.info("the gallery shows plans in place of turning trains: %s", error)
-        return False
-    return True
+    found = can_draw()
+    if not found:
+        _log.info("the gallery shows plans in place of turning trains: there is no browser that draws them")
+    return found

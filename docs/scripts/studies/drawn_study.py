@@ -9,10 +9,11 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING
 
+from stills import open_browser
+
 import geartrain
 from geartrain import GearTrain
 from geartrain.scene import Scene, ScenePair, build_scene, lay_out
-from geartrain.viewer.browser import open_browser
 from studies.drawn_solids import DrawnTeeth, opened
 from studies.measurement import taken
 from studies.records import StudyRecords, error_text, table

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import subprocess
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,10 +12,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from stills import open_browser, visit
+
 import geartrain
 from geartrain.scene import build_scene
 from geartrain.viewer import page
-from geartrain.viewer.browser import open_browser
 from studies.measurement import Rounds, in_turns
 from studies.records import StudyRecords, table
 
@@ -27,7 +27,6 @@ HERE = Path(__file__).resolve().parent
 VIEWER = Path(geartrain.__file__).parent / "viewer"
 SIZE = {"width": 1000, "height": 620}
 ROUNDS, WARM = 15, 3
-PATIENCE = 180_000  # ms
 
 # one frame of the viewer, with all that a turn of the crank asks of it, and its end waited for
 FRAME = """((turn) => {
@@ -100,12 +99,12 @@ def measured(browser: Browser, name: str, rounds: int = ROUNDS) -> FrameRecord:
     ):
         path = Path(folder) / "page.html"
         path.write_text(page([build_scene(geartrain.load(name), formulas=True)]), encoding="utf-8")
-        _open(sheet, path.as_uri(), "Boolean(globalThis.geartrain?.ready)")
+        visit(sheet, path.as_uri(), "Boolean(globalThis.geartrain?.ready)")
         triangles, canvas = sheet.evaluate(TRIANGLES), sheet.evaluate(CANVAS)
         example = Path(folder) / "instanced.html"
         example.write_text(_example(*canvas), encoding="utf-8")
         for each, way in ((other, ""), (roomy, ",room")):
-            _open(each, f"{example.as_uri()}#{triangles}{way}", "Boolean(globalThis.instanced)")
+            visit(each, f"{example.as_uri()}#{triangles}{way}", "Boolean(globalThis.instanced)")
         turns = count(1)
         tasks = (
             partial(_frame, sheet, FRAME, turns),
@@ -136,20 +135,10 @@ def _frame(sheet: Page, script: str, turns: Iterator[int]) -> None:
 def shown(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
     """A window, and the addresses that it asks for."""
     sheet = browser.new_page(viewport=SIZE)  # type: ignore[arg-type]
-    sheet.set_default_timeout(PATIENCE)
     asked: list[str] = []
     sheet.on("request", lambda request: asked.append(request.url.partition("#")[0]))
     yield sheet, asked
     sheet.close()
-
-
-def _open(sheet: Page, address: str, ready: str) -> None:
-    sheet.goto(address)
-    end = time.monotonic() + PATIENCE / 1e3
-    while not sheet.evaluate(ready):
-        if time.monotonic() > end:
-            raise TimeoutError(address)
-        time.sleep(0.05)
 
 
 def _example(width: int, height: int) -> str:

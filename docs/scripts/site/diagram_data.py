@@ -17,7 +17,7 @@ import yaml
 
 import geartrain
 from geartrain.drawing.kinematic_graph import graph_layout
-from geartrain.drawing.triangular_pose import tooth_pair_pose
+from geartrain.drawing.tooth_contact import tooth_pair_pose
 from geartrain.scene import make_scene
 
 Data = dict[str, Any]

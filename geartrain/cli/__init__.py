@@ -56,7 +56,6 @@ class VerbGroup(EndingGroup, LazyGroup):
                 "bench",
             ),
         ),
-        renamed={"errors": "montecarlo", "sweep": "posterior"},
     )
 
 

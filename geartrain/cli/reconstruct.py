@@ -156,8 +156,7 @@ def run(
     if folder is not None:
         check_folder(folder, [_file(1)], force)
     listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
-    # how much is listed, and per what, changes no task; but where none is, tasks may leave out skeletons
-    asked = {"question": question_digest(question.problem), "listed": bool(listing)}
+    asked = {"question": question_digest(question.problem)}  # how much is listed, and per what, changes no task
     options = RunOptions.alone(workers, scheduler, resume)
     expected = tell_question(question.problem, options)
     with long_run("reconstruct", asked, folder, options) as given:

@@ -39,11 +39,7 @@ def tell_question(problem: ReconstructionProblem, options: RunOptions) -> Expect
     if (size := count_choices(problem)) >= _LARGE:
         tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
     expected = expect_cost(problem)
-    if expected.placements is None:
-        tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in expected.paths.items())}")
-    else:
-        ways = plural(expected.placements, "way")
-        tell(f"{ways} to share out {plural(problem.additions.wheels, 'added wheel')} among the paths to dials")
+    tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in expected.paths.items())}")
     if seconds := rough(expected.whole):
         shared = f", shared by {options.workers}" if options.workers not in (None, 1) else ""
         timed = f"one part in {expected.parts} of the search was timed"

@@ -62,14 +62,6 @@ def test_of_a_mechanism_with_pins_and_carriers_each_part_is_taken() -> None:
     assert set(trees["freeth-2008", "from e_inner"].driven) == {"moon"}
 
 
-def test_a_part_says_how_it_is_searched() -> None:
-    found = {(tree.train, tree.part): tree.slower for tree in tree_records(["freeth-2006", "price-1974"]).trees}
-    assert found["freeth-2006", ""] == []
-    assert found["price-1974", ""] == ["idlers"]
-    assert found["price-1974", "from turntable"] == []
-    assert tree_records(["clock-10000-years-exact"]).trees[0].slower == ["7 dials", "idlers"]
-
-
 def test_what_is_not_left_out_says_why() -> None:
     (cover,) = tree_records(["freeth-2008"]).covers
     assert (cover.links, cover.left_out) == (20, 18)  # all but the crank and b
@@ -208,7 +200,7 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
         ),
         LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB", "from y"),
     ]
-    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96], ["idlers"])
+    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96])
     cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
     worm = NotAskedRecord("worm", "it has worm wheels")
     text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))

@@ -17,7 +17,6 @@ from geartrain.synthesis.reconstruction.skeleton_tasks import (
     skeleton_tasks,
     timed_part,
     total_paths,
-    total_placements,
 )
 
 _SAMPLES = {4096: 3, 512: 4, 64: 5}
@@ -49,11 +48,7 @@ class ExpectedCost(Result):
     Attributes
     ----------
     paths : dict of str to int
-        By dial, how many paths from the input to it are possible, with as many added wheels as may be. Empty where
-        trains are searched as wholes, and not by paths.
-    placements : int or None
-        In how many ways as many wheels as may be added may be shared out among the paths to dials; None where paths are
-        searched.
+        By dial, how many paths from the input to it are possible, with as many added wheels as may be.
     seconds : tuple of float
         How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
         three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top.
@@ -61,10 +56,9 @@ class ExpectedCost(Result):
         One part in so many of the search was timed; 0 if none was.
     """
 
-    KEYS = ("paths", "placements", Key("seconds", "whole", to=rough))
+    KEYS = ("paths", Key("seconds", "whole", to=rough))
 
     paths: dict[str, int]
-    placements: int | None
     seconds: tuple[float, ...]
     parts: int
 
@@ -87,7 +81,7 @@ def expect_cost(problem: ReconstructionProblem, clock: Callable[[], float] = per
         _refuse_endless(problem, [seconds for _, seconds in timed.values()])
     seconds = tuple(timed[added][1] if added in timed else 0.0 for added in range(problem.additions.wheels + 1))
     parts = max((parts for parts, _ in timed.values()), default=0)
-    return ExpectedCost(total_paths(problem), total_placements(problem), seconds, parts)
+    return ExpectedCost(total_paths(problem), seconds, parts)
 
 
 def count_choices(problem: ReconstructionProblem) -> float:

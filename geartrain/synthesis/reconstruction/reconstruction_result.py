@@ -88,8 +88,7 @@ class Reconstructions(Result):
     candidates : tuple of Candidate
         The best first.
     skeletons : tuple of CountedSkeleton
-        All structures with the numbers of their trains, where each train weighs as its structure; else none. Those of
-        parts that were only summed are left out.
+        All structures with the numbers of their trains, where each train weighs as its structure; else none.
     weights : tuple of WeightClass
         All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself.
     """

@@ -45,8 +45,7 @@ def find_reconstructions(
     execution : Execution, optional
         How the parts of the search are done; default one after the other in this process.
     listed : int
-        How many candidates are listed at least, where there are so many. With 0, parts of the search with many trains
-        are summed, and the skeletons of these are left out.
+        How many candidates are listed at least, where there are so many.
     per : {"mechanism", "class"}
         What has a weight of its own: every train, or every ratio class, whose trains then share it.
 
@@ -56,49 +55,42 @@ def find_reconstructions(
         If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
     """
     found: dict[int, list[CountedSkeleton]] = {added: [] for added in range(problem.additions.wheels + 1)}
-    summed: dict[int, Counter[Fraction]] = {added: Counter() for added in found}
     whole: set[int] = set()
     geometry = problem.geometry
     one_by_one = per == "class" or bool(geometry.wheels or geometry.arbors)
     try:
-        for part in count_skeletons(problem, execution, None if listed or one_by_one else _TOLD_APART):
+        for part in count_skeletons(problem, execution):
             found[part.added] += part.skeletons
-            summed[part.added] += part.weights
             if part.last:
                 whole.add(part.added)
     except KeyboardInterrupt:
         found = {added: skeletons for added, skeletons in found.items() if added in whole}
-        summed = {added: summed[added] for added in found}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
         return _all_weighed(problem, found, complete, per)
-    counts = tuple(_count(added, some, summed[added].total(), problem) for added, some in found.items())
+    counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
-    weights = tuple(_weight_classes(problem, found, summed))
+    weights = tuple(_weight_classes(problem, found))
     return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every, weights)
 
 
 def _weight_classes(
-    problem: ReconstructionProblem,
-    found: Mapping[int, Sequence[CountedSkeleton]],
-    summed: Mapping[int, Counter[Fraction]],
+    problem: ReconstructionProblem, found: Mapping[int, Sequence[CountedSkeleton]]
 ) -> Iterator[WeightClass]:
     """By number of added wheels, how many trains have each weight, the greatest first."""
     for added, skeletons in found.items():
-        alike = Counter(summed[added])
+        alike = Counter[Fraction]()
         for each in skeletons:
             alike[skeleton_prior(each.skeleton, problem)] += each.mechanisms
         yield from (WeightClass(added, weight, alike[weight]) for weight in sorted(alike, reverse=True))
 
 
-def _count(
-    added: int, skeletons: Sequence[CountedSkeleton], summed: int, problem: ReconstructionProblem
-) -> ExplanationCount:
-    mechanisms = sum(each.mechanisms for each in skeletons) + summed
+def _count(added: int, skeletons: Sequence[CountedSkeleton], problem: ReconstructionProblem) -> ExplanationCount:
+    mechanisms = sum(each.mechanisms for each in skeletons)
     # the order of arbors changes neither, but where a ring limits counts in some orders
     greatest = problem.additions.greatest
     told = [(each, not rings_limit(each.skeleton, problem.rings, greatest)) for each in skeletons]
-    if summed or sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
+    if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
         return ExplanationCount(added, mechanisms, None, None)
     some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
     return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))

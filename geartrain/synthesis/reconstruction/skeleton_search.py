@@ -1,7 +1,6 @@
 """Every skeleton that may explain the dials, with its number of choices of added counts.
 
-Of exact dials whole trees are searched, arbor by arbor. Where a dial has a tolerance, or there are idlers, rings or
-arbors without wheels, paths are chosen for all dials, and put together to trees.
+Paths are chosen for all dials, and put together to trees.
 """
 
 from __future__ import annotations
@@ -16,9 +15,6 @@ from geartrain.synthesis.reconstruction.path_trees import PathTrees
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.skeletons import Skeleton
-from geartrain.synthesis.reconstruction.whole_tree_questions import are_whole_trees_asked
-from geartrain.synthesis.reconstruction.whole_tree_sums import WholeTreeSums
-from geartrain.synthesis.reconstruction.whole_trees import WholeTrees
 
 
 class SkeletonSearch:
@@ -35,13 +31,6 @@ class SkeletonSearch:
         self._keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
 
     @cached_property
-    def whole_trees(self) -> WholeTreeSums | None:
-        """The search of whole trees; None where paths are chosen instead."""
-        if not are_whole_trees_asked(self.problem):
-            return None
-        return WholeTreeSums(WholeTrees(self.problem, self._keys), self._counts)
-
-    @cached_property
     def paths(self) -> dict[str, PathList]:
         """By dial, the list of its paths."""
         dials = sorted(self.problem.dials, key=lambda dial: dial.name)
@@ -53,10 +42,6 @@ class SkeletonSearch:
 
     def skeletons(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Skeleton, int]]:
         """All skeletons with just so many added wheels that have choices, and how many; of several parts one."""
-        if self.whole_trees is not None:
-            for solved in self.whole_trees.solved(added, part, parts):
-                yield from self.whole_trees.skeletons(solved)
-            return
         choice, trees = self._by_paths
         for chosen in choice.choices(added, part, parts):
             for skeleton in trees.skeletons(chosen, added):

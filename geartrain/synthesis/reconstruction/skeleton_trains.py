@@ -51,11 +51,6 @@ class SkeletonTrains:
         links, wheels = {arbor.name for arbor in arbors}, {wheel.name for arbor in arbors for wheel in arbor.wheels}
         self._names = tuple(dials), links, wheels
 
-    @property
-    def may_be_summed(self) -> bool:
-        """Whether trains are orders times choices, for no fact tells which arbors mesh."""
-        return not self._facts.are_any
-
     def count(self, skeleton: Skeleton) -> int:
         """How many trains it is."""
         if not self._facts.are_any:

@@ -32,7 +32,6 @@ def is_reached(candidate: Arbor, problem: ReconstructionProblem) -> bool:
     candidate : Arbor
         From its input on, in the names of the question.
     problem : ReconstructionProblem
-        Whole trees are not searched, also where `find_reconstructions` does.
     """
     added = candidate.added_wheels
     if added > problem.additions.wheels or broken_rules(candidate, problem):

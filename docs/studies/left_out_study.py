@@ -21,7 +21,6 @@ from typing import Any
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
-from geartrain.synthesis.reconstruction.candidate_prior import prior
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
 from geartrain.synthesis.reconstruction.known_rank import find_place
 from geartrain.synthesis.reconstruction.lost_arbors import (
@@ -32,10 +31,9 @@ from geartrain.synthesis.reconstruction.lost_arbors import (
     rank_of,
 )
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import mechanism, prior
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree
-from geartrain.synthesis.reconstruction.train_parts import find_spur_trees, why_not
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_trees, why_not
 from geartrain.train.declaration_files import read_declaration, shipped
 from studies.followed_train import is_reached
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord

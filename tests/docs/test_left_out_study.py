@@ -31,7 +31,7 @@ from geartrain.synthesis.reconstruction.known_rank import find_place
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_wheels
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Additions, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
+from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
 from geartrain.train.declaration_files import read_declaration, shipped
 
 
@@ -204,7 +204,7 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
     cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
     worm = NotAskedRecord("worm", "it has worm wheels")
     text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))
-    assert "| clock, from y | 3 | 8 | 1 | paths: idlers | 6 | 2 | 2 | 2 | 1 | 1 | 1 | 0 | 7 |" in text
+    assert "| clock, from y | 3 | 8 | 1 | 6 | 2 | 2 | 2 | 1 | 1 | 1 | 0 | 7 |" in text
     assert "| a | 3 with 1 | 4 with 2 | 2 | listed | 4 | 7 | open | 250 ms |" in text
     assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | open | 1.5 s |" in text
     assert "| c | none with 1 | ? with 3 | - | followed | 1 | open | 1 to 3 | not within 60 s |" in text

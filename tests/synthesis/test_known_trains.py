@@ -10,11 +10,15 @@ import pytest
 from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
 
 from geartrain import GearTrainError
-from geartrain.synthesis.reconstruction.admitting_question import admitting_question
-from geartrain.synthesis.reconstruction.candidate_rules import broken_rules
+from geartrain.synthesis.reconstruction.candidate_rules import admitting_question, broken_rules
 from geartrain.synthesis.reconstruction.candidate_train import TrainConstruction
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.known_rank import RankedQuestion, find_place, rank_known_train
+from geartrain.synthesis.reconstruction.known_rank import (
+    RankedQuestion,
+    find_place,
+    find_telling_facts,
+    rank_known_train,
+)
 from geartrain.synthesis.reconstruction.known_train import check_same, find_known_train
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
@@ -24,11 +28,9 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SearchedDial,
     SurvivingArbor,
 )
-from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions, mechanism
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.telling_facts import find_telling_facts
-from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
+from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
 from geartrain.train import declare
 from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.decimal_text import decimal
-from geartrain.numerics.work import Journal
+from geartrain.numerics.work import Execution, Journal
 from geartrain.synthesis.constraints.assembly_constraints import find_constraints
 from geartrain.synthesis.constraints.constraint_options import ConstraintOptions
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
@@ -24,6 +25,70 @@ from geartrain.train import Train
 
 LIMIT = 10**9
 """Steps (partial assignments looked at) that a pass may take by default: a few minutes."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrainSearchRequest:
+    """What is requested of a search for tooth numbers in a train; see `search_train`.
+
+    Attributes
+    ----------
+    train : Train
+    state : str, optional
+    free : str or tuple of str
+    rules : ConstraintOptions
+    tolerance : Fraction, optional
+    best : int
+    by : {"error", "total", "largest", "distinct", "change"}
+    where : tuple of mapping of str to int
+        Assignments whose place among all is requested besides.
+    """
+
+    train: Train
+    state: str | None = None
+    free: str | tuple[str, ...] = "search"
+    rules: ConstraintOptions = field(default_factory=ConstraintOptions)
+    tolerance: Fraction | None = None
+    best: int = 20
+    by: By = "error"
+    where: tuple[Mapping[str, int], ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data: equal for two requests that need the same work."""
+        return {
+            "train": self.train.model_dump(mode="json"),
+            "state": self.state,
+            "free": self.free,
+            "rules": self.rules.to_dict(),
+            "tolerance": str(self.tolerance),
+            "best": self.best,
+            "by": self.by,
+        }
+
+
+def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
+    """Answer a request: the solutions of `search_train`, and where the requested assignments are among them.
+
+    Parameters
+    ----------
+    request : TrainSearchRequest
+    execution : Execution, optional
+        How the tasks are done; default in this process.
+    """
+    run = execution or Execution()
+    found = search_train(
+        request.train,
+        request.state,
+        free=request.free,
+        rules=request.rules,
+        tolerance=request.tolerance,
+        best=request.best,
+        by=request.by,
+        executor=run.executor,
+        journal=run.journal,
+        tell=run.tell,
+    )
+    return replace(found, where=tuple(place for teeth in request.where for place in found.standing(teeth)))
 
 
 def search_train(

@@ -11,9 +11,9 @@ from geartrain import GearTrain, load
 from geartrain.analysis import MethodAccuracy, find_accuracy
 from geartrain.analysis.method_accuracy import OPTIMISATION, AbsentStageError
 from geartrain.synthesis.tooth_sizes import search_accuracy
-from geartrain.synthesis.tooth_sizes.declared_sizes import declared_sizes, sizeable_meshes
 from geartrain.synthesis.tooth_sizes.search_accuracy import measure_optimisation
 from geartrain.synthesis.tooth_sizes.size_design import equal_depth_radii
+from geartrain.synthesis.tooth_sizes.train_sizes import declared_sizes, sizeable_meshes
 
 SCANS = ("scan in steps of 1 %", "scan in steps of 0.1 %", "scan, then 0.01 % and Brent")
 

@@ -1,6 +1,6 @@
 """Reconstruction: every train that explains surviving arbors and the speeds of pointers.
 
-`reconstruction.reconstruct` answers a request. The modules in the order of the search:
+`reconstruct` answers a `ReconstructionRequest`. The modules in the order of the search:
 
 The question
 
@@ -38,3 +38,20 @@ The answer
 - `known_rank`: its rank, and the smallest sets of facts that single it out (all sets of up to three)
 - `reconstruction`: the request, and all of the above in one call
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionAnswer as ReconstructionAnswer
+    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionRequest as ReconstructionRequest
+    from geartrain.synthesis.reconstruction.reconstruction import reconstruct as reconstruct
+
+__all__ = ["ReconstructionAnswer", "ReconstructionRequest", "reconstruct"]
+
+_PLACES = dict.fromkeys(__all__, "reconstruction")
+
+__getattr__ = lazy_names(__name__, _PLACES)

@@ -67,7 +67,7 @@ def measure_optimisation(
 
 def _worst_pair(train: GearTrain, state: str | None) -> tuple[str, ToothSizes]:
     """The pair that loses most as it is declared, or in mid window where it does not turn so."""
-    from geartrain.synthesis.tooth_sizes.declared_sizes import declared_sizes, sizeable_meshes
+    from geartrain.synthesis.tooth_sizes.train_sizes import declared_sizes, sizeable_meshes
 
     try:
         meshes = sizeable_meshes(train.meshes_in(state))

@@ -24,7 +24,7 @@ FOR = {
     "nest": "`export --sheet`: parts laid out on sheets",
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",
-    "errors": "Sobol indices, Parquet and pandas: `montecarlo`, `.to_frame()`",
+    "tables": "Parquet and pandas: `montecarlo`, `posterior`, `.to_frame()`",
     "fast": "compiled runs of `motion`, `torques --turns`, `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
     "fem": "`strength --elements`",

@@ -23,7 +23,6 @@ from geartrain.cli.common import (
     Without,
     check_distinct_outputs,
     give,
-    read_share,
     sink,
     tell,
 )
@@ -52,10 +51,6 @@ def run(
         str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
     ] = None,
     sobol: Annotated[bool, typer.Option("--sobol", help="Sobol indices by wheel and by kind of error.")] = False,
-    tolerance: Annotated[
-        str | None, typer.Option("--tolerance", help="Greatest error for --jam: a kind of error, or 'all'.")
-    ] = None,
-    jam: Annotated[str, typer.Option("--jam", help="The chance of a jam that --tolerance allows.")] = "1%",
     workers: SingleWorker = None,
     scheduler: Scheduler = None,
     resume: Resume = False,
@@ -81,10 +76,9 @@ def run(
     drawing = check_plot(plot, force, theme, picture)
     check_distinct_outputs(to, drawing)
     sweep = read_clearances(clearance) if clearance else []
-    studies = TrialStudies(sweep, bool(output), sobol, tolerance, float(read_share(jam, "--jam")))
+    studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
     plan = plan.judged(fast, trials)
-    _check_extras(sobol)
     options = RunOptions.alone(workers, scheduler, resume)
     table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
     findings = drawn = None
@@ -107,16 +101,6 @@ def run(
         draw_findings(drawn, picture, drawing)
     if findings is None:
         raise typer.Exit(INTERRUPTED)
-
-
-def _check_extras(sobol: bool) -> None:
-    """Say that an extra is missing before the work, not after."""
-    from importlib.util import find_spec
-
-    from geartrain.errors import MissingExtraError
-
-    if sobol and find_spec("SALib") is None:
-        raise MissingExtraError("SALib", "errors", "Sobol indices")
 
 
 def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:

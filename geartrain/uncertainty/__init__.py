@@ -5,8 +5,7 @@ posterior
     every count by Bayes' theorem, exact by the weighted join of `synthesis` or from a sample (docs/counts-in-doubt.md).
 monte_carlo
     In: a train with real teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
-    far its pointers stray, with confidence intervals; whose errors matter (Sobol indices), and how great they may be
-    (tolerance allocation) (docs/cut-by-hand.md). Or a train whose friction is known by its spread: the torque over a
+    far its pointers stray, with confidence intervals, and whose errors matter (Sobol indices) (docs/cut-by-hand.md). Or a train whose friction is known by its spread: the torque over a
     turn with its confidence intervals, by `try_frictions` (docs/torques.md).
 budget
     In: a train, with whatever it declares. Out, by `find_budget`: what each pointer's error comes from (ratio, pins'
@@ -55,8 +54,6 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorStatistics as PointerErrorStatistics
     from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndices as SobolIndices
     from geartrain.uncertainty.monte_carlo.sobol_indices import find_sobol_indices as find_sobol_indices
-    from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation as ToleranceAllocation
-    from geartrain.uncertainty.monte_carlo.tolerance_allocation import find_tolerance as find_tolerance
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan as TrialPlan
     from geartrain.uncertainty.monte_carlo.trial_plan import find_trial_plan as find_trial_plan
     from geartrain.uncertainty.monte_carlo.trial_results import PairEventRates as PairEventRates
@@ -91,7 +88,6 @@ __all__ = [
     "ProbabilityEstimate",
     "RatioDrift",
     "SobolIndices",
-    "ToleranceAllocation",
     "ToothCountPosterior",
     "TrainBudget",
     "TrialFigure",
@@ -103,7 +99,6 @@ __all__ = [
     "find_budget",
     "find_friction_plan",
     "find_sobol_indices",
-    "find_tolerance",
     "find_trial_plan",
     "infer_counts",
     "jamming_map",
@@ -135,14 +130,12 @@ __getattr__ = lazy_names(
         "PointerErrorStatistics": "monte_carlo.pointer_error",
         "ProbabilityEstimate": "confidence_intervals",
         "SobolIndices": "monte_carlo.sobol_indices",
-        "ToleranceAllocation": "monte_carlo.tolerance_allocation",
         "ToothCountPosterior": "posterior.posterior_result",
         "TrialPlan": "monte_carlo.trial_plan",
         "TrialResults": "monte_carlo.trial_results",
         "WheelPosterior": "posterior.posterior_result",
         "cut_transmission_function": "manufacturing_errors.cut_transmission",
         "find_sobol_indices": "monte_carlo.sobol_indices",
-        "find_tolerance": "monte_carlo.tolerance_allocation",
         "find_trial_plan": "monte_carlo.trial_plan",
         "infer_counts": "posterior.inference",
         "jamming_map": "monte_carlo.clearance_study",

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
     from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse
     from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation
     from geartrain.uncertainty.monte_carlo.trial_results import TrialResults
 
 
@@ -45,8 +44,6 @@ class MonteCarloResult(Tabular, Pictured, Result):
         Along a turn, from `run_course`.
     indices : sequence of SobolIndices
         From `find_sobol_indices`.
-    tolerance : ToleranceAllocation or None
-        From `find_tolerance`.
 
     See Also
     --------
@@ -72,14 +69,12 @@ class MonteCarloResult(Tabular, Pictured, Result):
         Key("clearances", "cleared"),
         "courses",
         "indices",
-        "tolerance",
     )
 
     trials: TrialResults
     cleared: Sequence[ClearanceCase] = ()
     courses: Sequence[PointerErrorCourse] = ()
     indices: Sequence[SobolIndices] = ()
-    tolerance: ToleranceAllocation | None = None
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -1,4 +1,4 @@
-"""What is asked of a train beside its trials: clearances, courses, Sobol indices, a tolerance, a map of jams."""
+"""What is asked of a train beside its trials: clearances, courses, Sobol indices, a map of jams."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from geartrain.numerics.work import Execution
 from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map, run_clearances
 from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 from geartrain.uncertainty.monte_carlo.sobol_indices import find_sobol_indices
-from geartrain.uncertainty.monte_carlo.tolerance_allocation import find_tolerance
 from geartrain.uncertainty.monte_carlo.trial_results import TrialResults
 from geartrain.uncertainty.monte_carlo.trial_run import run_course
 
@@ -27,28 +26,22 @@ class TrialStudies:
     clearances   factors, or shares of windows, at which the train is judged again
     courses      whether the first outputs are followed along a turn
     sobol        whether their Sobol indices are found, by wheel and by kind
-    tolerance    the kind of error, or "all", of which the greatest size is sought that keeps to `chance`; None: none
-    chance       of a jam
     """
 
     clearances: Sequence[float] = ()
     courses: bool = False
     sobol: bool = False
-    tolerance: str | None = None
-    chance: float = 0.01
 
     def of(self, trials: TrialResults, means: Execution) -> MonteCarloResult:
         """The trials with all that is asked beside them."""
         plan, seed, count = trials.plan, trials.seed, trials.wanted
         few = range(min(_FEW, len(plan.outputs)))
         by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
-        kind = "" if self.tolerance == "all" else self.tolerance
         return MonteCarloResult(
             trials,
             run_clearances(plan, self.clearances, count, seed, means) if self.clearances else (),
             [run_course(plan, at, _POSITIONS, seed, _COURSES) for at in few] if self.courses else (),
             [find_sobol_indices(plan, at, each, count, seed, means) for at in few for each in by] if self.sobol else (),
-            find_tolerance(plan, kind, self.chance, count, seed, means=means) if kind is not None else None,
         )
 
     def mapped(self, findings: MonteCarloResult, means: Execution) -> MonteCarloResult:

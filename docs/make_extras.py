@@ -18,7 +18,7 @@ RECORD, PAGE = ROOT / "docs/data/extras.json", ROOT / "docs/extras.md"
 FOR = {
     "report": "`report`, `compare`, `torques` and others with `-o PAGE.html`",
     "plot": "`draw`, and `--plot` of every command",
-    "dask": "`--scheduler`: long runs on a cluster",
+    "dask": "`--dask`: long runs on a cluster",
     "dxf": "`export` of DXF",
     "model": "`export` of GLB",
     "nest": "`export --sheet`: parts laid out on sheets",

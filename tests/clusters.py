@@ -53,6 +53,12 @@ def mixed(number: int) -> dict[str, Any]:
     return {"n": number, "third": number / 3, "huge": number**40, "pair": (number, None), "text": "Zähne\n", "no": []}
 
 
+def slow(seconds: float) -> tuple[float, int]:
+    """The time it takes, and the process that took it."""
+    time.sleep(seconds)
+    return seconds, os.getpid()
+
+
 def gated(task: tuple[str, int, int]) -> int:
     """The square; tasks from `free` on wait until the folder has a gate that is open."""
     folder, number, free = task

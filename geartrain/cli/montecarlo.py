@@ -26,7 +26,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.theme import Theme
 from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_findings
 
@@ -51,8 +51,8 @@ def run(
         str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
     ] = None,
     sobol: Annotated[bool, typer.Option("--sobol", help="Sobol indices by wheel and by kind of error.")] = False,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
     fast: Fast = None,
     plot: Plot = None,
@@ -79,7 +79,7 @@ def run(
     studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
     plan = plan.judged(fast, trials)
-    options = RunOptions.alone(workers, scheduler, resume)
+    options = RunOptions(workers, dask, resume)
     table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
     findings = drawn = None
     with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:

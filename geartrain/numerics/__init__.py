@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.long_float import LongFloat as LongFloat
     from geartrain.numerics.quantity import Figure as Figure
     from geartrain.numerics.quantity import Quantity as Quantity
-    from geartrain.numerics.work.execution import Execution as Execution
     from geartrain.numerics.work.executors import open_executor as open_executor
     from geartrain.numerics.work.journal import Journal as Journal
+    from geartrain.numerics.work.task_runner import Execution as Execution
     from geartrain.numerics.work.task_runner import run as run
 
 __all__ = ["Execution", "Figure", "Journal", "LabelledArray", "LongFloat", "Quantity", "open_executor", "run"]
@@ -46,7 +46,7 @@ __all__ = ["Execution", "Figure", "Journal", "LabelledArray", "LongFloat", "Quan
 __getattr__ = lazy_names(
     __name__,
     {
-        "Execution": "work.execution",
+        "Execution": "work.task_runner",
         "Figure": "quantity",
         "Journal": "work.journal",
         "LabelledArray": "labelled_array",

@@ -5,8 +5,9 @@ posterior
     every count by Bayes' theorem, exact by the weighted join of `synthesis` or from a sample (docs/counts-in-doubt.md).
 monte_carlo
     In: a train with real teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
-    far its pointers stray, with confidence intervals, and whose errors matter (Sobol indices) (docs/cut-by-hand.md). Or a train whose friction is known by its spread: the torque over a
-    turn with its confidence intervals, by `try_frictions` (docs/torques.md).
+    far its pointers stray, with confidence intervals, and whose errors matter (Sobol indices) (docs/cut-by-hand.md).
+    Or a train whose friction is known by its spread: the torque over a turn with its confidence intervals, by
+    `try_frictions` (docs/torques.md).
 budget
     In: a train, with whatever it declares. Out, by `find_budget`: what each pointer's error comes from (ratio, pins'
     theory, teeth, lost motion, cutting), in degrees and in days (docs/budgets.md).

@@ -19,6 +19,7 @@ from geartrain.errors import MissingExtraError, QuestionError
 from geartrain.numerics.files import ColumnTable
 from geartrain.uncertainty import find_trial_plan, read_error_overrides, run_trials
 from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
+from geartrain.uncertainty.monte_carlo.trial_run import trial_tasks
 
 PAIR = """
     name: pair
@@ -55,7 +56,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
     with (here / "t.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert columns["trial"] == list(range(300))
-    assert pyarrow.parquet.ParquetFile(here / "t.parquet").metadata.num_row_groups == 2
+    assert pyarrow.parquet.ParquetFile(here / "t.parquet").metadata.num_row_groups == len(trial_tasks(300))
     for name, column in columns.items():
         assert [float(row[name]) for row in rows] == column
     told = json.loads((here / "t.json").read_text())
@@ -92,7 +93,7 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
     words = (train, "--trials", 700, "--seed", 3, "-o", here / "t.parquet")
 
     def interrupted(plan: Any, seed: int, task: list[int]) -> dict[str, Any]:
-        if task[0] == 2:
+        if task[0] == 512:
             raise KeyboardInterrupt
         return work(plan, seed, task)
 
@@ -107,7 +108,7 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
         running, "work_block", lambda plan, seed, task: counted.append(task[0]) or work(plan, seed, task)
     )
     assert ask(*words, "--resume").exit_code == 0
-    assert counted == [2], "what was done is not done again"
+    assert min(counted) == 512, "what was done is not done again"
     monkeypatch.undo()
     whole = here / "whole.parquet"
     assert ask(train, "--trials", 700, "--seed", 3, "-o", whole).exit_code == 0

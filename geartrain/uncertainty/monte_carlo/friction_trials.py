@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 FIGURES = ("mean", "greatest", "starting", "efficiency")
-_TASK = 8  # trials that one task does: few, so that all processes have work
+_TASKS = 32  # so many where trials are few, so that all processes have work until nearly the end
+_MOST = 8  # trials of a task: what is computed once for each task then costs less than they do
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,8 @@ def try_frictions(
     check_trials(trials)
     # of a study that this process makes for itself anyway, or that costs little beside the trials
     compiled = plan.study is not None and is_fast(fast, plan.study.seconds * trials)
-    tasks = [[start, min(start + _TASK, trials)] for start in range(0, trials, _TASK)]
+    size = min(_MOST, -(-trials // _TASKS))
+    tasks = [[start, min(start + size, trials)] for start in range(0, trials, size)]
     found: list[list[float | None]] = []
     try:
         for rows in (means or Execution()).run(partial(work_frictions, plan, seed, fast=compiled), tasks):

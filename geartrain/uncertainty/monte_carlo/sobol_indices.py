@@ -24,7 +24,7 @@ from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviati
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
-from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
+from geartrain.uncertainty.monte_carlo.trial_run import check_trials, trial_tasks
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -129,7 +129,7 @@ def find_sobol_indices(
         raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))
     rows: list[Any] = []
     # not journalled: a journal knows its tasks by block and trials, which are those of the trials themselves
-    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), block_tasks(trials)):
+    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
     values = values[np.isfinite(values).all(axis=1)]
@@ -213,7 +213,7 @@ def _none(item: int, kind: int) -> bool:
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """One block of base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
+    """Some base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
 
     plan: TrialPlan
     seed: int
@@ -221,15 +221,16 @@ class SobolBlock:
     by: By
 
     def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """The block as plain data."""
-        block, trials = task
+        """The samples of a task as plain data."""
+        first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        columns = [self._errors(block, trials, choice) for choice in (_none, *inputs, _all)]
+        columns = [self._errors(first, trials, choice) for choice in (_none, *inputs, _all)]
         found: list[list[float]] = np.stack(columns, axis=1).tolist()
         return found
 
-    def _errors(self, block: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
-        drawn = draw_trial_wheels(self.plan, RandomStreams(self.seed, _STREAMS + block, choice), min(trials, BLOCK))
+    def _errors(self, first: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
+        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, choice)
+        drawn = draw_trial_wheels(self.plan, streams, trials, first % BLOCK)
         found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
-        errors: Floats = found.errors(input_positions(self.plan, drawn.streams, drawn.trials))[0]
+        errors: Floats = found.errors(input_positions(drawn))[0]
         return errors

@@ -34,16 +34,18 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
 
 
-VERSION = 1
+VERSION = 2
 """Of the way trials are drawn and worked out: a journal of another is refused."""
-_CHECKED = 4  # blocks in which superposition is held against composition
+_CHECKED = 1024  # trials in which superposition is compared with composition
+_TASKS = 16  # at least, where there are trials enough: so that 8 processes end at nearly the same time
+_FEWEST = 32  # trials of a part of a block: what is computed once for each task then costs less than they do
 _COURSE = 1 << 20  # courses draw from streams of their own
 _MOST = 10**9
 
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """One block of trials: numbers of its trials, and arrays as in `TrialResults`; `play` least, in driven pitches.
+    """The trials of one task: number of the first, and arrays as in `TrialResults`; `play` least, in driven pitches.
 
     filing   strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); none where nothing is filed
     """
@@ -71,9 +73,19 @@ def check_trials(trials: int) -> None:
         raise QuestionError(Problem(what, "shares are counted over trials", f"ask for 1 to {_MOST:.0e} of them"))
 
 
-def block_tasks(trials: int) -> list[list[int]]:
-    """Tasks: the number of each block and how many of its trials are wanted."""
-    return [[start // BLOCK, min(BLOCK, trials - start)] for start in range(0, trials, BLOCK)]
+def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
+    """Tasks: the first trial and the number of trials of each.
+
+    They are blocks, or a half or a quarter of one where there are few; they depend on the trials and on the number of
+    cases for which they are repeated, not on who does them, for sums are rounded by tasks.
+    """
+    blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
+    parts = min(4, -(-_TASKS // (len(blocks) * cases)))
+    found = []
+    for block in blocks:
+        size = max(_FEWEST, -(-len(block) // parts))
+        found += [[part[0], len(part)] for part in (block[at : at + size] for at in range(0, len(block), size))]
+    return found
 
 
 def run_trials(
@@ -136,12 +148,12 @@ def run_trials(
     """
     check_trials(trials)
     plan = plan.judged(fast, trials)
-    means, work = means or Execution(), partial(work_block, plan, seed)
+    means, work, tasks = means or Execution(), partial(work_block, plan, seed), trial_tasks(trials)
     found: list[TrialRecord] = []
     try:
-        for block, packed in enumerate(means.run(work, block_tasks(trials))):
-            rows = unpack(plan, block, packed)
-            if not block:
+        for (first, _), packed in zip(tasks, means.run(work, tasks), strict=True):
+            rows = unpack(plan, first, packed)
+            if not first:
                 _check_cut(plan, rows)
             if take is not None:
                 take(rows)
@@ -172,13 +184,13 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
 
 
 def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
-    """One block of trials as plain data."""
-    block, trials = task
-    drawn = draw_trial_wheels(plan, RandomStreams(seed, block), trials)
+    """The trials of one task as plain data."""
+    number, trials = task
+    drawn = draw_trial_wheels(plan, RandomStreams(seed, number // BLOCK), trials, number % BLOCK)
     marks, play = judge_trial_pairs(drawn)
-    turns = input_positions(plan, drawn.streams, trials)
+    turns = input_positions(drawn)
     found = trial_pointers(drawn, np.arange(trials))
-    first = found.superposed(turns) if block < _CHECKED else None
+    first = found.superposed(turns) if number < _CHECKED else None
     errors = found.errors(turns)  # after the superposition: laws remember what they said last
     runs = [turning_trials(marks, reach) & np.isfinite(row) for reach, row in zip(plan.reach, errors, strict=True)]
     off = [] if first is None else [_off(*both) for both in zip(first, errors, strict=True)]
@@ -228,8 +240,8 @@ def _pack(array: NDArray[Any]) -> str:
     return b64encode(np.ascontiguousarray(array).tobytes()).decode()
 
 
-def unpack(plan: TrialPlan, block: int, packed: Mapping[str, Any]) -> TrialRecord:
-    """A block again from what a worker said or a journal kept."""
+def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecord:
+    """The trials of a task, `first` the number of the first of them, from the plain data of a worker or a journal."""
 
     def array(name: str, width: int = 0) -> Any:
         found = np.frombuffer(b64decode(packed[name]), np.uint8 if name == "marks" else np.float64)
@@ -237,7 +249,7 @@ def unpack(plan: TrialPlan, block: int, packed: Mapping[str, Any]) -> TrialRecor
 
     pairs = len(plan.pairs)
     return TrialRecord(
-        block * BLOCK,
+        first,
         array("turns"),
         array("marks", pairs),
         array("play", pairs),

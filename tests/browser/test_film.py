@@ -39,7 +39,7 @@ def picture(data: bytes) -> np.ndarray:
 def stills(scene: Scene, shot: Shot, moments: Iterable[tuple[Fraction, float]]) -> list[bytes]:
     """A PNG of each moment; in a thread of its own, for the browser of other tests waits in this one."""
     with ThreadPoolExecutor(1) as pool:
-        return pool.submit(lambda: list(frames([FilmPart(scene, list(moments))], shot))).result()
+        return pool.submit(lambda: list(frames([FilmPart(scene, list(moments))], shot))).result(timeout=300)
 
 
 @cache
@@ -170,7 +170,7 @@ def test_a_film_can_be_made_where_a_loop_runs_as_in_notebooks() -> None:
         return film(shipped.scene(SIMPLE), ".png", Shot(**SMALL))
 
     with ThreadPoolExecutor(1) as pool:
-        assert pool.submit(asyncio.run, cell()).result().startswith(b"\x89PNG")
+        assert pool.submit(asyncio.run, cell()).result(timeout=300).startswith(b"\x89PNG")
 
 
 def test_a_colour_that_is_none_is_refused() -> None:

@@ -22,7 +22,20 @@ from threading import Lock
 from typing import Any
 
 import pytest
-from clusters import PATIENCE, alive, begun, deadly, failing, gated, mixed, not_plain, slow, small_cluster, until
+from clusters import (
+    PATIENCE,
+    alive,
+    begun,
+    deadly,
+    failing,
+    gated,
+    mixed,
+    next_line,
+    not_plain,
+    slow,
+    small_cluster,
+    until,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import TESTS
@@ -314,7 +327,7 @@ def test_tasks_cancelled_just_before_a_worker_dies_upset_nothing(tmp_path: Path)
         os.kill(begun(tmp_path)[0][1], signal.SIGKILL)
         for future in futures[:5]:
             with pytest.raises(BrokenExecutor):
-                future.result(timeout=60)
+                future.result(timeout=PATIENCE)
 
 
 # --- the journal ----------------------------------------------------------------------------------------------------
@@ -467,7 +480,7 @@ def test_a_process_that_writes_a_journal_keeps_others_out_on_every_system(tmp_pa
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([sys.executable, "-c", code], text=True, **pipes) as holder:
         assert holder.stdout is not None
-        assert holder.stdout.readline() == "held\n"
+        assert next_line(holder.stdout) == "held\n"
         with pytest.raises(QuestionError, match="another run is writing"):
             Journal(tmp_path / "journal", {})
         holder.kill()
@@ -539,7 +552,7 @@ def test_a_run_cut_by_a_signal_leaves_a_journal_and_nobody_behind(
         until(lambda: any(n >= 6 for n, _ in begun(tmp_path)) and lines(tmp_path) >= 7, "tasks at the gate")
         # Ctrl-C reaches all processes of a terminal; a kill meets one
         os.killpg(start.pid, cut) if cut is signal.SIGINT else os.kill(start.pid, cut)
-        out, err = start.communicate(timeout=60)
+        out, err = start.communicate(timeout=PATIENCE)
     assert (start.returncode, out) == (-cut, "")
     assert err.count("Traceback") == (cut is signal.SIGINT), f"only the run itself says a word: {err}"
     until(lambda: not any(alive(pid) for _, pid in begun(tmp_path)), "the workers to leave")
@@ -559,7 +572,7 @@ def test_an_iterator_that_is_left_keeps_what_was_finished_meanwhile(processes: E
         with closing(run(gated, [(str(tmp_path), n, 99) for n in range(9)], processes, journal)) as results:
             next(results)
             until(lambda: len(begun(tmp_path)) >= 8, "the tasks in flight")
-            until(lambda: processes.submit(abs, 1).result(), "all before this one")
+            until(lambda: processes.submit(abs, 1).result(timeout=PATIENCE), "all before this one")
         assert len(journal) >= 7
 
 

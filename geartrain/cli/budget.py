@@ -29,7 +29,7 @@ from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.budget.true_anomaly import Body
+    from geartrain.uncertainty.budget.pin_theory import Body
 
 
 def run(

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
     from geartrain.uncertainty import TrialPlan, TrialResults
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.uncertainty.monte_carlo.trial_table import TrialTable
+    from geartrain.uncertainty.monte_carlo.trial_run import TrialTable
 
 
 def run(
@@ -66,10 +66,8 @@ def run(
     from geartrain.analysis.loader import load
     from geartrain.uncertainty import find_trial_plan, read_error_overrides
     from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
-    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.uncertainty.monte_carlo.trial_run import check_trials, journal_key
-    from geartrain.uncertainty.monte_carlo.trial_studies import TrialStudies
-    from geartrain.uncertainty.monte_carlo.trial_table import SUFFIXES, TrialTable
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies
+    from geartrain.uncertainty.monte_carlo.trial_run import SUFFIXES, TrialTable, check_trials, journal_key
 
     to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
     check_trials(trials)

@@ -24,13 +24,13 @@ from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.budget.crank_load import CrankLoad as CrankLoad
+    from geartrain.uncertainty.budget.crank_load import WeightDrive as WeightDrive
     from geartrain.uncertainty.budget.pointer_budget import BudgetCause as BudgetCause
     from geartrain.uncertainty.budget.pointer_budget import PointerBudget as PointerBudget
     from geartrain.uncertainty.budget.pointer_budget import RatioDrift as RatioDrift
     from geartrain.uncertainty.budget.pointer_budget import TrainBudget as TrainBudget
     from geartrain.uncertainty.budget.train_budget import BudgetQuestion as BudgetQuestion
     from geartrain.uncertainty.budget.train_budget import find_budget as find_budget
-    from geartrain.uncertainty.budget.weight_drive import WeightDrive as WeightDrive
     from geartrain.uncertainty.confidence_intervals import IntervalEstimate as IntervalEstimate
     from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
     from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
@@ -43,11 +43,11 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.manufacturing_errors.declared_errors import read_error_overrides as read_error_overrides
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map as jamming_map
-    from geartrain.uncertainty.monte_carlo.friction_plan import FrictionPlan as FrictionPlan
-    from geartrain.uncertainty.monte_carlo.friction_plan import FrictionSpread as FrictionSpread
-    from geartrain.uncertainty.monte_carlo.friction_plan import find_friction_plan as find_friction_plan
+    from geartrain.uncertainty.monte_carlo.friction_trials import FrictionPlan as FrictionPlan
+    from geartrain.uncertainty.monte_carlo.friction_trials import FrictionSpread as FrictionSpread
     from geartrain.uncertainty.monte_carlo.friction_trials import FrictionTrials as FrictionTrials
     from geartrain.uncertainty.monte_carlo.friction_trials import TrialFigure as TrialFigure
+    from geartrain.uncertainty.monte_carlo.friction_trials import find_friction_plan as find_friction_plan
     from geartrain.uncertainty.monte_carlo.friction_trials import try_frictions as try_frictions
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
     from geartrain.uncertainty.monte_carlo.pair_trials import PairTrials as PairTrials
@@ -114,10 +114,10 @@ __getattr__ = lazy_names(
     {
         **dict.fromkeys(("BudgetCause", "PointerBudget", "RatioDrift", "TrainBudget"), "budget.pointer_budget"),
         **dict.fromkeys(("BudgetQuestion", "find_budget"), "budget.train_budget"),
-        **dict.fromkeys(("FrictionPlan", "FrictionSpread", "find_friction_plan"), "monte_carlo.friction_plan"),
+        **dict.fromkeys(("FrictionPlan", "FrictionSpread", "find_friction_plan"), "monte_carlo.friction_trials"),
         **dict.fromkeys(("FrictionTrials", "TrialFigure", "try_frictions"), "monte_carlo.friction_trials"),
         "CrankLoad": "budget.crank_load",
-        "WeightDrive": "budget.weight_drive",
+        "WeightDrive": "budget.crank_load",
         "ClearanceCase": "monte_carlo.clearance_study",
         "CountCombination": "posterior.posterior_result",
         "CountProbability": "posterior.posterior_result",

@@ -1,19 +1,22 @@
-"""Trials by the block, here or by many, kept in a journal as they come; and what becomes of them all."""
+"""Trials by the task, here or in other processes, kept in a journal as they come; all together, and as a table."""
 
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.metadata import version
 from math import isnan
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
@@ -344,3 +347,60 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
         part = slice(start, start + chunk)
         parts.append(trial_pointers(drawn, rows[part], (output,)).errors(everywhere[part])[0])
     return PointerErrorCourse(plan.outputs[output], turns, np.concatenate(parts).reshape(trials, positions))
+
+
+# ---------------------------------------------------------------------------------------------------------------- table
+
+
+SUFFIXES = (".parquet", ".csv")
+_EVENTS = "sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 wheels cannot be cut"
+
+
+@dataclass(frozen=True)
+class TrialTable:
+    """Every trial, block by block, into a file.
+
+    path     a .parquet or .csv
+    force    an existing file is written over
+    replay   the run was interrupted: its file is written anew from the journal
+    """
+
+    plan: TrialPlan
+    path: Path
+    force: bool = False
+    replay: bool = False
+
+    @contextmanager
+    def open(self) -> Iterator[Callable[[TrialRecord], None]]:
+        """What takes every block."""
+        plan = self.plan
+        if self.path.suffix.lower() == ".parquet":
+            about = {"train": plan.name, "events": _EVENTS}
+            with ColumnTable(self.path, about, self.force, replay=self.replay) as columns:
+                yield lambda rows: columns.write(dict(zip(_names(plan), _columns(plan, rows), strict=True)))
+        else:
+            with LongTable(self.path, csv_line(_names(plan)), force=self.force, replay=self.replay) as table:
+                yield lambda rows: table.write(
+                    csv_lines(zip(*(column.tolist() for column in _columns(plan, rows)), strict=True))
+                )
+
+
+def _names(plan: TrialPlan) -> list[str]:
+    return [
+        "trial",
+        "turns",
+        *(f"{name} error (deg)" for name in plan.outputs),
+        *(f"{pair.name} {what}" for pair in plan.pairs for what in ("play (pitches)", "events")),
+        *(f"{pair.name} {what}" for pair in plan.pairs if pair.stroke for what in ("strokes", "teeth filed")),
+    ]
+
+
+def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
+    """The columns of one block, as `_names` names them."""
+    values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
+    for at in range(len(plan.pairs)):
+        values += [rows.play[:, at], rows.marks[:, at]]
+    for at, pair in enumerate(plan.pairs):
+        if pair.stroke:
+            values += [rows.filing[:, 2 * at].astype(np.int64), rows.filing[:, 2 * at + 1].astype(np.int64)]
+    return values

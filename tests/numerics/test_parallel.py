@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import multiprocessing
 import os
 import random
 import resource
@@ -623,6 +624,13 @@ def test_a_few_long_tasks_are_shared_by_as_many_processes() -> None:
     assert results == [1.1, 1.0, 0.9]
     assert announced == [(2, 2)]
     assert len(processes) == 3
+
+
+def test_a_process_that_may_not_start_others_works_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "cores", lambda: 3)
+    monkeypatch.setitem(multiprocessing.current_process()._config, "daemon", True)
+    with open_executor() as executor:
+        assert executor is None
 
 
 def test_work_that_cannot_be_sent_to_a_process_is_done_here(processes: Executor) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, InvalidStateError
@@ -84,12 +85,18 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
         from geartrain.numerics.work.cluster import DaskPool
 
         return DaskPool(dask)
-    count = cores() if workers is None else workers
+    count = _default_count() if workers is None else workers
     if count == 1:
         return None
     from geartrain.numerics.work.processes import ProcessPool
 
     return ProcessPool(count, waits=workers is None)
+
+
+def _default_count() -> int:
+    """All cores; 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
+    started = sys.modules.get("multiprocessing.process")
+    return 1 if started is not None and started.current_process().daemon else cores()
 
 
 class WorkerDiedError(BrokenExecutor):

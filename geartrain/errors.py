@@ -188,7 +188,7 @@ _MEGABYTES = {
     "nest": 1,
     "proof": 14,
     "step": 391,
-    "errors": 362,
+    "tables": 258,
     "fast": 213,
     "fmu": 1,
     "sympy": 80,

@@ -44,7 +44,7 @@ SUFFIXES = {
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
 """Suffixes of the one file that holds a wheel."""
 
-_NEEDED = {"dxf": ("ezdxf", "dxf"), "glb": ("pygltflib", "model"), "step": ("OCP", "step")}
+_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +110,7 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     Raises
     ------
     MissingExtraError
-        If the library that writes GLB or STEP is not installed.
+        If the library that writes STEP is not installed.
     GearTrainError
         If the train cannot be shown so: the message says why.
 

@@ -81,11 +81,9 @@ class Keyframes:
             if at is not None and bodies[at].parent is not None:
                 own = bodies[at]
                 whole = read_fraction(own.speed or "0") * self.turns
-                # turns exactly, so that a body that comes home is there; one with a longer fraction does not
-                parts = [
-                    float((whole * k / count) % 1) if whole.denominator < 10**9 else float(whole) * k / count % 1
-                    for k in range(count + 1)
-                ]
+                # parts of a turn exactly, in whole numbers, so that a body that comes home is there
+                above, below = whole.numerator, whole.denominator * count
+                parts = [above * k % below / below for k in range(count + 1)]
                 found += sign * own.sense * (own.start + 2 * pi * np.array(parts) + self._errors(count)[at])
         return found
 

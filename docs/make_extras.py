@@ -20,7 +20,6 @@ FOR = {
     "plot": "`draw`, and `--plot` of every command",
     "dask": "`--scheduler`: long runs on a cluster",
     "dxf": "`export` of DXF",
-    "nest": "`export --sheet`: parts laid out on sheets",
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",
     "errors": "Sobol indices, Parquet and pandas: `montecarlo`, `.to_frame()`",

@@ -184,7 +184,6 @@ _MEGABYTES = {
     "plot": 98,
     "dask": 37,
     "dxf": 55,
-    "nest": 1,
     "proof": 14,
     "step": 391,
     "errors": 362,

@@ -13,12 +13,11 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, install_com
 from geartrain.export.assembly_guide import readme
 from geartrain.export.assembly_pictures import step_pictures
 from geartrain.export.csv_tables import to_tables
-from geartrain.export.cut_sheets import cut_sheets, wheel_drawing
+from geartrain.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.export.flat_files import to_dxf, to_svg
 from geartrain.export.parts_list import parts_list, to_csv
 from geartrain.export.proof import TrainProof, proof_is_installed, prove_train
 from geartrain.export.rexs import to_rexs
-from geartrain.export.wheel_sheets import WheelSheet, wheel_sheets
 from geartrain.kinematics import graph
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 

@@ -4,7 +4,6 @@ In: wheels as cut, where they stand, what the frame and the carriers bear. Out: 
 that it belongs to, wheels moved along their axes so that plates have room, the hole of every wheel, and what could not
 be placed and why.
 
-    fits              limits of ISO 286, clearances of named fits
     processes         laser, mill, printer, hand: kerf, least web, running and press fit, play
     stack_discs       wheels and plates as discs in the stack; the gaps between them
     coaxial_order     which arbor runs inside which

@@ -14,8 +14,8 @@ import pytest
 import shipped
 
 from geartrain.export import train_file
+from geartrain.export.triangle_files import Keyframes
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.keyframes import Keyframes
 
 if TYPE_CHECKING:
     from conftest import OpenPage

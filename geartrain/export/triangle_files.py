@@ -20,7 +20,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import read_fraction
 from geartrain.scene.solids.solid_assembly import SolidModel
-from geartrain.scene.solids.solid_part import SolidPart, by_body
+from geartrain.scene.solids.solid_part import SolidPart
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -135,8 +135,8 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
     for at, body in enumerate(bodies):
         if body.parent is not None:
             file.nodes[body.parent]["children"].append(at)
-    for at, parts in by_body(work.parts).items():
-        file.nodes[at]["children"] += [_part(file, part, points[at]) for part in parts]
+    for part in work.parts:
+        file.nodes[part.body]["children"].append(_part(file, part, points[part.body]))
     for node in file.nodes[: len(bodies)]:
         if not node["children"]:
             del node["children"]  # glTF allows no empty list

@@ -23,7 +23,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.numerics.decimal_text import plural
 
@@ -111,8 +111,8 @@ def run(
             metavar="ITS=OURS",
         ),
     ] = None,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
     out: Out = None,
     json: Json = False,
@@ -153,7 +153,7 @@ def run(
         known=tuple(map(read_declaration, rank or ())),
         same=dict(map(_name_pair, same or ())),
     )
-    found = reconstruct(request, CommandRun(folder, RunOptions.alone(workers, scheduler, resume)))
+    found = reconstruct(request, CommandRun(folder, RunOptions(workers, dask, resume)))
     if folder is not None and found.candidates:
         _write(found, folder, force, with_evidence=bool(without))
     if page is not None:

@@ -83,8 +83,8 @@ class CommandRun(ReconstructionRun):
     def part(self, what: str) -> Iterator[Execution]:
         """With a progress bar; if it is stopped, the answer is given without it."""
         try:
-            with progress(what, patience=_PATIENCE) as bar:
-                yield Execution(tell=bar.reach)
+            with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
+                yield Execution(executor, tell=bar.reach)
         except KeyboardInterrupt:
             tell(f"stopped: {what} is left out")
 

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from geartrain.cli.common import File, Force, Json, Names, Out, StateName
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
-from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, Workers, read_tolerance
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
 
 Flag = bool
 
@@ -56,7 +56,7 @@ def run(
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
-    scheduler: Scheduler = None,
+    dask: Dask = None,
     resume: Resume = False,
     csv: Csv = False,
     json: Json = False,
@@ -97,7 +97,7 @@ def run(
         by=by,  # type: ignore[arg-type]
         where=tuple(_assignment(text) for text in where or ()),
     )
-    with long_run("teeth", request.to_dict(), out, RunOptions(workers, scheduler, resume)) as given:
+    with long_run("teeth", request.to_dict(), out, RunOptions(workers, dask, resume)) as given:
         found = answer_search(request, given)
         close_journal(given.journal, cut=found.ended == "interrupted")
     answer.give(

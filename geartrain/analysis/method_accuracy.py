@@ -311,40 +311,29 @@ def measure_torques(train: GearTrain, state: str | None) -> Iterator[MethodAccur
 
 
 _SAMPLES = (20_000, 2_000, 200, 20)  # of a run; the first is what the others are held against
-_WORTH_COMPILING = 1.0  # s of a run
 _PASSAGES = 6_000  # teeth that pass in a run, times the pairs that are asked at each
 
 
 def _over_turn(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
     """The mean torque over a turn, or as much of it as is soon followed; nothing where no pair is uneven."""
-    from geartrain.numerics.kernels import usable
-
     try:
         used = train.motion(state, tuple(train.declaration.links)).ahead.used
         passages = sum(float(each.cycles) for each in used)
         if not passages:
             return
         span = min(1.0, _PASSAGES / (len(used) * passages))
-        best = train.torques(state, turns=span, samples=_SAMPLES[0], fast=False)
+        best = train.torques(state, turns=span, samples=_SAMPLES[0])
     except GearTrainError:  # teeth in a loop: the motion has no order
         return
     if not best.mean:
         return
     run = "a turn" if span == 1 else f"{span:.3g} turns"
-    slowest = 0.0
     for samples in _SAMPLES:
         seconds, found = best_of(partial(_mean_torque, train, state, span, samples))
-        slowest = max(slowest, seconds)
         error = None if samples == _SAMPLES[0] or found is None else abs(found / best.mean - 1)
         reference = "the others are held against it" if samples == _SAMPLES[0] else f"{_SAMPLES[0]} samples, the mean"
         yield MethodAccuracy(TORQUES, f"over {run}, {samples} samples", seconds, error, "relative", reference)
-    if slowest >= _WORTH_COMPILING and usable():
-        _mean_torque(train, state, span, 2, True)  # compiled, or loaded from disk
-        seconds, found = best_of(partial(_mean_torque, train, state, span, _SAMPLES[0], True))
-        error = None if found is None else abs(found / best.mean - 1)
-        name = f"over {run}, {_SAMPLES[0]} samples, compiled"
-        yield MethodAccuracy(TORQUES, name, seconds, error, "relative", f"{_SAMPLES[0]} samples, the mean")
 
 
-def _mean_torque(train: GearTrain, state: str | None, span: float, samples: int, fast: bool = False) -> float | None:
-    return train.torques(state, turns=span, samples=samples, fast=fast).mean
+def _mean_torque(train: GearTrain, state: str | None, span: float, samples: int) -> float | None:
+    return train.torques(state, turns=span, samples=samples).mean

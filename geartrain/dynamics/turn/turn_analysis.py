@@ -15,7 +15,6 @@ from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
 from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
-from geartrain.dynamics.turn.compiled_turn import compiled_turn
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, CycleFigures, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
@@ -30,7 +29,6 @@ from geartrain.dynamics.turn.train_contacts import (
 from geartrain.dynamics.turn.turn_balance import TurnBalance
 from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.labelled_array import labelled_array
 
 if TYPE_CHECKING:
@@ -51,14 +49,12 @@ def find_torque_cycle(
     samples: int = DEFAULT_SAMPLES,
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
-    fast: bool | None = None,
 ) -> TorqueCycle:
     """Torques over some turns of the input.
 
     problem   what motion needs to know of the same case
     of        the link whose torque is unknown, in place of that which the declaration tells
     on_done   called with the number of positions that have been worked out since
-    fast      whether kernels are compiled; by default where the run is long enough for that to pay
     """
     if not 0 < turns <= MOST_TURNS:
         what, why = f"torques over {turns:g} turns", "a run goes forward"
@@ -74,10 +70,7 @@ def find_torque_cycle(
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")
     train.on_done = on_done
-    run = TurnRun(train, turns, samples)
-    if is_fast(fast, run.seconds):
-        train.compiled = compiled_turn(train)
-    return tell_run(run, of)
+    return tell_run(TurnRun(train, turns, samples), of)
 
 
 def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -45,13 +45,6 @@ class _State(NamedTuple):
     static: bool
 
 
-class PositionKernel(Protocol):
-    """What answers for most positions in less time."""
-
-    def at(self, turns: Floats, static: bool) -> tuple[Bools, PositionTorques]:
-        """At which of some positions it answers, and everything at all of them."""
-
-
 @dataclass
 class TurnBalance:
     """A train under load, to be asked at positions.
@@ -61,7 +54,6 @@ class TurnBalance:
     loads      by link, about its own axis; `bearings`, friction and drag by link
     complete   False where not all patterns of power flow were tried
     on_done    called with the number of positions that have been worked out since
-    compiled   asked first, where it is there
     """
 
     setting: LoadCase
@@ -72,7 +64,6 @@ class TurnBalance:
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
     on_done: Callable[[int], object] | None = None
-    compiled: PositionKernel | None = None
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -122,21 +113,10 @@ class TurnBalance:
         size = min(_CHUNK, self.motion.composition.chunk)
         parts = []
         for start in range(0, max(len(turns), 1), size):
-            parts.append(self._asked(turns[start : start + size], static))
+            parts.append(self._chunk(turns[start : start + size], static))
             if self.on_done is not None:
                 self.on_done(len(parts[-1].turns))
         return joined(parts)
-
-    def _asked(self, turns: Floats, static: bool) -> PositionTorques:
-        """By the kernel, and what it leaves by arrays."""
-        if self.compiled is None:
-            return self._chunk(turns, static)
-        settled, found = self.compiled.at(turns, static)
-        if settled.all():
-            return found
-        rest = self._chunk(turns[~settled], static)
-        order = np.argsort(np.concatenate([np.flatnonzero(settled), np.flatnonzero(~settled)]))
-        return some(joined([some(found, settled), rest]), order)
 
     @cached_property
     def flanked(self) -> tuple[str, ...]:

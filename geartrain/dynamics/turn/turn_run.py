@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.motion.corner_positions import CornerSearch
 from geartrain.dynamics.turn.run_positions import NODES, RunCells, find_kinks, run_cells
 from geartrain.numerics.named_arrays import joined, some
 
@@ -23,9 +22,6 @@ _ROUNDS = 3  # of looking for kinks: those of one cell come one after another
 _ACCURACY, _ROUNDING = 1e-8, 1e-13  # of all energy, spread evenly over the run, and what a cell may be off by at least
 _DEPTH = 13  # cuts of a cell one after another
 _MOST_TIMES = 12  # as many positions as at first: the rest stays as coarse as it is
-_ASKED = 2  # times as many positions are asked for, as kinks and extremes are looked for
-_PACE = 3e5  # pairs at positions a second, by arrays
-_CALLS = 0.03  # s a pair, however few positions there are
 _NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cells, and places
 FAINT = 1e-9
 """Of the greatest torque or power in a run: less has no sign."""
@@ -38,12 +34,6 @@ class TurnRun:
     train: TurnBalance
     span: float
     samples: int
-
-    @property
-    def seconds(self) -> float:
-        """What the run may take without kernels."""
-        corners = CornerSearch(self.train.motion.composition).rate * self.span
-        return len(self.train.pairs) * (_CALLS + _ASKED * (self.samples + NODES * corners) / _PACE)
 
     @cached_property
     def corners(self) -> Floats:

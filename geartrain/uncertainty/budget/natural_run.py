@@ -12,8 +12,7 @@ if TYPE_CHECKING:
 
 YEAR = period_table()["year_tropical_J2000"].value  # d
 MOST_PASSAGES = 600_000
-"""Teeth that pass, times the pairs that are asked at each: longer runs are cut off, at about two minutes without
-compiled kernels."""
+"""Teeth that pass, times the pairs that are asked at each: longer runs are cut off, at about two minutes."""
 SAMPLES = 2_000
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import (
@@ -108,9 +107,7 @@ class FrictionTrials(Result):
         return self.done == self.wanted
 
 
-def try_frictions(
-    plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None, fast: bool | None = None
-) -> FrictionTrials:
+def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None) -> FrictionTrials:
     """Torque over a turn, so many times, each with frictions of its own.
 
     The same for any number of workers, however often it was interrupted and taken up. Interrupted (Ctrl-C), it returns
@@ -126,8 +123,6 @@ def try_frictions(
         The same seed draws the same frictions.
     means : Execution, optional
         Executor, journal of finished trials, progress report; by default this process, and none of the others.
-    fast : bool, optional
-        Whether compiled kernels balance the positions; by default where that pays and the extra `fast` is installed.
 
     Returns
     -------
@@ -160,12 +155,10 @@ def try_frictions(
     True
     """
     check_trials(trials)
-    # of a study that this process makes for itself anyway, or that costs little beside the trials
-    compiled = plan.study is not None and is_fast(fast, plan.study.seconds * trials)
     tasks = [[start, min(start + _TASK, trials)] for start in range(0, trials, _TASK)]
     found: list[list[float | None]] = []
     try:
-        for rows in (means or Execution()).run(partial(work_frictions, plan, seed, fast=compiled), tasks):
+        for rows in (means or Execution()).run(partial(work_frictions, plan, seed), tasks):
             found += rows
     except KeyboardInterrupt:
         if not found:
@@ -178,10 +171,8 @@ def try_frictions(
     )
 
 
-def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int], fast: bool = False) -> list[list[float | None]]:
-    """Some trials as plain data: the figures of each, None where the train locks; `fast` by compiled kernels."""
-    if fast and plan.study is not None:
-        plan.study.compile()
+def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
+    """Some trials as plain data: the figures of each, None where the train locks."""
     return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 

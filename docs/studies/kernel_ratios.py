@@ -14,13 +14,10 @@ import numpy as np
 
 from geartrain.analysis.loader import load
 from geartrain.dynamics.motion.compiled_composition import compiled_composition
-from geartrain.uncertainty.manufacturing_errors.compiled_verdicts import compiled_verdicts
-from studies.cut_pair_trials import EVERY, Batch
 from studies.measurement import in_turns
 from studies.records import number_text, table
 
 TRAINS = {"moon-triangular": ("moon",), "freeth-2021": ("mars", "saturn"), "freeth-2021-teeth": ("mars", "moon")}
-PAIRS = ((64, 38, 0.02, 500), (48, 24, 0.02, 4000), (45, 225, 0.01, 900), (20, 60, 0.015, 4000))
 _ROUNDS = 9
 
 
@@ -52,17 +49,6 @@ def motion_rows(rounds: int = _ROUNDS) -> Iterator[KernelRow]:
         yield KernelRow(name, "links", work / plain.median, work / fast.median, plain.over(fast), off)
 
 
-def cutting_rows(rounds: int = _ROUNDS) -> Iterator[KernelRow]:
-    """Verdicts on pairs cut with every error."""
-    for z1, z2, excess, trials in PAIRS:
-        batch = Batch(z1, z2, excess, EVERY, trials)
-        compiled_verdicts(batch.pair)
-        plain, fast = in_turns([batch.together, partial(compiled_verdicts, batch.pair)], rounds)
-        work = trials * batch.pitches
-        off = float(np.abs(plain.found.play - fast.found.play).max())
-        yield KernelRow(batch.name, "tooth pitches", work / plain.median, work / fast.median, plain.over(fast), off)
-
-
 COLUMNS: dict[str, Callable[[KernelRow], str]] = {
     "work": lambda row: row.work,
     "unit": lambda row: row.unit,
@@ -75,7 +61,7 @@ COLUMNS: dict[str, Callable[[KernelRow], str]] = {
 
 def main() -> None:
     """Print the table."""
-    print("\n".join(table(COLUMNS, [*motion_rows(), *cutting_rows()])))
+    print("\n".join(table(COLUMNS, motion_rows())))
 
 
 if __name__ == "__main__":

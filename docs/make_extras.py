@@ -25,7 +25,7 @@ FOR = {
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",
     "errors": "Sobol indices, Parquet and pandas: `montecarlo`, `.to_frame()`",
-    "fast": "compiled runs of `motion`, `torques --turns`, `dynamics`",
+    "fast": "compiled runs of `motion` and `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
     "fem": "`strength --elements`",
     "sympy": "`train.formula(...)` as an expression of sympy",

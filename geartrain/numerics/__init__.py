@@ -17,7 +17,6 @@ block_triangular                     matching, then strongly connected component
 roots, simultaneous_roots            bracketed roots, one by one and many at once
 chebyshev, polynomial_pieces         functions as series and as pieces of polynomials
 kernels, compilation                 functions in plain Python that can be compiled; the time in which they are
-gauss_kernel                         small dense systems inside compiled loops
 quantity, units                      values with a unit, and the number as it was written
 arrays, labelled_array, named_arrays arrays with names on their axes; containers that cannot change
 files                                finished text and tables out, atomically

@@ -15,7 +15,7 @@ from geartrain.teeth.transmission_kernel import join_transmission_tables, make_t
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep, ErrorComposition
-    from geartrain.numerics.arrays import Bools, Floats, Ints
+    from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.transmission_kernel import TransmissionTable, TransmissionTables
 
 
@@ -25,7 +25,6 @@ class CompositionOrder(NamedTuple):
     own           rows of the links of a step
     known         rows of the links that they follow, by `from_known`, (own, known) flat
     sources       numbers of the first source of a step, and one beyond the last; by `from_sources`, (own, sources) flat
-    coupled       where sources of the step turn each other's drivers, by `gain`, (sources, sources) flat
     seen          of each output: rows of the links of which it is the sum, with their signs
     offset        what each output is ahead at every position (rad)
     """
@@ -39,9 +38,6 @@ class CompositionOrder(NamedTuple):
     sources: Ints
     from_sources_start: Ints
     from_sources: Floats
-    coupled: Bools
-    gain_start: Ints
-    gain: Floats
     seen_start: Ints
     seen: Ints
     seen_sign: Floats
@@ -82,21 +78,23 @@ class CompositionArrays(NamedTuple):
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
-    """The arrays of a composition; None where one of its laws is not read from tables."""
+    """The arrays of a composition; None where a law is not read from tables, or pairs turn each other's drivers."""
     laws: list[TransmissionTable | None] = []
     gains: list[float] = []
-    coupled: list[bool] = []
     for step in composition.steps:
-        own = _fed_back(composition, step) if step.coupled and len(step.sources) == 1 else None
+        if step.coupled and len(step.sources) > 1:
+            return None
+        own = _fed_back(composition, step) if step.coupled else None
+        if step.coupled and own is None:
+            return None
         gains += [0.0 if own is None else float(composition.gain(step)[0, 0])] * len(step.sources)
         laws += [own] if own else [make_transmission_table(composition.sources[at].law) for at in step.sources]
-        coupled.append(step.coupled and own is None)
     tables = [law for law in laws if law is not None]
     if len(tables) < len(laws):
         return None
     most = max((len(step.sources) for step in composition.steps), default=0)
     return CompositionArrays(
-        _order(composition, coupled),
+        _order(composition),
         _sources(composition, gains),
         join_transmission_tables(tables),
         composition.rows,
@@ -112,13 +110,12 @@ def _fed_back(composition: ErrorComposition, step: CompositionStep) -> Transmiss
     return make_transmission_table(law) if law.goes_on and not changing else None
 
 
-def _order(composition: ErrorComposition, coupled: Sequence[bool]) -> CompositionOrder:
+def _order(composition: ErrorComposition) -> CompositionOrder:
     steps, place = composition.steps, composition.place
     own = _ranges([[place[link] for link in step.links] for step in steps])
     known = _ranges([[place[link] for link in step.known] for step in steps])
     from_known = _matrices([step.from_known for step in steps])
     from_sources = _matrices([step.from_sources for step in steps])
-    gain = [composition.gain(step) if own else np.zeros((0, 0)) for step, own in zip(steps, coupled, strict=True)]
     seen = [
         [(place[link], sign) for link, sign in ((each.of, 1), (each.base, -each.sense)) if link in place]
         for each in composition.outputs
@@ -129,8 +126,6 @@ def _order(composition: ErrorComposition, coupled: Sequence[bool]) -> Compositio
         *from_known,
         _starts(len(step.sources) for step in steps),
         *from_sources,
-        np.array(coupled, dtype=bool),
-        *_matrices(gain),
         *_ranges([[row for row, _ in each] for each in seen]),
         np.array([float(sign) for each in seen for _, sign in each]),
         np.array(composition.offsets or (0.0,) * len(composition.outputs)),

@@ -1,4 +1,4 @@
-"""The composition of docs/motion.md, equations (2) to (5), as one kernel over the solved order of a train.
+"""The composition of docs/motion.md, equations (2) to (4), as one kernel over the solved order of a train.
 
 What `ErrorComposition` does with arrays of all positions, one law after the other, is done here for two thousand
 positions at a time, whose angles and errors never leave the processor's cache.
@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.dynamics.motion.composition_arrays import ComposedSources, CompositionArrays, CompositionOrder
-from geartrain.dynamics.motion.coupled_kernel import FOLLOWED, couple_errors
 from geartrain.numerics.error_free import SPLITTER
 from geartrain.numerics.kernels import kernel
 from geartrain.teeth.transmission_kernel import law_along
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.teeth.transmission_kernel import TransmissionTables
 
 BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache
 
@@ -31,13 +29,11 @@ def compose(
     error: Floats,
     rate: Floats,
     behind: Ints,
-) -> tuple[int, int]:
+) -> None:
     """Errors (rad) and rates of the outputs, (outputs, n), where the input has made so many turns.
 
     plain    cycles per turn up to which a plain product tells where in its period a driver stands
     behind   of each source: at how many positions its driver turns against its mean, filled in
-
-    Returns `FOLLOWED`, or what kept a step from being followed, and its number.
     """
     order, sources, laws, rows, most = arrays
     held = np.zeros((2, rows, BLOCK))
@@ -48,45 +44,20 @@ def compose(
     for begin in range(0, len(turns), BLOCK):
         size = min(BLOCK, len(turns) - begin)
         here = turns[begin : begin + size]
-        for step in range(len(order.coupled)):
+        for step in range(len(order.own_start) - 1):
             _carry(order, step, size, held)
             first, last = order.sources[step], order.sources[step + 1]
             for source in range(first, last):
                 S, w = angle[source - first, :size], turning[source - first, :size]
                 _phase(sources, source, laws.period[source], plain, here, S)
                 _turn(sources, source, size, held, S, w)
-            if order.coupled[step]:
-                count = last - first
-                gain = order.gain[order.gain_start[step] : order.gain_start[step + 1]].reshape(count, count)
-                own = (angle[:count, :size], turning[:count, :size], delta[:count, :size], slope[:count, :size])
-                found = couple_errors(laws, sources, first, gain, own[0], own[1], own[2], own[3])
-                if found != FOLLOWED:
-                    return found, step
-            else:
-                for source in range(first, last):
-                    e, v = delta[source - first, :size], slope[source - first, :size]
-                    law_along(laws, source, angle[source - first, :size], e, v, scratch[:size], cell[:size])
-                    _sign(sources, source, turning[source - first, :size], e, v)
             for source in range(first, last):
+                e, v = delta[source - first, :size], slope[source - first, :size]
+                law_along(laws, source, angle[source - first, :size], e, v, scratch[:size], cell[:size])
+                _sign(sources, source, turning[source - first, :size], e, v)
                 behind[source] += _count_negative(turning[source - first, :size])
             _spread(order, step, size, delta, slope, held)
         _read(order, begin, size, held, error, rate)
-    return FOLLOWED, -1
-
-
-@kernel
-def _never(
-    laws: TransmissionTables,
-    sources: ComposedSources,
-    first: int,
-    gain: Floats,
-    base: Floats,
-    turning: Floats,
-    delta: Floats,
-    slope: Floats,
-) -> int:
-    """In the place of `couple_errors`."""
-    return FOLLOWED
 
 
 @kernel
@@ -197,7 +168,3 @@ def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: F
             for position in range(size):
                 e[position] += sign * held[0, row, position]
                 v[position] += sign * held[1, row, position]
-
-
-compose_apart = compose.replaced(couple_errors=_never)
-"""`compose` of a solved order without pairs that depend on each other: compiled in half the time."""

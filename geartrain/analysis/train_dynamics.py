@@ -231,7 +231,7 @@ class TrainDynamics(TrainMotion):
             return {}
         inertias = {each.link: each.value for each in self.inertias(state)}
         from geartrain.dynamics import Motion
-        from geartrain.dynamics.motion.tooth_impacts import find_impacts
+        from geartrain.dynamics.motion.pair_impacts import find_impacts
 
         moving = self._moving(case, ())
         if moving.contradictions():

@@ -68,7 +68,7 @@ class TrainMotion(TrainKinematics):
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
         """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
-        from geartrain.teeth.mesh_faults import find_faults
+        from geartrain.teeth.gear_mesh import find_faults
 
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 

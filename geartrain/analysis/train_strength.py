@@ -27,7 +27,6 @@ class TrainUnderLoad(TrainInTime):
         turns: float | None = None,
         years: float | None = None,
         wear: tuple[float, float] | None = None,
-        elements: bool = False,
         over: float | None = None,
     ) -> TrainStrength:
         """Pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
@@ -42,8 +41,6 @@ class TrainUnderLoad(TrainInTime):
             The same by years of 365.25 days, where the unit of speeds or a `rate` says how fast the train runs.
         wear : tuple of float, optional
             Least and greatest wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
-        elements : bool
-            Whether root stresses are checked by plane finite elements, which takes the extra `fem`.
         over : float, optional
             Turns of the input: stresses are those of the greatest torque of each pair in them, with the ratios and the
             friction that teeth and pins have at every position; by default those of its mean torque.
@@ -57,8 +54,6 @@ class TrainUnderLoad(TrainInTime):
         ------
         QuestionError
             If loads have no unit, time is given twice or cannot be told, or K is no range.
-        ExtraError
-            If finite elements are asked for and are not installed.
         """
         from geartrain.dynamics.strength.strength_results import TrainStrength, WearRange
         from geartrain.dynamics.strength.train_strength import StrengthQuestion
@@ -79,7 +74,7 @@ class TrainUnderLoad(TrainInTime):
         scale = self._time_of_wear(found.state, turns, years)
         covered = None if scale is None else scale * self._input_speed(found.state)
         meshes = self.meshes_in(found.state)
-        question = StrengthQuestion(self, setting, found, meshes, scale, covered, own, elements)
+        question = StrengthQuestion(self, setting, found, meshes, scale, covered, own)
         if over is None:
             return question.answer()
         cycle = self.torques(state, turns=over)

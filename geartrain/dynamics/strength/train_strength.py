@@ -49,7 +49,6 @@ class StrengthQuestion:
     meshes    pairs with real teeth as they are driven in this case
     scale     turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input
     wear      least and greatest wear coefficient
-    elements  whether stresses are checked by finite elements
     over      turns of the input whose greatest torques bend and press; None where means do
     greatest  by pair: the greatest torque on its driven side in them [N m]
     """
@@ -61,7 +60,6 @@ class StrengthQuestion:
     scale: float | None
     turns: float | None
     wear: WearRange
-    elements: bool = False
     over: float | None = None
     greatest: Mapping[str, float] = field(default_factory=dict)
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
@@ -245,7 +243,7 @@ class StrengthQuestion:
             for name in gear.pair
             if (other := self._spoilt_elsewhere(mesh, name))
         )
-        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs, swing, notes)
+        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
         """Teeth of a wheel as cut for all mates; where faults of another pair prevent that, as this pair requires."""

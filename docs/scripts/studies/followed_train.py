@@ -11,17 +11,16 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
-from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
 from geartrain.synthesis.reconstruction.candidate_rules import broken_rules
 from geartrain.synthesis.reconstruction.path_choice import PathChoice
 from geartrain.synthesis.reconstruction.path_lists import PathList, WayThrough
 from geartrain.synthesis.reconstruction.path_trees import PathTrees
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
-from geartrain.synthesis.reconstruction.skeletons import Joint, Limb, Skeleton
+from geartrain.synthesis.reconstruction.train_topology import ADDED, ArborPass, Branching, Chain, Topology
 
 Shape = tuple[object, ...]
-"""A skeleton in whatever order its parts were found, arbors between two branchings in no order."""
+"""A topology in whatever order its parts were found, arbors between two branchings in no order."""
 
 
 def is_reached(candidate: Arbor, problem: ReconstructionProblem) -> bool:
@@ -32,7 +31,6 @@ def is_reached(candidate: Arbor, problem: ReconstructionProblem) -> bool:
     candidate : Arbor
         From its input on, in the names of the question.
     problem : ReconstructionProblem
-        Whole trees are not searched, also where `find_reconstructions` does.
     """
     added = candidate.added_wheels
     if added > problem.additions.wheels or broken_rules(candidate, problem):
@@ -41,11 +39,11 @@ def is_reached(candidate: Arbor, problem: ReconstructionProblem) -> bool:
     keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
     dials = sorted(problem.dials, key=lambda dial: dial.name)
     lists = {dial.name: PathList(dial, problem, keys, own[dial.name].ways) for dial in dials}
-    shape, trees = _shape(_joint_of(candidate)), PathTrees(problem, lists)
+    shape, trees = _shape(_branching_of(candidate)), PathTrees(problem, lists)
     return any(
-        _shape(skeleton.root) == shape and _holds(skeleton, own)
+        _shape(topology.root) == shape and _holds(topology, own)
         for chosen in PathChoice(problem, lists, keys).choices(added)
-        for skeleton in trees.skeletons(chosen, added)
+        for topology in trees.topologies(chosen, added)
     )
 
 
@@ -86,28 +84,28 @@ def _added(wheel: PlacedWheel) -> int:
     return wheel.teeth if wheel.name is None else 1
 
 
-def _holds(skeleton: Skeleton, own: dict[str, _TrainPath]) -> bool:
+def _holds(topology: Topology, own: dict[str, _TrainPath]) -> bool:
     """Whether the counts of the train are among those that are wanted."""
-    return all(least <= own[dial].quotient <= greatest for dial, (least, greatest) in skeleton.wanted)
+    return all(least <= own[dial].quotient <= greatest for dial, (least, greatest) in topology.wanted)
 
 
-# trains as skeletons, and when two are the same
+# trains as topologies, and when two are the same
 
 
-def _joint_of(arbor: Arbor) -> Joint:
+def _branching_of(arbor: Arbor) -> Branching:
     """An arbor at which paths end or part, with all below it."""
-    drives = tuple((_open(wheel) or ADDED, tuple(map(_limb_of, below))) for wheel, below in arbor.drives)
-    return Joint(arbor.name, _open(arbor.driven), arbor.dials, drives, tuple(map(_limb_of, arbor.passes)))
+    drives = tuple((_open(wheel) or ADDED, tuple(map(_chain_of, below))) for wheel, below in arbor.drives)
+    return Branching(arbor.name, _open(arbor.driven), arbor.dials, drives, tuple(map(_chain_of, arbor.passes)))
 
 
-def _limb_of(arbor: Arbor) -> Limb:
+def _chain_of(arbor: Arbor) -> Chain:
     """Arbors from one on, to where they end."""
     through: list[tuple[str, ArborPass]] = []
     compounds = idlers = 0
     while True:
         ways = [*arbor.drives, *([(arbor.driven, arbor.passes)] if arbor.passes else [])]
         if arbor.dials or len(ways) != 1:
-            return Limb((), tuple(through), compounds, idlers, _joint_of(arbor))
+            return Chain((), tuple(through), compounds, idlers, _branching_of(arbor))
         ((driver, below),) = ways
         idler = bool(arbor.passes)
         if arbor.name is not None:
@@ -115,21 +113,23 @@ def _limb_of(arbor: Arbor) -> Limb:
         else:
             compounds, idlers = compounds + (not idler), idlers + idler
         if len(below) > 1:
-            return Limb((), tuple(through), compounds, idlers, tuple(map(_limb_of, below)))
+            return Chain((), tuple(through), compounds, idlers, tuple(map(_chain_of, below)))
         (arbor,) = below
 
 
-def _shape(joint: Joint) -> Shape:
-    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(_limb_shape, limbs)))) for wheel, limbs in joint.drives))
-    passes = tuple(sorted(map(_limb_shape, joint.passes)))
-    return joint.name or "", _wheel(joint.driven), tuple(sorted(joint.here)), drives, passes
+def _shape(branching: Branching) -> Shape:
+    drives = tuple(
+        sorted((_wheel(wheel), tuple(sorted(map(_chain_shape, chains)))) for wheel, chains in branching.drives)
+    )
+    passes = tuple(sorted(map(_chain_shape, branching.passes)))
+    return branching.name or "", _wheel(branching.driven), tuple(sorted(branching.here)), drives, passes
 
 
-def _limb_shape(limb: Limb) -> Shape:
-    through = sorted((name, _wheel(each.driven), _wheel(each.driver), each.idler) for name, each in limb.through)
-    joint = (_shape(limb.end),) if isinstance(limb.end, Joint) else ()
-    forks = () if isinstance(limb.end, Joint) else tuple(sorted(map(_limb_shape, limb.end)))
-    return tuple(through), limb.compounds, limb.idlers, joint, forks
+def _chain_shape(chain: Chain) -> Shape:
+    through = sorted((name, _wheel(each.driven), _wheel(each.driver), each.idler) for name, each in chain.through)
+    branching = (_shape(chain.end),) if isinstance(chain.end, Branching) else ()
+    forks = () if isinstance(chain.end, Branching) else tuple(sorted(map(_chain_shape, chain.end)))
+    return tuple(through), chain.compounds, chain.idlers, branching, forks
 
 
 def _wheel(wheel: PlacedWheel | None) -> tuple[str, int]:

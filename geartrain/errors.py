@@ -186,7 +186,7 @@ _MEGABYTES = {
     "dxf": 55,
     "proof": 14,
     "step": 391,
-    "errors": 362,
+    "tables": 258,
     "fast": 213,
     "fmu": 1,
     "sympy": 80,

@@ -19,11 +19,11 @@ RECORD, PAGE = ROOT / "docs/data/extras.json", ROOT / "docs/extras.md"
 FOR = {
     "report": "`report`, `compare`, `torques` and others with `-o PAGE.html`",
     "plot": "`draw`, and `--plot` of every command",
-    "dask": "`--scheduler`: long runs on a cluster",
+    "dask": "`--dask`: long runs on a cluster",
     "dxf": "`export` of DXF",
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",
-    "errors": "Sobol indices, Parquet and pandas: `montecarlo`, `.to_frame()`",
+    "tables": "Parquet and pandas: `montecarlo`, `posterior`, `.to_frame()`",
     "fast": "compiled runs of `motion`, `torques --turns`, `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
     "sympy": "`train.formula(...)` as an expression of sympy",

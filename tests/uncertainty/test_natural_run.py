@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 from models import load
 
-from geartrain.uncertainty.budget.natural_run import YEAR, natural_turns
+from geartrain.uncertainty.budget.crank_load import YEAR, natural_turns
 
 TEETH = """
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}

@@ -184,8 +184,6 @@ _MEGABYTES = {
     "plot": 98,
     "dask": 37,
     "dxf": 55,
-    "model": 3,
-    "nest": 1,
     "proof": 14,
     "step": 391,
     "tables": 258,

@@ -9,7 +9,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import pyarrow.parquet
 import pytest
 from typer.testing import CliRunner
 
@@ -47,7 +46,10 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 # -------------------------------------------------------------------------------------------------------------- answers
 
 
+@pytest.mark.needs("pyarrow")
 def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path) -> None:
+    import pyarrow.parquet
+
     train = train_file(PAIR)
     for name in ("t.parquet", "t.csv", "t.json", "t.md", "t.html"):
         found = ask(train, "--trials", 300, "-o", here / name)
@@ -84,9 +86,12 @@ def test_everything_that_can_be_asked_stands_in_one_document(train_file: Write, 
     assert "NaN" not in found.stdout
 
 
+@pytest.mark.needs("pyarrow")
 def test_an_interrupted_run_says_so_and_is_taken_up(
     train_file: Write, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    import pyarrow.parquet
+
     from geartrain.uncertainty.monte_carlo import trial_run as running
 
     train, work = train_file(PAIR), running.work_block
@@ -135,6 +140,7 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
     Journal(here / "j", asked).close()
 
 
+@pytest.mark.needs("pyarrow")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
 def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> None:
     path = here / "t.parquet"

@@ -51,7 +51,8 @@ In a copy of the sources `pip install -e '.[plot]'` does the same by the name of
 {rows}
 
 Sizes are those of installed files, before Python compiles them. Extras share packages: together they weigh less than
-their sum. `step` is no part of `all`, for what it weighs; `dev` is for working on geartrain, `site` for this site.
+their sum. `all` leaves `step` out because of its size. `dev` (810 MB with the core) is for working on geartrain, `ci`
+adds the browser driver, the site and the libraries without which some tests are skipped, and `site` builds this site.
 """
 
 

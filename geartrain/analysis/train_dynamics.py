@@ -33,7 +33,6 @@ class TrainDynamics(TrainMotion):
         samples: int = ...,
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
-        fast: bool | None = None,
     ) -> TorqueCycle: ...
 
     @of_all_planets
@@ -45,7 +44,6 @@ class TrainDynamics(TrainMotion):
         samples: int = 20_000,
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
-        fast: bool | None = None,
     ) -> Torques | TorqueCycle:
         """Torques on links and pairs, and the flow of power, under the loads of one state: means, or over a turn.
 
@@ -62,9 +60,6 @@ class TrainDynamics(TrainMotion):
             The link whose torque is asked for over a turn, by default the crank or input.
         on_done : callable, optional
             Called with the number of positions that have been worked out since.
-        fast : bool, optional
-            Whether compiled kernels balance the positions, the same to 1e-12 and ten times as fast; by default where
-            the run is long and the extra `fast` is installed.
 
         Returns
         -------
@@ -80,7 +75,7 @@ class TrainDynamics(TrainMotion):
         check_whole_numbers(samples=samples)
         setting = self._setting(state)
         if turns is not None:
-            return self._torque_cycle(state, setting, turns, samples, of, on_done, fast)
+            return self._torque_cycle(state, setting, turns, samples, of, on_done)
         from geartrain.dynamics.torques.torque_analysis import find_torques, torques_unknown
 
         return torques_unknown(state) if setting is None else find_torques(setting)
@@ -93,7 +88,6 @@ class TrainDynamics(TrainMotion):
         samples: int,
         of: str | None,
         on_done: Callable[[int], object] | None,
-        fast: bool | None,
     ) -> TorqueCycle:
         from geartrain.dynamics import TorqueCycle, TorqueVerdict
         from geartrain.dynamics.turn.turn_analysis import find_torque_cycle
@@ -103,7 +97,7 @@ class TrainDynamics(TrainMotion):
             check_choice("link", of, links)
         if setting is None:
             return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
-        return find_torque_cycle(setting, self._moving(self._case(state), ()), turns, samples, of, on_done, fast)
+        return find_torque_cycle(setting, self._moving(self._case(state), ()), turns, samples, of, on_done)
 
     @of_all_planets
     def friction_study(
@@ -237,7 +231,7 @@ class TrainDynamics(TrainMotion):
             return {}
         inertias = {each.link: each.value for each in self.inertias(state)}
         from geartrain.dynamics import Motion
-        from geartrain.dynamics.motion.tooth_impacts import find_impacts
+        from geartrain.dynamics.motion.pair_impacts import find_impacts
 
         moving = self._moving(case, ())
         if moving.contradictions():

@@ -68,7 +68,7 @@ class TrainMotion(TrainKinematics):
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
         """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
-        from geartrain.teeth.mesh_faults import find_faults
+        from geartrain.teeth.gear_mesh import find_faults
 
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
@@ -165,8 +165,9 @@ class TrainMotion(TrainKinematics):
         tolerance : float, optional
             Read transmission functions from tables of this accuracy [pitch], several times faster.
         fast : bool, optional
-            Whether compiled kernels follow the motion, the same to 1e-12 rad and ten times as fast; by default where
-            numba is installed and there are so many positions that it pays to load it.
+            Whether compiled kernels follow the motion, the same to 1e-12 rad and about ten times as fast; by default
+            where numba is installed and there are so many positions that it pays to load it. Pairs that depend on each
+            other are followed without kernels.
 
         Returns
         -------

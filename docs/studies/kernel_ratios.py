@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geartrain.analysis.loader import load
+from geartrain.analysis.gear_train import load
 from geartrain.dynamics.motion.compiled_composition import compiled_composition
+from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.dynamics.turn.compiled_turn import compiled_turn
 from geartrain.dynamics.turn.turn_analysis import find_turn_balance
 from geartrain.dynamics.turn.turn_balance import TurnBalance
@@ -72,9 +73,9 @@ def turn_rows(rounds: int = _ROUNDS) -> Iterator[KernelRow]:
     """The balance of torques at random positions of a turn, with assumed teeth, friction and bearings."""
     for name, link in LOADED.items():
         train = load(f"extends: {name}\n{TEETH}links: {{{link}: {{bearing: 1 N mm}}}}\n")
-        setting = train._setting(None)
+        setting = train.mechanics.load_case()
         assert setting is not None
-        balance = find_turn_balance(setting, train._moving(train._case(None), ()), None)
+        balance = find_turn_balance(setting, find_motion_problem(train.mechanics), None)
         assert isinstance(balance, TurnBalance)
         kernel = compiled_turn(balance)
         assert kernel is not None

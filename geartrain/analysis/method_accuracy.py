@@ -126,7 +126,7 @@ def measure_speeds(train: GearTrain, state: str | None) -> Iterator[MethodAccura
         seconds, exact = best_of(partial(solve, method="exact"), partial(_as_declared, train))
         yield MethodAccuracy(SPEEDS, "exact", seconds, _residual(train, state, exact), "relative", "every equation")
     seconds, floats = best_of(partial(solve, method="floats"), partial(_as_declared, train))
-    if exact is not None and train.cases[state].exact:
+    if exact is not None and train.kinematics.cases[state].exact:
         error, reference = _off(floats, exact), "exact speeds"
     else:
         error, reference = _forecast(floats), "its own forecast"
@@ -163,8 +163,8 @@ def _forecast(floats: Answer) -> float:
 
 def measure_laws(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Every pair's law asked directly, and read from tables."""
-    laws = {mesh.name: mesh.law for mesh in train.meshes_in(state) if not mesh.rigid}
-    laws |= {pin.coupling.name: pin.law for pin in train.pins}
+    laws = {mesh.name: mesh.law for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
+    laws |= {pin.coupling.name: pin.law for pin in train.mechanics.pins}
     if not laws:
         raise AbsentStageError(
             "the law of each pair with a tooth form is its exact ratio" if train.meshes else _NO_FORM
@@ -215,7 +215,7 @@ def _farthest(
 
 def measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Errors composed in the solved order (by numpy, compiled, from tables), and superposed to first order."""
-    if not train.meshes_in(state) and not train.pins:
+    if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise AbsentStageError(_NO_FORM)
     try:
         prepared, motion = best_of(partial(_composed, train, state))

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.method_accuracy import VARIANTS, AbsentStageError, MethodAccuracy, best_of
 from geartrain.errors import GearTrainError
+from geartrain.kinematics.formulas.speed_formulas import speed_formulas
 
 if TYPE_CHECKING:
     from geartrain.analysis.train_variants import TrainVariants
@@ -43,7 +44,7 @@ def measure_variants(train: GearTrain, state: str | None) -> Iterator[MethodAccu
 def _varied(train: GearTrain, state: str | None) -> Mapping[str, Sequence[int]]:
     """Counts about those declared, of the first few wheels on which an output depends."""
     try:
-        formulas = train.formulas(state)
+        formulas = speed_formulas(train.declaration, train.declaration.single_state(state))
     except GearTrainError as error:
         raise AbsentStageError(error.problems[0].what) from None
     shares = (share for formula in formulas for share in formula.shares)

@@ -29,7 +29,7 @@ def run(
 ) -> None:
     """Measure error against run time on a train: speeds, variants, laws of pairs, motion, torques, optimisation."""
     from geartrain.analysis import find_accuracy
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.analysis.method_accuracy import OPTIMISATION, SPEEDS
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy
 
@@ -48,7 +48,7 @@ def _measure_optimisation(bar: ProgressBar, train: GearTrain, state: str | None)
     """How teeth are best sized; nothing of it is loaded for a train without tooth forms."""
     from geartrain.analysis.method_accuracy import AbsentStageError
 
-    if not train.meshes_in(state):
+    if not train.mechanics.meshes_in(state):
         raise AbsentStageError("no pair has triangular teeth of free sizes")
     from geartrain.synthesis.tooth_sizes.search_accuracy import measure_optimisation
 

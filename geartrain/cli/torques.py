@@ -73,7 +73,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.torque_figures import collect_torque_report
     from geartrain.report.torque_report import describe_torques
 
@@ -115,7 +115,9 @@ def _over_turn(
     """Torque over some turns in the one state that is loaded."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
-        period = train.torque_period(state, link)
+        from geartrain.dynamics.turn.train_turn import find_torque_period
+
+        period = find_torque_period(train.mechanics, state, link)
         if period is None:
             raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
         span = float(period)
@@ -175,7 +177,8 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     Else the flow under the declared loads; without any, that of a unit of power from the input to the output.
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
-    from geartrain.dynamics.torques.power_flow import watts_per_unit
+    from geartrain.dynamics.torques.power_flow import find_power_flow, watts_per_unit
+    from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_cycle_report import turns_text
     from geartrain.report.torque_report import summary_text
 
@@ -185,7 +188,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
         draw(torque_cycle_figure(over_turn, f"{name}: torque over {turns_text(over_turn.span)}"), picture)
         return
     watts = watts_per_unit(train.declaration, train.declaration.case(torques.state))
-    if torques.verdict.kind == "unloaded" and (ways := train.drive_both_ways(torques.state)):
+    if torques.verdict.kind == "unloaded" and (ways := drive_both_ways(train.mechanics, torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(train.power_flow(torques), f"{name}: {summary_text(torques)}", watts), picture)
+    draw(power_figure(find_power_flow(torques), f"{name}: {summary_text(torques)}", watts), picture)

@@ -29,7 +29,7 @@ def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Fig
     Parameters
     ----------
     flow : PowerFlow
-        From `GearTrain.power_flow`; powers are absolute (docs/torques.md, 7).
+        From `geartrain.dynamics.find_power_flow`; powers are absolute (docs/torques.md, 7).
     title : str
         Above the picture.
     watts : float, optional
@@ -51,7 +51,8 @@ def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Fig
     >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
     ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
-    >>> figure = power_figure(train.power_flow(train.torques()), "A pair")
+    >>> from geartrain.dynamics import find_power_flow
+    >>> figure = power_figure(find_power_flow(train.torques()), "A pair")
     >>> {"a", "b", "A pair"} <= {text.get_text() for text in figure.axes[0].texts}
     True
     """

@@ -71,7 +71,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
         drawing.words.write(axes)
     if elements:
         right = max(max(shaft.xs) for shaft in skeleton.shafts.values()) + 0.9
-        draw_elements(axes, train, train.state_or_first(state), right, skeleton.height / 2)
+        draw_elements(axes, train, train.declaration.state_or_first(state), right, skeleton.height / 2)
     entries = list(_legend(train))
     columns = min(len(entries), int(width / 1.35), 5)
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
@@ -108,7 +108,7 @@ class _Drawing:
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
         self._line([left, right], [shaft.y, shaft.y], "white", _LINK + 3.0, zorder=5)
         self._line([left, right], [shaft.y, shaft.y], BLACK, _LINK, zorder=6, gid=f"link {shaft.link}")
-        if self.train.tree.top[shaft.link] == self.train.declaration.frame:
+        if self.train.kinematics.tree.top[shaft.link] == self.train.declaration.frame:
             self._ground(left + 0.04, shaft.y - 0.075)
         self.words.keep_off((left, right), (shaft.y, shaft.y))
         self.words.name_link(shaft.link, left, right, shaft.y)

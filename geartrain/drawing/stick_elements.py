@@ -26,7 +26,7 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
     left     where the first begins (inches); `middle`, the height of all plates
     """
     declared = train.declaration
-    closed = train.cases[state].engaged
+    closed = train.kinematics.cases[state].engaged
     step = max(STEP, _letters(train) * _NAME * LETTER + 0.1)
     for at, (name, clutch) in enumerate(declared.clutches.items()):
         x, gap = left + step * (at + 0.5), _CLOSED if name in closed else _OPEN

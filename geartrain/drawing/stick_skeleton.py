@@ -124,14 +124,18 @@ def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -
 
 def _axes(train: GearTrain) -> dict[str, str]:
     """Link -> label of the axis it is drawn on."""
-    tree = train.tree
+    tree = train.kinematics.tree
     return {link: tree.axis(link) or "" for link in train.declaration.links}
 
 
 def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
     labels = list(dict.fromkeys(label for label in axis_of.values() if label))
     pairs = [(axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier)) for c in train.circuits]
-    pairs += [(axis_of[train.tree.top[link]], label) for link, label in axis_of.items() if link in train.tree.top]
+    pairs += [
+        (axis_of[train.kinematics.tree.top[link]], label)
+        for link, label in axis_of.items()
+        if link in train.kinematics.tree.top
+    ]
     order = arrange(labels, pairs)
     inputs = [axis_of[link] for link in train.declaration.inputs if axis_of.get(link)]
     if inputs and order.index(inputs[0]) > len(order) / 2:

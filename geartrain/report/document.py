@@ -213,6 +213,15 @@ class Document:
     sections: Sequence[Section]
     aside: PageExtras = field(default_factory=PageExtras)
 
+    def __str__(self) -> str:
+        """The document as Markdown."""
+        from geartrain.report.text import to_markdown
+
+        return to_markdown([self])
+
+    def _repr_markdown_(self) -> str:
+        return str(self)
+
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:
     """A number in decimal; a dash where there is none."""

@@ -28,7 +28,7 @@ def find_bodies(stage: SceneContext) -> tuple[SceneBody, ...]:
 
 
 def _body(stage: SceneContext, link: str) -> SceneBody:
-    tree, train = stage.train.tree, stage.train
+    tree, train = stage.train.kinematics.tree, stage.train
     label = tree.axis(link) or ""
     place = stage.layout.axes.get(label)
     # coaxial links are parts of the link that bears their axis, however their joints were declared
@@ -46,7 +46,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
         decimal=rounded(speed),
         start=stage.start(link),
         role=_role(stage, link),
-        bookkeeping=link in train.bookkeeping,
+        bookkeeping=link in train.kinematics.joint_sums,
         note=train.declaration.links[link].note or "",
     )
 
@@ -54,7 +54,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
 def _role(stage: SceneContext, link: str) -> str:
     if link == stage.train.declaration.frame:
         return "frame"
-    return "carrier" if link in stage.train.tree.top.values() else "arbor"
+    return "carrier" if link in stage.train.kinematics.tree.top.values() else "arbor"
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class ToothProfiles:
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
     """The tooth of every wheel, as it is cut where nothing is said of play; of others a likeness."""
-    toothed = find_train_teeth(stage.train, stage.layout.wheels)
+    toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
 

@@ -75,7 +75,7 @@ def make_scene(
     moves = originals(train.declaration)  # what was simulated moves equal planets as one
     folded, train = train, train.unfolded
     declared = train.declaration
-    state = train.state_or_first(run.state if state is None and run is not None else state)
+    state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
     moved = find_movement(stage)

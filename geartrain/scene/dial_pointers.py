@@ -118,14 +118,14 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
     if output.dial is None:
         return None
     of, base = output.links(name, stage.train.declaration.frame)
-    return output.dial, base, stage.train.tree.axis(of) or ""
+    return output.dial, base, stage.train.kinematics.tree.axis(of) or ""
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
     """Unit vector towards one who reads an output: along its axis, on the side its dial looks to."""
     declared = stage.train.declaration
     output = stage.outputs[name]
-    along = stage.along(stage.train.tree.axis(output.of or name))
+    along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
     side = dot(along, stage.near)
     # an axis across the view looks neither way but for rounding: it keeps its own
     normal = along if side > 0 or abs(side) < 1e-9 else scaled(along, -1.0)
@@ -225,7 +225,7 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:
     output = stage.outputs[name]
     of, base = output.links(name, stage.train.declaration.frame)
-    signs = stage.train.signs
+    signs = stage.train.kinematics.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
     # seen from the side to which its axis points, a positive angle is counter-clockwise
     sense = -1 if dot(stage.declared(of), facing(stage, name)) > 0 else 1

@@ -63,7 +63,7 @@ def _ends(stage: SceneContext, name: str) -> dict[str, int]:
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
     """A link seen from another, as a sum of declared speeds."""
     found = {of: 1}
-    found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.signs)
+    found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
 

@@ -263,6 +263,16 @@ class Train(Declared):
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state
 
+    def state_or_first(self, state: str | None) -> str | None:
+        """A state that was named, else the first declared; None for a train that has none.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state, or None.
+        """
+        return next(iter(self.states), None) if state is None else state
+
     @property
     def has_placed_axes(self) -> bool:
         """True if an axis has a position, or a direction of its own."""

@@ -9,6 +9,7 @@ import pytest
 from turning_chains import random_chain
 
 from geartrain import GearTrain, load
+from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.dynamics.turn.compiled_turn import CompiledTurn, compiled_turn
 from geartrain.dynamics.turn.position_torques import PositionTorques
 from geartrain.dynamics.turn.turn_analysis import find_turn_balance
@@ -56,9 +57,9 @@ loads: {hand: -1 N m}
 
 def balance(train: GearTrain) -> TurnBalance:
     train = train.unfolded
-    setting = train._setting(None)
+    setting = train.mechanics.load_case(None)
     assert setting is not None
-    found = find_turn_balance(setting, train._moving(train._case(None), ()), None)
+    found = find_turn_balance(setting, find_motion_problem(train.mechanics), None)
     assert isinstance(found, TurnBalance)
     return found
 

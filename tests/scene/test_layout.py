@@ -129,7 +129,7 @@ def poses(train: geartrain.GearTrain, layout: Layout, count: int) -> Iterator[di
     def carried(label: str, point: np.ndarray, angles: dict[str, float]) -> np.ndarray:
         bearer = layout.axes[label].carrier
         while bearer != train.declaration.frame:
-            pivot = layout.axes[train.tree.axis(bearer) or ""]
+            pivot = layout.axes[train.kinematics.tree.axis(bearer) or ""]
             c, s = math.cos(angles[bearer]), math.sin(angles[bearer])
             x, y = point[:2] - np.array(pivot.point[:2])
             point = np.array(pivot.point[:2]) + np.array([c * x - s * y, s * x + c * y])

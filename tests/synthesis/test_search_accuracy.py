@@ -59,7 +59,11 @@ def test_the_search_is_no_worse_than_a_scan_in_steps_of_a_thousandth(rows: dict[
 
 def test_errors_are_those_of_radii_asked_one_by_one(rows: dict[str, MethodAccuracy]) -> None:
     """Of the pair that loses most, 20/60: steps of 1 % from the lower end."""
-    (start,) = (declared_sizes(mesh) for name, mesh in sizeable_meshes(triangular().meshes_in()).items() if "q" in name)
+    (start,) = (
+        declared_sizes(mesh)
+        for name, mesh in sizeable_meshes(triangular().mechanics.meshes_in()).items()
+        if "q" in name
+    )
     middle = (1 + equal_depth_radii(20, 60, start.half_angles)) / 2
     low, high = 0.96 * middle, 1.04 * middle
     coarse = min(start.at({"radii": low + 0.01 * step}).loss for step in range(int((high - low) / 0.01) + 1))
@@ -98,7 +102,11 @@ def test_no_way_is_cheaper_for_what_another_has_worked_out() -> None:
     """Windows and contacts are kept between designs; each way works its own out."""
     from geartrain.teeth.triangular import clearance_window
 
-    (start,) = (declared_sizes(mesh) for name, mesh in sizeable_meshes(triangular().meshes_in()).items() if "q" in name)
+    (start,) = (
+        declared_sizes(mesh)
+        for name, mesh in sizeable_meshes(triangular().mechanics.meshes_in()).items()
+        if "q" in name
+    )
     made = []
     for _ in range(2):
         trial = search_accuracy._by_brent(start, (0.93, 0.95))

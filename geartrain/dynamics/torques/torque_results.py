@@ -114,7 +114,7 @@ class DrivenWay(NamedTuple):
 
     See Also
     --------
-    geartrain.GearTrain.drive_both_ways : what gives these.
+    geartrain.GearTrain.driven : gives the torques of one way.
     """
 
     torques: Torques

@@ -72,7 +72,7 @@ class FloatSpeeds(FrozenFields):
     Examples
     --------
     >>> import geartrain
-    >>> floats = geartrain.load("planetary-24-18-60").floats()
+    >>> floats = geartrain.load("planetary-24-18-60").kinematics.floats()
     >>> floats["carrier"] == 2 / 7, floats.decimal("carrier", digits=4)
     (True, '0.2857')
     """

@@ -141,7 +141,11 @@ class FrameStack:
 
     def carrier_axis(self, axis: AxisPlace) -> str | None:
         """The axis of the frame about which an upright axis is carried round."""
-        own = None if axis.carrier == self.frame or not self.is_upright(axis) else self.train.tree.axis(axis.carrier)
+        own = (
+            None
+            if axis.carrier == self.frame or not self.is_upright(axis)
+            else self.train.kinematics.tree.axis(axis.carrier)
+        )
         return own if own in self.axes else None
 
     @cached_property
@@ -215,7 +219,7 @@ class FrameStack:
             pins = {each.link for each in self.pin_circles.values()} | {cup.link for cup in self.cups}
             return dict.fromkeys(inner, (True, False)) | dict.fromkeys(pins - inner, (False, True))
         carriers = {self.layout.axes[each.axis].carrier for each in self.eccentrics}
-        about = {self.train.tree.axis(link) for link in carriers}
+        about = {self.train.kinematics.tree.axis(link) for link in carriers}
         drives = {disc.link for disc in self.wheel_discs if disc.axis in about and disc.hub}
         return dict.fromkeys(drives - {self.frame}, (False, True)) | dict.fromkeys(carriers, (True, False))
 
@@ -246,7 +250,7 @@ class FrameStack:
         middle = plus(place.centre, axis.direction, (below + above) / 2)
         half, height = outer * flat + thick * abs(along), dot(middle, self.normal)
         (x, y), low, high = self.flat(middle), height - half, height + half
-        about = None if axis.carrier == self.frame else self.train.tree.axis(axis.carrier)
+        about = None if axis.carrier == self.frame else self.train.kinematics.tree.axis(axis.carrier)
         if about is not None and about in self.layout.axes:
             centre = self.flat(self.layout.axes[about].point)
             return AcrossWheel(place.wheel, low, high, ((centre, dist(centre, (x, y)) + hypot(outer, thick)),))

@@ -48,7 +48,7 @@ def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
     for link, declared in train.declaration.links.items():
-        axis = train.tree.axis(link) or ""
+        axis = train.kinematics.tree.axis(link) or ""
         radius = _PART * max((disc.outer for disc in stack.discs if disc.axis == axis), default=0.0)
         if link in held - bearing and not declared.wheels and axis in stack.axes and radius:
             at, found = stack.flat(stack.axes[axis].point), []

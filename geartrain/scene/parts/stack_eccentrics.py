@@ -128,7 +128,7 @@ class StackEccentrics:
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
         """Links that bear together what one stands for, on axes that are carried about its own: axes, couplings."""
-        tree = self.stack.train.tree
+        tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot
             if isinstance(coupling, Parallel) and link in pair:
@@ -155,7 +155,7 @@ class StackEccentrics:
 
 def find_cups(stack: UprightTrain) -> Iterator[FlexibleCup]:
     """Walls between thin wheels and links on axes of the frame."""
-    declared, tree = stack.train.declaration, stack.train.tree
+    declared, tree = stack.train.declaration, stack.train.kinematics.tree
     for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
         for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
             own = [disc for disc in stack.wheel_discs if disc.link == thin and declared.wheels[disc.name][1].flexible]
@@ -170,7 +170,10 @@ def find_cups(stack: UprightTrain) -> Iterator[FlexibleCup]:
 def find_pin_circles(stack: UprightTrain) -> Iterator[PinCircle]:
     """Pins in round holes that no wheel of their own link is wide enough to bear."""
     for declared in stack.train.declaration.couplings:
-        places = [stack.layout.axes.get(stack.train.tree.axis(link) or "") for link in (declared.pin, declared.slot)]
+        places = [
+            stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")
+            for link in (declared.pin, declared.slot)
+        ]
         if not isinstance(declared, PinsInHoles) or not all(each and stack.is_upright(each) for each in places):
             continue
         first, second = (stack.flat(each.point) for each in places if each)

@@ -70,7 +70,7 @@ def _worst_pair(train: GearTrain, state: str | None) -> tuple[str, ToothSizes]:
     from geartrain.synthesis.tooth_sizes.declared_sizes import declared_sizes, sizeable_meshes
 
     try:
-        meshes = sizeable_meshes(train.meshes_in(state))
+        meshes = sizeable_meshes(train.mechanics.meshes_in(state))
         declared = {name: declared_sizes(mesh) for name, mesh in meshes.items()}
     except GearTrainError as error:
         raise AbsentStageError(error.problems[0].what) from None

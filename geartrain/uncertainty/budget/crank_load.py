@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
 from geartrain.uncertainty.budget.natural_run import find_natural_run
@@ -85,7 +86,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mappi
         return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
     if not loses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
-    ways = train.drive_both_ways(state)
+    ways = drive_both_ways(train.mechanics, state)
     if not ways or not ways[0].torques.verdict:
         return CrankLoad(link, None, None, "no loads are declared", pointers)
     way = ways[0]

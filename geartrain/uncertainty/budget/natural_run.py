@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.train.periods import period_table
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def natural_turns(train: GearTrain, state: str | None, lead: str, of: str | None
     what speeds are by, an hour or a day. Fewer turns where more teeth pass than can be followed.
     """
     once = abs(train.declaration.case(state).inputs[lead]) or 1
-    period, unit = train.torque_period(state, of), train.declaration.unit_days
+    period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
     if period is None:
         return float(once)
     used = train.motion(state, tuple(train.declaration.links)).ahead.used

@@ -441,7 +441,7 @@ class GearTrain:
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
         """What of the train cannot be built, and what is unwise, by the declaration alone (docs/buildability.md)."""
-        from geartrain.dynamics.train_mechanics import find_build_findings
+        from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 

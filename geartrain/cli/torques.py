@@ -177,7 +177,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     Else the flow under the declared loads; without any, that of a unit of power from the input to the output.
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
-    from geartrain.dynamics.torques.power_flow import find_power_flow, watts_per_unit
+    from geartrain.dynamics.torques.power_flow import watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_cycle_report import turns_text
     from geartrain.report.torque_report import summary_text
@@ -191,4 +191,4 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     if torques.verdict.kind == "unloaded" and (ways := drive_both_ways(train.mechanics, torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(find_power_flow(torques), f"{name}: {summary_text(torques)}", watts), picture)
+    draw(power_figure(torques, f"{name}: {summary_text(torques)}", watts), picture)

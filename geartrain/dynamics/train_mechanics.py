@@ -9,18 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, final
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import Problem
 from geartrain.kinematics.planet_copies import as_one, has_copies, with_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.kinematics.buildability import BuildFinding
-    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
@@ -132,7 +129,7 @@ class TrainMechanics:
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
         """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
-        from geartrain.teeth.mesh_faults import find_faults
+        from geartrain.teeth.gear_mesh import find_faults
 
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
@@ -230,30 +227,3 @@ def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: 
             ways[at] = (known if known.who.known else mesh), states + own
             return
     ways.append((mesh, own))
-
-
-def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
-    """What of the train cannot be built, or is unwise, by the declaration alone (docs/buildability.md)."""
-    from geartrain.kinematics.buildability.build_check import check_build
-
-    cuts = _cuts_teeth(train.declaration)
-    found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
-    if not cuts:
-        return found
-    from geartrain.dynamics.cut_teeth import find_odd_wheels
-
-    return (*found, *find_odd_wheels(train))
-
-
-def _cuts_teeth(declared: Train) -> bool:
-    """True where pairs declare forms, and numpy is there: a page that answers in a browser goes without."""
-    return any(map(declared.form_of, declared.gears)) and find_spec("numpy") is not None
-
-
-def _outlines(train: TrainMechanics) -> Mapping[str, PairOutline]:
-    from geartrain.dynamics.gear_meshes import find_outlines
-
-    try:
-        return find_outlines(train.teeth)
-    except GearTrainError:  # teeth that cannot be made are reported as such
-        return {}

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
+from geartrain.numerics.result_picture import picture_maker
 
 
 class ExactText(str):
@@ -215,9 +216,8 @@ class Document:
 
     def __str__(self) -> str:
         """The document as Markdown."""
-        from geartrain.report.text import to_markdown
-
-        return to_markdown([self])
+        text: str = picture_maker("report", "to_markdown")([self])
+        return text
 
     def _repr_markdown_(self) -> str:
         return str(self)

@@ -10,7 +10,7 @@ from geartrain.report.document import Document, Section, Table, cut, figure
 
 if TYPE_CHECKING:
     from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.polyhedron_survey import SurveyRow
+    from geartrain.spherical.polyhedron_gears import SurveyRow
     from geartrain.spherical.tooth_count_search import ToothCountSuggestions
 
 

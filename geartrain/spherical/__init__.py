@@ -20,11 +20,15 @@ if TYPE_CHECKING:
     from geartrain.spherical.gear_sphere import GearSphere
     from geartrain.spherical.graph_set import GraphSet, from_graph
     from geartrain.spherical.named_solids import solid, solid_names
-    from geartrain.spherical.neighbour_windows import NeighbourRatioWindow, ratio_windows
     from geartrain.spherical.polyhedra import Polyhedron, polyhedron
-    from geartrain.spherical.polyhedron_gears import from_polyhedron
-    from geartrain.spherical.polyhedron_survey import SurveyRow, survey
-    from geartrain.spherical.tooth_count_search import ToothCountCompromise, ToothCountSuggestions, suggest_tooth_counts
+    from geartrain.spherical.polyhedron_gears import SurveyRow, from_polyhedron, survey
+    from geartrain.spherical.tooth_count_search import (
+        NeighbourRatioWindow,
+        ToothCountCompromise,
+        ToothCountSuggestions,
+        ratio_windows,
+        suggest_tooth_counts,
+    )
 
 __all__ = [
     "Configuration",
@@ -53,22 +57,22 @@ _PLACES = {
     "Configuration": "configuration",
     "GearSphere": "gear_sphere",
     "GraphSet": "graph_set",
-    "NeighbourRatioWindow": "neighbour_windows",
+    "NeighbourRatioWindow": "tooth_count_search",
     "Polyhedron": "polyhedra",
     "SphereSizing": "gear_sizes",
-    "SurveyRow": "polyhedron_survey",
+    "SurveyRow": "polyhedron_gears",
     "ToothCountCompromise": "tooth_count_search",
     "ToothCountSuggestions": "tooth_count_search",
     "from_graph": "graph_set",
     "from_polyhedron": "polyhedron_gears",
     "one_pitch": "gear_sizes",
     "polyhedron": "polyhedra",
-    "ratio_windows": "neighbour_windows",
+    "ratio_windows": "tooth_count_search",
     "size_gears": "gear_sizes",
     "solid": "named_solids",
     "solid_names": "named_solids",
     "suggest_tooth_counts": "tooth_count_search",
-    "survey": "polyhedron_survey",
+    "survey": "polyhedron_gears",
     "to_train": "configuration",
 }
 

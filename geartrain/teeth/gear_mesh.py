@@ -1,15 +1,19 @@
-"""A gear pair with real teeth: what a train asks of it, whatever their form."""
+"""A gear pair with real teeth: what a train asks of it, whatever their form.
+
+What is wrong with the teeth of a pair in the ways in which it is driven.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
+from geartrain.teeth.pair_verdict import friction_lock, friction_lock_at_speed
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -93,6 +97,19 @@ class GearMesh(ABC):
         return rubbed(law, self.wheels)
 
     @property
+    def friction_words(self) -> str:
+        """Its friction in words, at the speed at which it runs."""
+        declared, at = self.wheels.friction_law, self.wheels.pitch_line
+        if declared is None:
+            return f"Coefficient of friction {self.law.friction:g}"
+        if at is None:
+            return f"Friction by the law '{declared.law}' of speed, and no speed is known"
+        return (
+            f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
+            f"{self.losses.friction:.6g}"
+        )
+
+    @property
     def pitch_radius(self) -> float | None:
         """Radius [m] at which the first wheel named rolls on the second; None where nothing gives the pair a size."""
         module, size = self.wheels.module, self.own_size
@@ -144,7 +161,6 @@ class GearMesh(ABC):
     def own_faults(self) -> Iterator[Problem]:
         """Everything that is wrong with these teeth, without pair and place."""
         yield from (fault.problem for fault in self.verdict.faults)
-        from geartrain.teeth.mesh_faults import friction_faults
 
         yield from friction_faults(self)
 
@@ -223,9 +239,16 @@ class GearMesh(ABC):
         GearTrainError
             Where no such wheel can be cut.
         """
-        from geartrain.teeth.outlines.wheel_outline import mesh_outline
+        from geartrain.teeth.outlines.wheel_outline import MeshedTeeth, outline_wheel
 
-        return mesh_outline(self, gear, cut)
+        size, counts = self.own_size, self.wheels.counts[:: 3 - 2 * gear]
+        scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
+        tooth, mate = (self.requirement(name, scale, tolerance).cut() for name in self.gear.pair[:: 3 - 2 * gear])
+        # of the driven wheel play is an angle
+        turned = counts[0] if self.driven == self.gear.pair[gear - 1] else counts[1]
+        distance = self.wheels.touching if size is None else size.distance
+        meshed = MeshedTeeth(tooth, mate, counts[0], distance, self.verdict.play * turned / 2)
+        return outline_wheel(gear, meshed, cut)
 
     @property
     def has_cut_sizes(self) -> bool:
@@ -348,3 +371,28 @@ class GearMesh(ABC):
     def ways(self) -> tuple[Self, ...]:
         """The mesh as it is driven; where that is not determined, both ways."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
+
+
+# ---------------------------------------------------------------------------------------------------------- mesh faults
+
+
+def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
+    """Everything wrong with one pair in the ways it is driven; what is wrong in some ways only says in which."""
+    said = [list(way.own_faults()) for way in ways]
+    found: list[Problem] = []
+    for way, faults in zip(ways, said, strict=True):
+        for fault in faults:
+            always = all(fault in other for other in said)
+            label = way.label if always else f"{way.label}, '{way.driver}' driving"
+            placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
+            found += [] if placed in found else [placed]
+    return tuple(found)
+
+
+def friction_faults(mesh: GearMesh) -> Iterator[Problem]:
+    """That friction locks these teeth, if it does."""
+    if mesh.wheels.friction_law is None:
+        if mesh.law.locks:
+            yield friction_lock(mesh.law.friction, mesh.law.locking_friction)
+    elif mesh.verdict and mesh.losses.locks:
+        yield friction_lock_at_speed(mesh.wheels.friction_law.law, mesh.law.locking_friction)

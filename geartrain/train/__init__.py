@@ -14,19 +14,14 @@ periods, materials                                       the tables of periods o
 
 from __future__ import annotations
 
-from geartrain.train.bearing_friction import BearingFriction
-from geartrain.train.declaration import Train
+from geartrain.train.declaration import Epoch, FrictionInForce, Train
 from geartrain.train.dials import Dial, DialName, DialNumerals, DialRing
 from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
-from geartrain.train.epoch import Epoch
-from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, Material, material_table
-from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
+from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import Expect, Output, Published, SpeedUnit, Target, View
-from geartrain.train.state_case import StateCase
-from geartrain.train.states import Clutch, State
-from geartrain.train.tooth_counts import Teeth
+from geartrain.train.states import Clutch, State, StateCase
 from geartrain.train.validation import declare
 
 __all__ = [

@@ -26,7 +26,7 @@ from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.teeth import TransmissionFunction
-from geartrain.train.efficiencies import Efficiencies
+from geartrain.train.mechanism import Efficiencies
 
 Data = dict[str, Any]
 

@@ -8,7 +8,7 @@ from turning_chains import random_chain
 from geartrain import GearTrain, load
 from geartrain.dynamics.turn.friction_study import FrictionStudy, drivers_are_certain
 from geartrain.dynamics.turn.train_turn import study_friction
-from geartrain.train.friction_in_force import FrictionInForce
+from geartrain.train.declaration import FrictionInForce
 from geartrain.uncertainty.monte_carlo.friction_plan import draw_friction, find_friction_plan
 from geartrain.uncertainty.monte_carlo.friction_trials import work_frictions
 

@@ -499,7 +499,7 @@ def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate(request: pyt
 
 
 def test_a_train_whose_sizes_take_too_long_to_find_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.kinematics.speeds.scaling._BUDGET", 1000)
+    monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds._BUDGET", 1000)
     with pytest.raises(RangeError, match="coupled too densely"):
         GearTrain.declare(planetaries(300)).kinematics.floats()
 

@@ -23,7 +23,6 @@ from test_cases import KINEMATIC, REJECT, declaration
 from geartrain import GearTrain, load
 from geartrain.kinematics import MeshRemoval
 from geartrain.kinematics.gridlock import removal_choice as choosing
-from geartrain.kinematics.gridlock.branch_and_bound import greedy_removal
 from geartrain.kinematics.gridlock.gain_graph import (
     GainGraph,
     biconnected_blocks,
@@ -32,8 +31,7 @@ from geartrain.kinematics.gridlock.gain_graph import (
     single_mesh_removals,
     walk_gain_graph,
 )
-from geartrain.kinematics.gridlock.planar_matching import planar_removal
-from geartrain.kinematics.gridlock.removal_choice import choose_removal
+from geartrain.kinematics.gridlock.removal_choice import choose_removal, greedy_removal, planar_removal
 
 Data = dict[str, Any]
 

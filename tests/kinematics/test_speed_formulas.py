@@ -15,7 +15,7 @@ from shipped import trains
 
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.kinematics.formulas.factors import FactoredPolynomial
+from geartrain.kinematics.formulas.closed_forms import FactoredPolynomial
 from geartrain.kinematics.formulas.laurent import Laurent, product
 from geartrain.kinematics.formulas.speed_formulas import OutputFormula, speed_formulas
 

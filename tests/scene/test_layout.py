@@ -16,7 +16,7 @@ from shapely.geometry import Point
 
 import geartrain
 from geartrain.scene import Layout, WheelPlace, lay_out
-from geartrain.scene.layout.axial_slots import find_axial_slots
+from geartrain.scene.layout.parallel_groups import find_axial_slots
 
 NAMES = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
 Z = np.array([0.0, 0.0, 1.0])

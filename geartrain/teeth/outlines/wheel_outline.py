@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import acos, atan2, cos, pi, sin, tan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.wheel_requirement import CutTooth
 
 
 _THIN = 0.1  # modules: least land of a wheel about its bore
@@ -38,20 +38,26 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     return both.toothed(gear)
 
 
-def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
+class MeshedTeeth(NamedTuple):
+    """A tooth of a wheel of z, and of its mate, in modules: at some centre distance, with a backlash."""
+
+    tooth: CutTooth
+    mate: CutTooth
+    z: int
+    distance: float
+    backlash: float
+
+
+def outline_wheel(gear: int, meshed: MeshedTeeth, cut: BlankSizes) -> WheelOutline:
     """The outline of the first or the second wheel of any mesh, as its form wants it cut: `GearMesh.wheel_outline`."""
-    size = mesh.own_size
-    scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
-    tooth, mate = (mesh.requirement(name, scale, tolerance).cut() for name in mesh.gear.pair[:: 3 - 2 * gear])
-    z, other = mesh.wheels.counts[:: 3 - 2 * gear]
-    distance = mesh.wheels.touching if size is None else size.distance
+    tooth, z = meshed.tooth, meshed.z
     teeth = Contour.of(repeated(tooth.tooth, z)).scaled(cut.module)
     if tooth.kind == "ring":
         rim = 2 * cut.module if cut.rim is None else cut.rim
         contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
     else:
         contours = [teeth, *_bore(cut, tooth.root * cut.module)]
-    points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
+    points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(cut.tolerance / cut.module)
     side = points[points[:, 1] >= 0]
     side = side[np.argsort(np.hypot(*side.T))]
     half = float(np.interp(z / 2, np.hypot(*side.T), np.arctan2(side[:, 1], side[:, 0])))
@@ -67,9 +73,9 @@ def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
         thickness=half * z * cut.module,
         fillet=0.0,
         relief=0.0,
-        clearance=(distance - mate.tip - tooth.root) * cut.module,
-        backlash=mesh.verdict.play * (z if mesh.driven == mesh.gear.pair[gear - 1] else other) / 2 * cut.module,
-        centre_distance=distance * cut.module,
+        clearance=(meshed.distance - meshed.mate.tip - tooth.root) * cut.module,
+        backlash=meshed.backlash * cut.module,
+        centre_distance=meshed.distance * cut.module,
         tolerance=cut.tolerance,
     )
 

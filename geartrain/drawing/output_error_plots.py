@@ -13,7 +13,7 @@ from geartrain.drawing.style import BLUE, GREY, RED, SMALL, WIDTH, headed
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics import ErrorSamples, MotionRun
+    from geartrain.dynamics import ErrorSamples, Motion, MotionRun
     from geartrain.numerics.arrays import Floats
 
 
@@ -88,6 +88,34 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
     left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
+
+
+def outputs_figure(motion: Motion, turns: float, samples: int) -> Figure:
+    """How the outputs of a motion move over some turns, from the position where ideal teeth are as declared.
+
+    Parameters
+    ----------
+    motion : Motion
+        As `GearTrain.motion` gives it.
+    turns : float
+        Of the input [turn].
+    samples : int
+        Positions, 2 or more, both ends included.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As of `motion_figure`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> outputs_figure(geartrain.load("moon-triangular").motion(), 0.1, 51).axes[-1].get_xlabel()
+    'turns of crank'
+    """
+    from geartrain.dynamics import MotionRun
+
+    return motion_figure(MotionRun(motion, turns, samples))
 
 
 def _left_out(erring: int, exact: int) -> Iterator[str]:

@@ -16,7 +16,8 @@ relative_speeds       the speed of one link seen from another
 gridlock              locked subgraphs, and the fewest meshes to take out
 phasing               whether teeth meet when a train is put together
 buildability          what of a declared train cannot be built, and what is unwise
-judged_outputs, answer, verdict, lint   what is told of it all
+judged_outputs, answer, verdict   results
+train_kinematics      everything of the room for one train, each part found once
 """
 
 from __future__ import annotations
@@ -37,11 +38,12 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
     from geartrain.kinematics.levers import Lever as Lever
     from geartrain.kinematics.levers import find_levers as find_levers
-    from geartrain.kinematics.phasing.loop_phase import LoopPhase as LoopPhase
+    from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.tooth_sensitivity import Sensitivity as Sensitivity
+    from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
     from geartrain.kinematics.verdict import Loop as Loop
     from geartrain.kinematics.verdict import Verdict as Verdict
     from geartrain.kinematics.willis_equation import WillisEquation as WillisEquation
@@ -63,6 +65,7 @@ __all__ = [
     "OutputResult",
     "Sensitivity",
     "TargetResult",
+    "TrainKinematics",
     "Verdict",
     "WillisEquation",
     "WillisMatrix",
@@ -82,13 +85,14 @@ __getattr__ = lazy_names(
         "Lever": "levers",
         "LockedSubgraph": "gridlock.removal",
         "Loop": "verdict",
-        "LoopPhase": "phasing.loop_phase",
+        "LoopPhase": "phasing.mesh_phasing",
         "MeshPhasing": "phasing.mesh_phasing",
         "MeshRemoval": "gridlock.removal",
         "Mobility": "speeds.mobility",
         "OutputResult": "judged_outputs",
         "Sensitivity": "tooth_sensitivity",
         "TargetResult": "judged_outputs",
+        "TrainKinematics": "train_kinematics",
         "Verdict": "verdict",
         "WillisEquation": "willis_equation",
         "WillisMatrix": "willis_matrix",

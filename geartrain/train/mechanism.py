@@ -65,7 +65,7 @@ from geartrain.train.fields import (
 )
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, FaceWidth
-from geartrain.train.yaml_nodes import JOINT_SCHEMA
+from geartrain.train.short_forms import JOINT_SCHEMA
 
 # ----------------------------------------------------------------------------------------------------- bearing friction
 

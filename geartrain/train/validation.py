@@ -26,7 +26,8 @@ from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
-from geartrain.train.yaml_nodes import has_short_forms, node_from_data, written_out
+from geartrain.train.short_forms import has_short_forms, written_out
+from geartrain.train.yaml_nodes import node_from_data
 
 
 @collector_paused()

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,13 +15,13 @@ from geartrain.dynamics.motion.compiled_composition import CompiledComposition, 
 from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
 from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
-from geartrain.dynamics.motion.motion_picture import PicturedMotion
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.pointer_compositions import PointerCompositions
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
-from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.relative_speeds import axis_sense
+from geartrain.numerics.result_picture import picture_maker
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-class Motion(PicturedMotion):
+class Motion:
     """A train's motion with real teeth and pins, as a function of the turns of its input.
 
     Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
@@ -87,6 +87,43 @@ class Motion(PicturedMotion):
             fix = "give a part of a pitch such as 1e-9, or none"
             raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
         self._refuse_loops()
+
+    def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
+        """Angles, errors and speeds over turns of the input, as a figure that notebooks show.
+
+        Parameters
+        ----------
+        *outputs : str
+            Names of those to draw; all where none is given.
+        turns : float
+            Of the input, from the position where ideal teeth stand as declared [turn].
+        samples : int
+            Positions, 2 or more, both ends included.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            As `geartrain.drawing.motion_figure` draws it.
+
+        Raises
+        ------
+        MissingExtraError
+            Without matplotlib, which the extra `plot` brings.
+        QuestionError
+            For an output that is not followed.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> motion = geartrain.load("moon-triangular").motion()
+        >>> motion.plot("moon", turns=0.1).axes[-1].get_xlabel()
+        'turns of crank'
+        """
+        for name in outputs:
+            check_choice("output", name, list(self.outputs))
+        shown = {name: self.outputs[name] for name in outputs or self.outputs}
+        motion = Motion(self.train, shown, self.tolerance, self.fast)
+        return picture_maker("drawing", "outputs_figure")(motion, turns, samples)
 
     # ----------------------------------------------------------------------------------------------- what it is made of
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools
-    from geartrain.synthesis.ratio.search_segments import Range
+    from geartrain.synthesis.ratio.product_windows import Range
     from geartrain.synthesis.ratio.stage_pairs import FeasiblePairings
     from geartrain.synthesis.ratio.stage_problem import StageProblem
 

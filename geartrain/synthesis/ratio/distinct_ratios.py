@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.synthesis.ratio.search_segments import Range
+    from geartrain.synthesis.ratio.product_windows import Range
     from geartrain.synthesis.ratio.stage_problem import StageProblem
 
     Ints = NDArray[Any]

@@ -25,6 +25,9 @@ PLAIN = 1 << 52
 _MOST_OBJECTS = 2 * 10**6  # products as Python integers, which are held one by one
 _MOST_ROWS = 12 * 10**6  # of the tables
 
+Range = tuple[int, int]
+"""Places in a table: the first, and that after the last."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductWindows:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.synthesis.ratio.product_windows import ProductWindows, multisets
+from geartrain.synthesis.ratio.product_windows import ProductWindows, Range, multisets
 from geartrain.synthesis.ratio.stage_problem import StageProblem, stage_problem_of
 
 if TYPE_CHECKING:
@@ -92,8 +92,6 @@ BLOCK = 1 << 21
 PER_ROW = 3
 """A window costs a search in every row of the tables: it should bring some products for each."""
 _FEW = 1000  # solutions that may be made one by one from their products
-
-Range = tuple[int, int]
 
 
 def task_of(

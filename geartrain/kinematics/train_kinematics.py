@@ -1,9 +1,7 @@
 """The kinematics of a train: its tree, circuits, mobility and speeds, each found once, when it is first requested.
 
 An answer goes from what is prescribed in a state to the train or the part of it that matters, the method, and judged
-outputs.
-
-Remarks on a sound declaration: conventions and means that its answers rest on, notes and never errors.
+outputs. Remarks are conventions and means that the answers of a sound declaration depend on: notes, never errors.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """What stands in a scene: links with their axes and which of them bears which; every wheel, where it stands, what is
-known of it, and one tooth of it, as it is cut or a likeness of one that has no flat outline.
+known of it, and one tooth of it, as it is cut.
 
-Teeth for wheels that have no flat outline: bevels, crowns, worms, and what nobody could cut, as such wheels look.
+Wheels without a flat outline (bevels, crowns, worms, and teeth that nobody could cut) get nominal teeth.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
-"""From a train to its scene: where all stands, what it looks like, how it moves.
+"""From a train to its scene: where everything is, what it looks like, how it moves.
 
-Speeds of a scene as exact functions of tooth counts, for pages on which counts are changed.
-
-Equal planets have one count.
+With speeds as exact functions of tooth counts, for pages on which counts are changed; equal planets have one count.
 """
 
 from __future__ import annotations

@@ -6,6 +6,15 @@ sizes, tooth numbers that nearly share one pitch, and the train that it is.
 
 Pitch cones obey rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i (docs/sphere.md, equation
 1), and speeds about outward axes z_i w_i = -z_j w_j. Teeth meet where the phases of every loop close (docs/closure.md).
+
+polyhedra, named_solids                      solids from vertices and by name, with their symmetries
+gear_places, polyhedron_gears                where gears may be on a solid; sets of gears on it, and a survey of solids
+circle_packing, graph_set                    sets of gears from any planar graph
+configuration                                a set: axes, meshes, kinds of gear
+gear_sphere, gear_sizes, assembly_loops      whether it turns and can be put together, and how large its gears are
+pitch_cones, pitch_theorems                  cones of a pair; sets of which one pitch is proved impossible
+tooth_count_search                           tooth numbers that nearly share one pitch
+axis_adjustment, symmetric_displacement      axes moved until all meshes have one pitch, or loops close
 """
 
 from __future__ import annotations

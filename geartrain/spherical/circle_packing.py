@@ -1,11 +1,8 @@
 """Circle packing on the sphere: a circle for each gear and each region of a planar map, tangent or orthogonal.
 
-Every 3-connected planar graph has such a packing, unique up to Moebius maps (Koebe, Andreev, Thurston); the centre
-by B. Springborn, Math. Z. 249 (2005) 513.
-
-Circles in the plane for every gear and region of a planar map: radii by Newton's method, then their places.
-
-Koebe, Andreev and Thurston; radii by A. Bobenko and B. Springborn, Trans. AMS 356 (2004) 659.
+Every 3-connected planar graph has such a packing, unique up to Moebius maps (Koebe, Andreev, Thurston). Radii in the
+plane by Newton's method on a convex function (A. Bobenko and B. Springborn, Trans. AMS 356 (2004) 659), then places;
+on the sphere the centre by B. Springborn, Math. Z. 249 (2005) 513.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Gears on a sphere from any planar graph of who meshes with whom: circles, whole teeth, then pitch or phases.
 
-A graph of who meshes with whom as a planar map, or why gears on a sphere cannot follow it.
+The graph is first drawn as a planar map, or the reason is reported why gears on a sphere cannot follow it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
 
-A table of polyhedra with gears on all faces: whether they move, what would free them, and what can be exact.
+And a table of polyhedra with gears on all faces: whether they move, what would free them, and what can be exact.
 """
 
 from __future__ import annotations

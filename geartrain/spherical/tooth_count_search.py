@@ -1,6 +1,6 @@
 """Tooth numbers that nearly share one pitch, by exhaustive search: loops that close and tips that clear come first.
 
-Tooth ratios at which equal gears beside each other on a sphere do not overlap.
+And the range of tooth ratios at which equal neighbouring gears on a sphere do not overlap.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""A gear pair with real teeth: what a train asks of it, whatever their form.
-
-What is wrong with the teeth of a pair in the ways in which it is driven.
-"""
+"""A gear pair with real teeth, whatever their form, and what is wrong with them in the ways in which it is driven."""
 
 from __future__ import annotations
 

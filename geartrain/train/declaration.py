@@ -1,8 +1,7 @@
-"""The train as declared, all of it in one model.
+"""The whole declaration of a train as one model.
 
-When a train that counts time stands where: a date, and the turns of its input at that date.
-
-Friction that is in force at a pair or coupling, as numbers: while it slides, at rest, and how far it is in doubt.
+With the epoch (a date, and the turns of the input at that date) and the friction in force at a pair or coupling:
+sliding, at rest, and its uncertainty.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """From a path, a shipped name, text or plain data to a declaration, with what it inherits.
 
-JSON files read by `json`: the data as YAML would give them, with places only where somebody reads one.
+JSON files are read by `json`: the data are as YAML would give them, and places are found only when somebody reads one.
 """
 
 from __future__ import annotations

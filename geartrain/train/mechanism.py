@@ -1,10 +1,7 @@
-"""What the train is made of: sources, wheels, links, axes, pairs.
+"""Parts of the mechanism as declared: sources, wheels, links, axes, pairs.
 
-Friction torque of a link's bearing: while it turns, and at rest.
-
-The basic efficiency of a pair as declared, by the wheel that drives.
-
-A tooth count as it is declared where it is in doubt: a best value, and what the evidence allows.
+With tooth counts that are in doubt (a best value and what the evidence allows), the basic efficiency of a pair by the
+wheel that drives, and the friction torque of a link's bearing, sliding and at rest.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Names that point nowhere, and mixtures of wheels, pairs and prescriptions that have no meaning.
-
-Units of a declaration that do not go together, and targets that cannot be compared in the train's unit.
-"""
+"""Names that point nowhere, and mixtures of wheels, pairs, prescriptions and units that have no meaning."""
 
 from __future__ import annotations
 

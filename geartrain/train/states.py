@@ -1,7 +1,4 @@
-"""How the train is run and changed: clutches, states, errata, removals.
-
-What is prescribed when a train is run in one state, and how that is said.
-"""
+"""How the train is run and changed: clutches, states, errata, removals; and everything prescribed in one state."""
 
 from __future__ import annotations
 

@@ -1,16 +1,8 @@
-"""The one pass over a declaration that says what of it cannot be built.
+"""The one pass over a declaration that finds what of it cannot be built.
 
-Whether the kinds of wheels that mesh go together, and with the directions of their axes.
-
-Whether three axes with known distances have a place: the triangle inequality.
-
-Whether brakes and clutches join links that turn on one axis.
-
-Wheels that mesh nothing.
-
-Wheels with two coaxial mates whose teeth are declared by shape: one centre distance must serve both pairs.
-
-Whether axes that pass each other stand as far apart as the helical wheels or the worm between them ask.
+Here are the short rules: wheels that mesh nothing; kinds of wheels that do not go together; three axes whose distances
+break the triangle inequality; brakes and clutches between links on different axes; wheels with two coaxial mates at
+different centre distances; skew axes at another distance than their wheels need. The folder holds the longer rules.
 """
 
 from __future__ import annotations

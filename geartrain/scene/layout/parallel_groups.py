@@ -1,14 +1,10 @@
-"""Groups of parallel axes placed one after the other: each is planned and stacked, held by what stands already.
+"""Groups of parallel axes placed one after the other: each is planned and stacked, held by what is placed already.
 
-From placed axes to the stack of their wheels: which keep their heights to each other, and what reaches in from
-across.
+Stacks: wheels that mesh are at one height, or at fixed heights to each other: a weighted union-find of heights makes
+stacks of them. Wheels on axes across keep their height to the wheel they mesh with, and take room in its stack.
 
-Wheels that mesh stand at one height, or at fixed heights to each other: a weighted union-find of heights makes stacks
-of them. Wheels on axes across keep their height to the wheel they mesh with, and take room in its stack.
-
-Broad wheels: two wheels that share a mate and would run into each other get slots of their own along its width.
-
-Depth-first search with backtracking: each mesh is put into a slot; a wheel spans the slots of its meshes, and no two
+Broad wheels: two wheels that share a mate and would run into each other get slots of their own along its width, by
+depth-first search with backtracking. Each mesh is put into a slot, a wheel spans the slots of its meshes, and no two
 wheels that overlap share one. As few slots as can be.
 """
 

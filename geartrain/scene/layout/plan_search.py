@@ -4,12 +4,9 @@ Beam search: axes are put in one after the other, those first that most distance
 circles or in some dozens of directions; of many plans the few that crowd least are carried on. Distances that cannot
 all be had are missed as little as can be: least squares by the Gauss-Newton method.
 
-How much wheels of parallel axes crowd each other in plan: the cost of a place for an axis.
-
-The order in which axes are put into a plan, and what the axes still to come ask of their places.
-
-Greedy, those first that most distances tie down, from a priority queue. An axis of a closed chain of distances must
-stay near enough to those that stand for the rest of the chain to reach: Dijkstra's shortest ways give those bounds.
+The order is greedy, from a priority queue. An axis of a closed chain of distances must stay near enough to those that
+are placed for the rest of the chain to reach: Dijkstra's shortest ways give those bounds. The cost of a place is how
+much wheels of parallel axes crowd each other.
 """
 
 from __future__ import annotations

@@ -1,12 +1,9 @@
 """From a train to its layout: every axis and every wheel in space, in the pose in which all angles are zero.
 
-What a layout could not meet, in words.
-
-The angles at which wheels sit on their arbors, so that teeth of one meet spaces of the other.
-
-Breadth first over the gear pairs: the first wheel of a train has a tooth at a pitch point, and each mate follows. With
-s the pitches by which a tooth is past the pitch point, positive as the wheel turns, teeth and spaces meet where
-s_1 + s_2 = 1/2 (mod 1) if positive angles turn the pitch point against each other, and s_1 - s_2 = 1/2 if not.
+Wheels are turned on their arbors so that teeth of one meet spaces of the other, breadth first over the gear pairs: the
+first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches by which a tooth is past
+the pitch point, positive as the wheel turns, teeth and spaces meet where s_1 + s_2 = 1/2 (mod 1) if positive angles
+turn the pitch point against each other, and s_1 - s_2 = 1/2 if not. What a layout could not meet is reported in words.
 """
 
 from __future__ import annotations

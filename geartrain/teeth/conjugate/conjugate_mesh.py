@@ -1,6 +1,6 @@
 """Conjugate teeth of a gear pair, spur, ring or bevel: which wheel is the form's first, and why they do not turn.
 
-What is told of a pair with conjugate teeth: arcs and contact ratio of the design, error, play, efficiency.
+With the figures of the pair: arcs and contact ratio of the design, error, play, efficiency.
 """
 
 from __future__ import annotations

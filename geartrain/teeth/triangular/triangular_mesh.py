@@ -1,7 +1,4 @@
-"""Triangular teeth of a gear pair, their window of clearance, and why they do not turn.
-
-What is told of a pair with triangular teeth: its clearance and window, its law, its collisions.
-"""
+"""Triangular teeth of a gear pair: their window of clearance, why they do not turn, and the figures of the pair."""
 
 from __future__ import annotations
 

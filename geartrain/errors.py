@@ -191,12 +191,10 @@ _MEGABYTES = {
     "errors": 362,
     "fast": 213,
     "fmu": 1,
-    "film": 302,
-    "fem": 2,
     "sympy": 80,
     "watch": 7,
 }
-"""What each extra adds to the core on the disk, rounded up to 1; measured by docs/make_extras.py."""
+"""What each extra adds to the core on the disk, rounded up to 1; measured by docs/scripts/make_extras.py."""
 
 
 def install_command(extra: str) -> str:

@@ -476,7 +476,6 @@ class GearTrain:
         turns: float | None = None,
         years: float | None = None,
         wear: tuple[float, float] | None = None,
-        elements: bool = False,
         over: float | None = None,
     ) -> TrainStrength:
         """Pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
@@ -491,8 +490,6 @@ class GearTrain:
             The same by years of 365.25 days, where the unit of speeds or a `rate` says how fast the train runs.
         wear : tuple of float, optional
             Least and greatest wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
-        elements : bool
-            Whether root stresses are checked by plane finite elements, which takes the extra `fem`.
         over : float, optional
             Turns of the input: stresses are those of the greatest torque of each pair in them, with the ratios and the
             friction that teeth and pins have at every position; by default those of its mean torque.
@@ -506,12 +503,10 @@ class GearTrain:
         ------
         QuestionError
             If loads have no unit, time is given twice or cannot be calculated, or K is not a range.
-        ExtraError
-            If finite elements are requested and are not installed.
         """
         from geartrain.dynamics.strength.train_strength import Service, solve_strength
 
-        return solve_strength(self.mechanics, state, Service(turns, years, wear), elements, over)
+        return solve_strength(self.mechanics, state, Service(turns, years, wear), over)
 
     def dynamics(
         self,

@@ -1,4 +1,10 @@
-"""The command: one file a verb. Verbs import what they need when they run; only this room prints and exits."""
+"""The command: one file a verb. Verbs import what they need when they run; only this room prints and exits.
+
+Map: `verbs` finds the file of a verb, `exit_codes` ends a run; `common` has the options that verbs share, where results
+go and how trains are loaded, `option_values` reads values of options, `long_runs` progress bars and journals,
+`time_runs` the options of motion in time, `uncertainty_plots`, `ranked_trains` and `reconstruction_findings` what
+single verbs print. `mesh` and `teeth` are groups of verbs.
+"""
 
 from __future__ import annotations
 

@@ -21,9 +21,6 @@ def run(
         tuple[float, float] | None,
         typer.Option("--wear", help="Least and greatest wear coefficient K of Archard's law; default 1e-7 1e-3."),
     ] = None,
-    elements: Annotated[
-        bool, typer.Option("--elements", help="Check root stresses by finite elements (extra `fem`).")
-    ] = False,
     over: Annotated[
         float | None,
         typer.Option("--over", min=0, help="Stresses of the greatest torques over so many turns; default of means."),
@@ -38,7 +35,7 @@ def run(
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
     states = chosen_states(train, state)
-    found = [train.strength(name, turns=turns, years=years, wear=wear, elements=elements, over=over) for name in states]
+    found = [train.strength(name, turns=turns, years=years, wear=wear, over=over) for name in states]
     report = collect_strength_report(train, found)
     give(to, json, lambda: report, lambda: [describe_strength(report)])
     weak = any(each.weakest is not None and each.weakest.safety < 1 for each in found)

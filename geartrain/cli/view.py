@@ -1,13 +1,10 @@
-"""`geartrain view`: one HTML file in which the train turns, or a picture or film of it."""
+"""`geartrain view`: one HTML file in which the train turns."""
 
 from __future__ import annotations
 
 import webbrowser
-from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -28,7 +25,6 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.films import SUFFIXES, FilmRequest, with_shot
 from geartrain.cli.time_runs import Rate, Restitution, Skip, Steps, TimeRequest, ToothModel, run_in_time
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import plural
@@ -47,23 +43,14 @@ Other = Annotated[str | None, typer.Argument(help="Another train, shown beside t
 Page = Annotated[
     Path | None,
     typer.Option(
-        "--output-file", "-o", help="A page, or a .png .gif .webp .mp4; default NAME.html here; - is standard output."
+        "--output-file", "-o", help="Write the page to this file; default NAME.html here; - is standard output."
     ),
 ]
-Turns = Annotated[
-    str | None, typer.Option("--turns", help="Turns of the lead in a film; with --dynamics those that are counted.")
-]
+Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: turns of the lead that are counted.")]
 Embed = Annotated[bool, typer.Option("--embed", help="The picture with three buttons, for a frame in another page.")]
 Kiosk = Annotated[bool, typer.Option("--kiosk", help="The same for a museum's screen: full screen, turns by itself.")]
-Png = Annotated[bool, typer.Option("--png", help="Write a picture, NAME.png, in place of a page.")]
-Gif = Annotated[bool, typer.Option("--gif", help="Write a film, NAME.gif, in place of a page.")]
-Mp4 = Annotated[bool, typer.Option("--mp4", help="Write a film, NAME.mp4, in place of a page.")]
-AllStates = Annotated[
-    bool, typer.Option("--states", help="A film of all states, one after another; --turns and --seconds of each.")
-]
 
 
-@with_shot
 def run(
     file: File,
     other: Other = None,
@@ -85,38 +72,21 @@ def run(
     fast: Fast = None,
     embed: Embed = False,
     kiosk: Kiosk = False,
-    png: Png = False,
-    gif: Gif = False,
-    mp4: Mp4 = False,
-    states: AllStates = False,
-    shot: Mapping[str, Any] = MappingProxyType({}),
 ) -> None:
-    """A page in which the train turns: one file, no server, no network; two trains stand side by side.
-
-    With --png, --gif or --mp4, or an output file called so, it is a picture or a film of one state, or of all.
-    """
+    """A page in which the train turns: one file, no server, no network; two trains stand side by side."""
     from geartrain.scene import build_scene
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
-    film = FilmRequest.of({"png": png, "gif": gif, "mp4": mp4}, out, shot, teeth)
-    if film is not None and not dynamics:
-        film, request = film.of_turns(turns), replace(request, turns=None)
     _check_request(request, dynamics, other)
-    shown = _shown(embed, kiosk, film, other)
+    shown = _shown(embed, kiosk, other)
     trains = load_all([file] if other is None else [file, other])
-    if states:
-        _check_states(trains[0], film, state, dynamics)
-    path = out or file_name("-".join(train.name for train in trains), film.suffix if film else ".html")
-    to = film.sink(path, force) if film else _page_sink(path, force)
-    first = dynamics or other is not None or (film is not None and not states)
+    to = _page_sink(out or file_name("-".join(train.name for train in trains), ".html"), force)
+    first = dynamics or other is not None
     taken = [(train, each) for train in trains for each in _states(train, state, first)]
     runs = [_played(train, each, request) if dynamics else None for train, each in taken]
-    whole = shown == "page" and film is None
+    whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
-    if film is not None:
-        film.write(scenes, to)
-    else:
-        _write_page(scenes, to, shown, other is not None, teeth)
+    _write_page(scenes, to, shown, other is not None, teeth)
     if open_it and to.path is not None and not webbrowser.open(to.path.resolve().as_uri()):
         tell("no browser could be started here; open the file by hand")
     for run in runs:
@@ -135,29 +105,14 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
         tell(f"put it beside your page, and this into it:\n{frame_of(to.path.name, scenes[0].title or scenes[0].name)}")
 
 
-def _shown(embed: bool, kiosk: bool, film: FilmRequest | None, other: str | None) -> Shown:
+def _shown(embed: bool, kiosk: bool, other: str | None) -> Shown:
     """How a page shows a train. Raises `QuestionError` for two ways at once, and two trains where one has room."""
-    ways = [way for way, wanted in (("--embed", embed), ("--kiosk", kiosk), (film and film.suffix, film)) if wanted]
-    if len(ways) > 1:
-        why = "a page, a picture or a film is written, and one of them"
-        raise QuestionError(Problem(f"{' and '.join(map(str, ways))} at once", why, "leave all but one out", "view"))
-    if ways and other is not None:
-        why = f"{ways[0]} has room for one"
+    if embed and kiosk:
+        raise QuestionError(Problem("--embed and --kiosk at once", "one page is written", "leave one out", "view"))
+    if (embed or kiosk) and other is not None:
+        why = f"{'--embed' if embed else '--kiosk'} has room for one"
         raise QuestionError(Problem("two trains", why, "give one, or write a page of both", other))
     return "embed" if embed else "kiosk" if kiosk else "page"
-
-
-def _check_states(train: GearTrain, film: FilmRequest | None, state: str | None, dynamics: bool) -> None:
-    """Raises `QuestionError` where there is no film of all states to be made."""
-    wrong = {
-        "a page shows all states by itself": film is None,
-        "a picture shows one moment": film is not None and film.suffix == ".png",
-        f"--state {state} names one of them": state is not None,
-        "a motion in time is that of one state": dynamics,
-        f"'{train.name}' has no states": not train.states,
-    }
-    for why in (each for each, holds in wrong.items() if holds):
-        raise QuestionError(Problem("no film of all states", why, "leave --states out, or make a film of a gearbox"))
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
@@ -189,5 +144,5 @@ def _page_sink(path: Path, force: bool) -> Sink:
     if path == STANDARD_NAME or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is no suffix of a page" if path.suffix else "its name has no suffix"
-    fix = f"let it end in .html, or for a picture or a film in {', '.join(SUFFIXES)}"
+    fix = "let it end in .html; pictures and films are saved from the page"
     raise QuestionError(Problem("the page cannot be written", why, fix, str(path)))

@@ -8,6 +8,13 @@ cut by hand, counts in doubt. Nothing is worked out here but where things stand 
 members at places that their teeth fix (docs/theory.md, equations 18 and 19), and bands of power are as wide as powers
 (docs/torques.md, 7).
 
+Map: `train_pictures` chooses among `plan_view` (with `projection`, `oblique_side_views`, `callouts`), `stick_diagram`
+(`stick_grid`), `kinematic_graph` (`arrangement`), `lever_diagram` and `dial_faces`. Pairs are drawn by `tooth_contact`,
+`transmission_curves`, `form_comparison` and `tooth_sizes_plot`; a train in motion by `output_error_plots`,
+`torque_cycle_plot`, `time_run_plot` and `power_sankey` (`sankey`); doubt and errors by `monte_carlo_plots` (`jam_map`,
+`tornado_chart`, `pointer_error_plots`), `budget_bars`, `corner_plot` and `parameter_sweep_plot`; spheres by
+`spherical_gears`. `backend`, `style`, `theme_colours` and `labels` are shared.
+
 The figures need the extra `plot`: a name that is asked for without it raises `MissingExtraError`. Nothing needs a
 display or touches the state of pyplot.
 """
@@ -26,7 +33,6 @@ if TYPE_CHECKING:
     from geartrain.drawing.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
     from geartrain.drawing.output_error_plots import motion_figure as motion_figure
     from geartrain.drawing.output_error_plots import outputs_figure as outputs_figure
-    from geartrain.drawing.pair_transmission import transmission_figure as transmission_figure
     from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
     from geartrain.drawing.power_sankey import power_figure as power_figure
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
@@ -37,6 +43,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.torque_cycle_plot import torque_cycle_figure as torque_cycle_figure
     from geartrain.drawing.train_pictures import picture as picture
     from geartrain.drawing.transmission_curves import law_figure as law_figure
+    from geartrain.drawing.transmission_curves import transmission_figure as transmission_figure
 
 _PLACES = {
     "budget_figure": "budget_bars",
@@ -56,7 +63,7 @@ _PLACES = {
     "tooth_sizes_figure": "tooth_sizes_plot",
     "train_sizes_figure": "tooth_sizes_plot",
     "torque_cycle_figure": "torque_cycle_plot",
-    "transmission_figure": "pair_transmission",
+    "transmission_figure": "transmission_curves",
 }
 
 __all__ = [

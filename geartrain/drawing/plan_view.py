@@ -5,37 +5,303 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import floor, log10
+from math import floor, log10, pi
 from textwrap import shorten, wrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
-from geartrain.drawing.backend import Axes, Figure, Line2D, Patch
+from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Patch, Path, PathPatch, Polygon
 from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
-from geartrain.drawing.labels import Box
-from geartrain.drawing.oblique_side_views import SideScale, draw_obliquely, draw_side, oblique_callouts
-from geartrain.drawing.plan_labels import PlanNames
-from geartrain.drawing.plan_parts import draw_flat, from_below
-from geartrain.drawing.projection import ProjectedScene, ScaledPage, project_scene
+from geartrain.drawing.labels import Box, LabelSpace, text_box
+from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side, oblique_callouts
+from geartrain.drawing.projection import (
+    ProjectedScene,
+    ScaledPage,
+    arms_of,
+    broken_wheels,
+    coupling_spans,
+    project_scene,
+)
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
+    FILL,
     FINE,
     GREY,
     LETTER,
     ORANGE,
     PURPLE,
     RED,
+    SHADE,
     SMALL,
     sheet,
     title_of,
     write,
 )
-from geartrain.scene import Scene, SceneWheel
+from geartrain.scene import Scene, SceneCoupling, SceneWheel
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
     from geartrain.numerics.arrays import Floats
+
+_FAR, _NEAR = np.array(to_rgb(SHADE)), np.array(to_rgb(FILL))  # colours of the lowest and highest layer
+_ONLY = 0.7  # from the lowest layer's colour to the highest's, of a train in one layer
+_CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
+
+
+def from_below(standing: ProjectedScene) -> list[SceneWheel]:
+    """Wheels in the order in which they are drawn."""
+    return sorted(
+        standing.scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius)
+    )
+
+
+def draw_flat(page: ScaledPage, standing: ProjectedScene) -> None:
+    """All of them, on a page."""
+    scene, wheels = standing.scene, from_below(standing)
+    heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
+    red = broken_wheels(scene)
+    for order, wheel in enumerate(wheels):
+        place = heights.index(round(float(standing.seen(standing.centre(wheel))[2]), 6))
+        level = place / (len(heights) - 1) if len(heights) > 1 else _ONLY
+        if not standing.faces(wheel):
+            draw_across(page.axes, standing, wheel, page.at, red, 2 + order / len(wheels))
+            continue
+        _draw_wheel(page, standing, wheel, level, 2 + order / len(wheels), wheel.id in red)
+    _draw_arms(page, standing)
+    _draw_waves(page, standing)
+    for coupling in scene.couplings:
+        _draw_coupling(page, standing, coupling)
+    for spot in {tuple(np.round(page.at(standing.seen(standing.centre(wheel))), 4)) for wheel in wheels}:
+        page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
+
+
+def _draw_wheel(
+    page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, level: float, order: float, red: bool
+) -> None:
+    chord = min(_CHORD / page.scale, _COARSE * wheel.module)
+    outline = page.at(standing.seen(standing.outline(wheel, chord=chord)))
+    face = (*(_FAR + (_NEAR - _FAR) * level), 0.78)
+    style: dict[str, Any] = {"edgecolor": RED if red else BLACK, "linewidth": 1.2 if red else 0.6, "zorder": order}
+    if wheel.kind == "ring":
+        rim = page.at(standing.seen(standing.circle(wheel, wheel.root * 1.1)))
+        page.axes.add_artist(PathPatch(_hollow(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
+    elif wave := standing.wave(wheel):
+        bore = page.at(standing.seen(standing.bore(wave)))
+        page.axes.add_artist(PathPatch(_hollow(outline, bore), facecolor=face, gid=f"wheel {wheel.id}", **style))
+    else:
+        page.axes.add_artist(Polygon(outline, facecolor=face, gid=f"wheel {wheel.id}", **style))
+    for pin in standing.pins(wheel):
+        page.axes.add_artist(Polygon(page.at(standing.seen(pin)), facecolor="white", **style))
+    centre = page.at(standing.seen(standing.centre(wheel)))
+    page.axes.add_artist(
+        Circle(
+            (float(centre[0]), float(centre[1])),
+            wheel.radius * page.scale,
+            fill=False,
+            edgecolor=RED if red else BLUE,
+            linewidth=0.6,
+            linestyle="-.",
+            zorder=order,
+            gid=f"pitch {wheel.id}",
+        )
+    )
+
+
+def _hollow(outer: Floats, inner: Floats) -> Path:
+    """What lies between two closed lines."""
+    codes = [
+        code for line in (outer, inner) for code in (Path.MOVETO, *[Path.LINETO] * (len(line) - 1), Path.CLOSEPOLY)
+    ]
+    return Path(np.concatenate([outer, outer[:1], inner[::-1], inner[-1:]]), codes)
+
+
+def _draw_arms(page: ScaledPage, standing: ProjectedScene) -> None:
+    arms = list(arms_of(standing))
+    wide = 4.5 if len(arms) < 6 else 2.5
+    for body, start, end in arms:
+        line = page.at(standing.seen(np.array([start, end])))
+        name = f"arm {standing.scene.bodies[body].id}"
+        page.axes.plot(*line.T, color="white", linewidth=wide + 2, solid_capstyle="round", zorder=4)
+        page.axes.plot(*line.T, color=ORANGE, linewidth=wide, solid_capstyle="round", zorder=4, gid=name)
+
+
+def _draw_waves(page: ScaledPage, standing: ProjectedScene) -> None:
+    """The generator, from its axis to where it presses a thin wheel out."""
+    for wave in standing.scene.waves:
+        name = f"wave {standing.scene.bodies[wave.by].id}"
+        page.axes.add_artist(
+            Polygon(page.at(standing.seen(standing.bore(wave))), fill=False, edgecolor=ORANGE, zorder=4)
+        )
+        hub = standing.centre(standing.scene.wheels[wave.wheel])
+        for lobe in standing.lobes(wave):
+            line = page.at(standing.seen(np.array([hub, lobe])))
+            page.axes.plot(*line.T, color=ORANGE, linewidth=2.5, solid_capstyle="butt", zorder=4, gid=name)
+
+
+def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
+    """The pin, and the slot as far as the pin goes; or pins in their holes."""
+    if coupling.hole:
+        _draw_holes(page, standing, coupling)
+        return
+    pin = page.at(standing.seen(standing.pose.point(coupling.pin, coupling.pin_at)))
+    (ends,) = coupling_spans(standing, coupling, page.at, page.scale)
+    page.axes.plot(*ends.T, color=PURPLE, linewidth=5.5, solid_capstyle="round", zorder=5, gid=f"slot {coupling.id}")
+    page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
+    spot = (float(pin[0]), float(pin[1]))
+    page.axes.add_artist(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
+
+
+def _draw_holes(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
+    for what, body, places, size in (
+        ("hole", coupling.slot, coupling.holes_at, coupling.hole),
+        ("pin", coupling.pin, coupling.pins_at, coupling.pin_diameter),
+    ):
+        for at, place in enumerate(places):
+            x, y = page.at(standing.seen(standing.pose.point(body, place)))
+            gid = f"{what} {at + 1} {coupling.id}"
+            round_ = Circle((float(x), float(y)), size / 2 * page.scale, zorder=5, gid=gid)
+            face, edge = ("white", PURPLE) if what == "hole" else (PURPLE, BLACK)
+            round_.set(facecolor=face, edgecolor=edge, linewidth=0.8)
+            page.axes.add_artist(round_)
+
+
+_ROUND = 16  # directions in which a place is looked for
+_SHARES = (0.72, 0.5, 0.86, 0.35)  # of a wheel's radius, where its name may stand
+_POINTS = (0.9, 0.75, 0.55, 0.3)  # of it, where a line may end
+_STEP = 0.08  # inches between the points that keep names off arms and lines
+_HUB, _LINE = 0.12, 0.04  # inches that a hub or a point of an arm keeps free, and a point of a line to a name
+
+
+@dataclass(frozen=True, slots=True)
+class PlanNames:
+    """Where the names of wheels that face the reader, the nearest first, may stand in a plan, in inches.
+
+    centres   of the wheels (n, 2)
+    reach     what each hides (n,); of a ring nothing, which is open
+    arms      points (m, 2) that keep names off arms, slots, and pins in holes
+    scale     inches of a millimetre
+    """
+
+    wheels: Sequence[SceneWheel]
+    centres: Floats
+    reach: Floats
+    arms: Floats
+    scale: float
+
+    @classmethod
+    def of(
+        cls, standing: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
+    ) -> PlanNames:
+        """Of the wheels of a scene; `at`, inches of what is seen."""
+        centres = np.array([at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
+        reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
+        ends = [at(standing.seen(np.array([start, end]))) for _, start, end in arms_of(standing)]
+        pins = [span for each in standing.scene.couplings for span in coupling_spans(standing, each, at, scale)]
+        return cls(wheels, centres, reach, _points_along([*ends, *pins]), scale)
+
+    def place(self) -> tuple[list[tuple[SceneWheel, Box]], list[Callout]]:
+        """Names that stand on their wheels, and those that a line must lead from: one to all of an axis, from inside
+        out.
+        """
+        room, written, rest = self._room(()), [], []
+        for order in sorted(range(len(self.wheels)), key=lambda order: self.wheels[order].radius):
+            box = room.place(self._on_face(order))
+            if box is None:
+                rest.append(order)
+            else:
+                written.append((self.wheels[order], box))
+        return written, self._callouts(rest)
+
+    def place_beside(
+        self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
+    ) -> list[tuple[SceneWheel, Box]]:
+        """Names that stand on their wheels moved off the lines (2, 2) that lead to others, where there is room."""
+        room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
+        found = []
+        for wheel, box in written:
+            moved = room.place(self._on_face(order[wheel.id]))
+            if moved is None:
+                room.take(box)
+            found.append((wheel, moved or box))
+        return found
+
+    def _room(self, lines: Sequence[Floats]) -> LabelSpace:
+        """Room off hubs, arms and lines."""
+        room = LabelSpace()
+        for x, y in (*self.centres, *self.arms):
+            room.take((float(x), float(y), _HUB, _HUB))
+        for x, y in _points_along(lines):
+            room.take((float(x), float(y), _LINE, _LINE))
+        return room
+
+    def _on_face(self, order: int) -> Iterator[Box]:
+        """Places within the wheel's own face that nothing hides."""
+        wheel, centre = self.wheels[order], self.centres[order]
+        if wheel.kind == "ring":
+            return
+        _, _, wide, high = text_box([wheel.id, str(wheel.teeth)], FINE, 0.0, 0.0)
+        angles = pi / 2 + 2 * pi / _ROUND * np.arange(_ROUND)
+        ways = np.stack([np.cos(angles), np.sin(angles)], 1)
+        spots = centre + wheel.root * self.scale * np.concatenate([share * ways for share in _SHARES])
+        corners = spots[:, None] + np.array([(i * wide / 2, j * high / 2) for i in (-1, 0, 1) for j in (-1, 0, 1)])
+        apart = corners - centre
+        within = np.hypot(apart[..., 0], apart[..., 1]).max(1) < wheel.root * self.scale
+        above = self.centres[:order], self.reach[:order]
+        hidden = points_in_discs(corners.reshape(-1, 2), *above).reshape(len(spots), -1).any(1)
+        yield from ((x, y, wide, high) for x, y in spots[within & ~hidden].tolist())
+
+    def _callouts(self, rest: Sequence[int]) -> list[Callout]:
+        """A line to each axis of wheels whose names have no room on them."""
+        middle = float(self.centres[:, 0].mean()) if len(self.centres) else 0.0
+        axes: dict[tuple[float, ...], list[int]] = {}
+        for order in rest:
+            axes.setdefault(tuple(np.round(self.centres[order], 4).tolist()), []).append(order)
+        callouts = []
+        for order, *others in axes.values():
+            x, y = np.round(self.centres[order], 6).tolist()
+            anchor = (x, y) if others else self._anchor(order, middle)
+            listed = sorted((self.wheels[each] for each in (order, *others)), key=lambda each: (each.radius, each.id))
+            callouts.append(Callout([(f"name {each.id}", f"{each.id} {each.teeth}") for each in listed], anchor))
+        return callouts
+
+    def _anchor(self, order: int, middle: float) -> tuple[float, float]:
+        """A point of the wheel that is seen, the farthest out; of one that is hidden, of its rim."""
+        wheel = self.wheels[order]
+        shares = (1.05,) if wheel.kind == "ring" else _POINTS
+        angles = 2 * pi / _ROUND * (np.arange(_ROUND) + 0.5)
+        ways = np.stack([np.cos(angles), np.sin(angles)], 1)
+        rims = [self.centres[order] + share * wheel.root * self.scale * ways for share in shares]
+        points = np.concatenate(rims)
+        seen = points[~points_in_discs(points, self.centres[:order], self.reach[:order])]
+        points = np.round(seen if len(seen) else points[:_ROUND], 6)
+        best = points[int(np.argmax(np.round(np.abs(points[:, 0] - middle), 6)))]
+        return float(best[0]), float(best[1])
+
+
+def _points_along(lines: Sequence[Floats]) -> Floats:
+    """Points (n, 2) along lines (2, 2), close enough that no word stands between two of them."""
+    found = [np.zeros((0, 2))]
+    for first, last in lines:
+        steps = max(int(np.hypot(*(last - first)) / _STEP), 1)
+        found.append(first + np.linspace(0, 1, steps + 1)[:, None] * (last - first))
+    return np.concatenate(found)
+
+
+def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
+    """Which points (n, 2) lie in one of the discs (m, 2)."""
+    if not len(points) or not len(centres):
+        return np.zeros(len(points), dtype=bool)
+    middle = points.mean(axis=0)
+    far = np.hypot(*(points - middle).T).max()
+    near = np.hypot(*(centres - middle).T) < reach + far + 1e-9  # others hide none of them
+    apart = points[:, None] - centres[near]
+    return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < reach[near]).any(axis=1))
 
 
 _LEAST, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average

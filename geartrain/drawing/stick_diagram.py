@@ -5,17 +5,30 @@ Nothing is to scale. Axes that are not parallel are turned into the plane, and t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
+from typing import Any
+
+import numpy as np
 
 from geartrain.analysis.gear_train import GearTrain
+from geartrain.drawing.arrangement import arrange
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Rectangle
-from geartrain.drawing.stick_elements import PLATE, STEM, draw_elements, width_of
-from geartrain.drawing.stick_grid import StickCrank, StickShaft
-from geartrain.drawing.stick_skeleton import StickMesh, StickSkeleton, find_skeleton
-from geartrain.drawing.stick_words import StickWords
+from geartrain.drawing.labels import Box, LabelSpace, text_box, text_width
+from geartrain.drawing.stick_grid import (
+    StickCrank,
+    StickShaft,
+    axis_in,
+    find_columns,
+    find_levels,
+    find_planes,
+    ring_of,
+)
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
+    FINE,
     GREY,
     LETTER,
     ORANGE,
@@ -25,7 +38,323 @@ from geartrain.drawing.style import (
     sheet,
     title_of,
     too_many,
+    write,
 )
+from geartrain.kinematics.circuits import Circuit
+
+STEP = 0.62  # inches from one to the next
+PLATE, STEM = 2.6, 1.6
+"""Widths of a plate and of what bears it [pt]."""
+_HALF, _PLATE = 0.42, 0.11  # inches: half its height, half a plate
+_CLOSED, _OPEN = 0.012, 0.045  # inches: half the gap of its plates
+_ELEMENT_NAME = 8.0  # points
+
+
+def width_of(train: GearTrain) -> float:
+    """Inches that they take; 0 without any."""
+    count, letters = len(train.declaration.clutches), _letters(train)
+    return count * max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1) + 0.2 if count else 0.0
+
+
+def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
+    """Each as a pair of plates between a link and the frame, or two links; those closed in a state are filled.
+
+    left     where the first begins (inches); `middle`, the height of all plates
+    """
+    declared = train.declaration
+    closed = train.kinematics.cases[state].engaged
+    step = max(STEP, _letters(train) * _ELEMENT_NAME * LETTER + 0.1)
+    for at, (name, clutch) in enumerate(declared.clutches.items()):
+        x, gap = left + step * (at + 0.5), _CLOSED if name in closed else _OPEN
+        color = PURPLE if name in closed else GREY
+        below, above = clutch.locks or (clutch.fixes or "", declared.frame)
+        for side in (-1, 1):
+            plate = middle + side * gap
+            axes.plot([x - _PLATE, x + _PLATE], [plate, plate], color=color, linewidth=PLATE, gid=f"element {name}")
+            axes.plot([x, x], [plate, middle + side * _HALF], color=color, linewidth=STEM)
+        if clutch.fixes is not None:
+            box = Rectangle((x - 0.11, middle + _HALF), 0.22, 0.1, hatch="//////", zorder=4)
+            box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
+            axes.add_artist(box)
+        else:
+            write(axes, x, middle + _HALF + 0.1, above, ha="center", fontsize=_ELEMENT_NAME, fontweight="bold")
+        write(axes, x, middle - _HALF - 0.1, below, ha="center", fontsize=_ELEMENT_NAME, fontweight="bold")
+        weight = "bold" if name in closed else "normal"
+        write(axes, x + _PLATE + 0.06, middle, name, color, ha="left", fontsize=_ELEMENT_NAME, fontweight=weight)
+
+
+def _letters(train: GearTrain) -> int:
+    """Of the longest name in one column: a link's below or above, or twice an element's beside the plates."""
+    every = train.declaration.clutches.items()
+    names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
+    return max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
+
+
+_LINK_NAME = 8.5  # points of a link's name
+_BESIDE = 0.12  # inches from an upright to the middle of the words along it
+_STEP = 0.06  # inches from one place to the next that is tried
+_AWAY = 0.105  # inches from a shaft to the middle of the words over it
+_APART = 0.02  # inches more between two names along one line, and on either side of a link's
+_FAR = 24  # steps beyond its upright that a name may be moved
+
+
+@dataclass(frozen=True, slots=True)
+class _Words:
+    """Words and the places they may have, the best first."""
+
+    text: str
+    color: str
+    places: tuple[Box, ...]
+    how: dict[str, Any]
+
+
+@dataclass(slots=True)
+class StickWords:
+    """All words of a diagram: links first, then wheels, then axes take their places when they are written."""
+
+    room: LabelSpace = field(default_factory=LabelSpace)
+    links: list[_Words] = field(default_factory=list)
+    wheels: list[_Words] = field(default_factory=list)
+    axes: list[_Words] = field(default_factory=list)
+
+    def keep_off(self, xs: tuple[float, float], ys: tuple[float, float]) -> None:
+        """No words over a line or a box."""
+        (left, right), (low, high) = sorted(xs), sorted(ys)
+        wide, tall = max(right - left, 0.03), max(high - low, 0.03)
+        self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
+
+    def name_link(self, link: str, left: float, right: float, y: float) -> None:
+        """Before its shaft, or over it, behind it or under it."""
+        wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
+        along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
+        before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second, beside a bearing
+        spots = [*before, *((x, y + _AWAY) for x in along), (right + 0.04 + wide / 2, y + _AWAY)]
+        spots += [*((x, y - _AWAY) for x in along), (left - 0.04 - wide / 2, y + _AWAY)]
+        spots += [(right + 0.04 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, -_AWAY) for step in range(6)]
+        tight = [text_box([link], _LINK_NAME, float(x), float(height), "bold") for x, height in spots]
+        places = (*((x, height, across + 2 * _APART, tall) for x, height, across, tall in tight), *tight)
+        self.links.append(_Words(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
+
+    def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
+        """Along it, on its right or its left, from its middle on."""
+        places = tuple(_along(text, x, ends))
+        self.wheels.append(_Words(text, color, places, {"fontsize": FINE, "rotation": 90}))
+
+    def name_axis(self, axis: str, right: float, y: float) -> None:
+        """Behind its end, or before it over or under the line."""
+        wide = text_width(axis)
+        spots = [
+            (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
+        ]
+        spots += [(right - wide / 2 - step * _STEP, y + lift) for lift in (0.12, -0.12) for step in range(9)]
+        places = tuple(text_box([axis], FINE, x, height) for x, height in spots)
+        self.axes.append(_Words(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
+
+    def write(self, axes: Axes) -> None:
+        """All of them, what has least choice first; where nothing is free, at the best place."""
+        links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
+        for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
+            x, y, _, _ = self.room.place(each.places) or each.places[0]
+            write(axes, x, y, each.text, each.color, zorder=10, **each.how)
+
+
+def _along(text: str, x: float, ends: tuple[float, float]) -> Iterator[Box]:
+    middle, room = (ends[0] + ends[1]) / 2, abs(ends[1] - ends[0]) / 2
+    _, _, wide, high = text_box([text], FINE, 0.0, 0.0)
+    steps = int(max(room - wide / 2, 0.0) / _STEP)
+    inside = [(side, step) for side in (1, -1) for step in range(steps + 1)]
+    beyond = [(side, step) for step in range(steps + 1, steps + _FAR) for side in (1, -1)]  # only where it must
+    for side, step in inside + beyond:
+        for sign in (1, -1):
+            yield x + side * _BESIDE, middle + sign * step * _STEP, high, wide + _APART
+
+
+LANE, GAP = 0.17, 1.7  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
+_TRIES = 6  # arrangements of columns and levels
+_SHORTEST = 0.32  # of the height between two axes, the smaller of two wheels
+_ROOM = 0.24  # inches between the ends of words along a wheel, its shaft and its mate
+REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
+
+
+@dataclass(frozen=True, slots=True)
+class StickMesh:
+    """A gear pair or coupling in its column, between two rows; `ring` is the wheel that is one, or empty.
+
+    ends   links, the one on the lower row first; wheels, theirs (of a coupling the links again)
+    x      column; of a ring's own upright, `x` + one column
+    low, high   ends of what it takes of its column (inches)
+    meet   height at which its wheels touch
+    """
+
+    name: str
+    kind: str
+    ends: tuple[str, str]
+    wheels: tuple[str, str]
+    ring: str
+    x: float
+    low: float
+    high: float
+    meet: float
+
+
+_Try = tuple[
+    dict[str, StickShaft],
+    list[tuple[Circuit, float]],
+    list[StickCrank],
+    list[tuple[str, float]],
+    float,
+    list[list[str]],
+]
+
+
+@dataclass(frozen=True, slots=True)
+class StickSkeleton:
+    """All of it, in inches from the lower left corner.
+
+    rows    axis -> height of its lowest and highest shaft, from below
+    lone    wheels that mesh with nothing, with their column
+    """
+
+    rows: dict[str, tuple[float, float]]
+    shafts: dict[str, StickShaft]
+    meshes: list[StickMesh]
+    cranks: list[StickCrank]
+    lone: list[tuple[str, float]]
+    width: float
+    height: float
+
+
+def find_skeleton(train: GearTrain) -> StickSkeleton:
+    """Places for axes, shafts, meshes and cranks; what belongs together stands together."""
+    axis_of = _axes(train)
+    order, planes = _row_order(train, axis_of), find_planes(train)
+    row = {axis: at for at, axis in enumerate(order)}
+    tries: list[tuple[int, int, _Try]] = []
+    for at in range(_TRIES):  # columns follow from levels, and levels from columns
+        shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
+        columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
+        _reach_cranks(shafts, cranks)
+        spans = [
+            *(
+                (axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier), x)
+                for c, x in columns
+            ),
+            *((axis_of[crank.carrier], crank.axis, crank.x) for crank in cranks),
+        ]
+        levels = find_levels(order, shafts, spans)
+        row = {axis: level for level, axes in enumerate(levels) for axis in axes}
+        tries.append((_hidden(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
+        if not tries[-1][0]:
+            break
+    shafts, columns, cranks, lone, width, levels = min(tries)[2]
+    rows, height = _lanes(levels, shafts)
+    meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
+    return StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)
+
+
+def _hidden(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
+    """How many uprights lie on another one."""
+    known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
+    return sum(
+        x == at and low < top and bottom < high
+        for index, (low, high, x) in enumerate(known)
+        for bottom, top, at in known[:index]
+    )
+
+
+def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
+    """Carriers reach their cranks, and so does what turns on an axis they bear."""
+    for crank in cranks:
+        shafts[crank.carrier].xs.append(crank.x)
+        borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
+        min(borne, key=lambda shaft: min(shaft.xs, default=0.0)).xs.append(crank.x)
+    for shaft in shafts.values():
+        shaft.xs = shaft.xs or [0.3]
+
+
+def _axes(train: GearTrain) -> dict[str, str]:
+    """Link -> label of the axis it is drawn on."""
+    tree = train.kinematics.tree
+    return {link: tree.axis(link) or "" for link in train.declaration.links}
+
+
+def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
+    labels = list(dict.fromkeys(label for label in axis_of.values() if label))
+    pairs = [(axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier)) for c in train.circuits]
+    pairs += [
+        (axis_of[train.kinematics.tree.top[link]], label)
+        for link, label in axis_of.items()
+        if link in train.kinematics.tree.top
+    ]
+    order = arrange(labels, pairs)
+    inputs = [axis_of[link] for link in train.declaration.inputs if axis_of.get(link)]
+    if inputs and order.index(inputs[0]) > len(order) / 2:
+        order.reverse()
+    return order
+
+
+def _lanes(
+    levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
+) -> tuple[dict[str, tuple[float, float]], float]:
+    """Heights: on one axis, shafts that overlap lie above each other, the longest lowest."""
+    rows: dict[str, tuple[float, float]] = {}
+    y = 0.45
+    for level in levels:
+        top = y
+        for axis in level:
+            own = sorted((each for each in shafts.values() if each.axis == axis), key=lambda s: min(s.xs) - max(s.xs))
+            lanes: list[list[StickShaft]] = []
+            for shaft in own:
+                at = next(
+                    (at for at, lane in enumerate(lanes) if all(_apart(shaft, each) for each in lane)), len(lanes)
+                )
+                if at == len(lanes):
+                    lanes.append([])
+                lanes[at].append(shaft)
+                shaft.y = y + at * LANE
+            rows[axis] = (y, y + (len(lanes) - 1) * LANE)
+            top = max(top, rows[axis][1])
+        y = top + GAP
+    return rows, y - GAP + 0.6
+
+
+def _apart(one: StickShaft, other: StickShaft) -> bool:
+    """True if two shafts, with a name before each, leave each other room."""
+    room = 0.35 + 0.07 * max(len(one.link), len(other.link))
+    return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
+
+
+def _mesh(
+    circuit: Circuit, x: float, train: GearTrain, axis_of: dict[str, str], rows: dict[str, tuple[float, float]]
+) -> StickMesh:
+    ends = [(link, axis_in(train, axis_of, link, circuit.carrier)) for link in (circuit.i, circuit.j)]
+    parts = sorted(zip(ends, circuit.wheels, strict=True), key=lambda part: rows[part[0][1]][0])
+    (low, low_axis), (high, high_axis) = parts[0][0], parts[1][0]
+    wheels = (parts[0][1], parts[1][1])
+    bottom, top = rows[low_axis][1], rows[high_axis][0]
+    ring = ring_of(train, circuit)
+    if ring:
+        meet = rows[high_axis][1] + REACH if ring == wheels[0] else rows[low_axis][0] - REACH
+        return StickMesh(circuit.id, "ring", (low, high), wheels, ring, x, bottom, top, meet)
+    if circuit.kind != "gear":
+        return StickMesh(
+            circuit.id, circuit.kind, (low, high), wheels, "", x, bottom, top, (max(top - GAP, bottom) + top) / 2
+        )
+    kinds = {train.declaration.wheels[wheel][1].kind for wheel in wheels}
+    kind = next((kind for kind in ("worm", "contrate", "bevel") if kind in kinds), "spur")
+    first, second = (train.declaration.wheels[wheel][1].count or 1 for wheel in wheels)
+    if top - bottom > GAP * 1.01:  # other axes lie between: the wheels touch beside the smaller one's
+        bottom, top = (bottom, bottom + GAP) if first < second else (top - GAP, top)
+    meet = bottom + _share(wheels, (first, second), top - bottom) * (top - bottom)
+    return StickMesh(circuit.id, kind, (low, high), wheels, "", x, bottom, top, meet)
+
+
+def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
+    """What the lower wheel takes of the height: by its teeth, as long as the words beside both find room."""
+    rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
+    least, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
+    return min(max(counts[0] / sum(counts), least), most) if least < most else (least + most) / 2
+
 
 _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column

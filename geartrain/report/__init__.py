@@ -6,9 +6,13 @@ makes the document of a result, and the result's own `to_dict` its data, so that
 same thing; `answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is worked out here: speeds are
 those of the Willis equation (docs/theory.md, equations 4 and 5), torques and motion those of `geartrain.dynamics`.
 
-Results of other rooms are described in modules of their own: tooth numbers in `tooth_numbers`, gears on a sphere in
-`spherical_report`, one pair of wheels in `pair_page` and `conjugate_pair_page`, error against run time in
-`accuracy_report`.
+Map: `document` and what shows it (`text`, `html_page`, `table_strips`); data and their schema (`answers`,
+`json_schema`, `json_shapes`, `declaration_reference`); a train (`train_data`, `train_report`, `shared_page`,
+`speeds_text`, `separation_text`, `soundness`, `graph_tables`, `formula_report`, `gearbox_report`); its forces and
+motion (`torque_figures`, `torque_report`, `torque_cycle_report`, `strength_report`, `motion_figures`, `motion_report`,
+`time_report`); pairs (`gear_pairs`, `pair_page` with `triangular_pair_page` and `conjugate_pair_page`,
+`tooth_form_comparison`, `tooth_sizes_report`); counts, evidence and doubt (`tooth_numbers`, `spherical_report`,
+`posterior_report`, `monte_carlo_report`, `budget_report`, and the modules whose names begin with `reconstruction_`).
 """
 
 from __future__ import annotations

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from geartrain.analysis import MethodAccuracy, TrainAccuracy
+from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy
 from geartrain.numerics.plain_data import Result
 from geartrain.report.document import Document, Section, Table
 
-_LEAD = (
-    "Times are the best of repeats on this machine, or of one run where that takes long; compare them within a stage "
-    "only, as ratios to its cheapest way. `prepared` is what comes once, before: laws, windows of clearance, tables."
-)
+_LEAD = "Times are the best of repeats on this machine: compare them within a stage. `prepared` comes once, before."
+_HEADER = ("method", "prepared (ms)", "time (ms)", "over the fastest", "error", "held against")
 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyReport(Result):
-    """Methods on a train in every state that was asked for."""
+    """Methods on a train in every state that was requested."""
 
     name: str
     title: str
@@ -25,43 +23,23 @@ class AccuracyReport(Result):
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:
-    """A section for each state with a table of each stage, and what the train does not have."""
-    sections = [section for each in found.states for section in _sections(each)]
-    return Document(f"Error against run time: {found.name}", [_LEAD], sections)
+    """A section for each stage of each state, and what the train does not have."""
+    return Document(
+        f"Error against run time: {found.name}", [_LEAD], [s for each in found.states for s in _sections(each)]
+    )
 
 
-def _sections(found: TrainAccuracy) -> list[Section]:
+def _sections(found: TrainAccuracy) -> Iterator[Section]:
     state = "" if found.state is None else f"State {found.state}: "
-    stages = dict.fromkeys(row.stage for row in found.methods)
-    sections = [
-        Section(f"{state}{stage}", (), [_table([row for row in found.methods if row.stage == stage])])
-        for stage in stages
-    ]
-    left_out = [f"{stage}: {why}." for stage, why in found.left_out.items()]
-    return [*sections, Section(f"{state}left out", left_out)] if left_out else sections
+    for stage in dict.fromkeys(row.stage for row in found.methods):
+        yield Section(
+            f"{state}{stage}", (), [Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])]
+        )
+    if found.left_out:
+        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.left_out.items()])
 
 
-def _table(rows: Sequence[MethodAccuracy]) -> Table:
-    header = ["method", "prepared", "time", "over the cheapest", "error", "held against"]
-    cells = [
-        [row.method, _time(row.prepared), _time(row.seconds), f"{row.ratio:.3g}", _error(row), row.reference]
-        for row in rows
-    ]
-    if any(row.evaluations is not None for row in rows):
-        header.append("evaluations")
-        for row, line in zip(rows, cells, strict=True):
-            line.append("-" if row.evaluations is None else str(row.evaluations))
-    return Table(header, cells)
-
-
-def _error(row: MethodAccuracy) -> str:
-    if row.error is None:
-        return "-"
-    return "0" if row.error == 0 else f"{row.error:.1e} {'' if row.unit == 'relative' else row.unit}".strip()
-
-
-def _time(seconds: float | None) -> str:
-    """Three digits, in milliseconds below a second."""
-    if seconds is None:
-        return "-"
-    return f"{seconds:.3g} s" if seconds >= 1 else f"{seconds * 1e3:.3g} ms"
+def _cells(row: MethodAccuracy) -> list[str]:
+    prepared, seconds = ("-" if each is None else f"{1e3 * each:.3g}" for each in (row.prepared, row.seconds))
+    error = "-" if row.error is None else f"{row.error:.1e} {row.unit.replace('relative', '')}".strip()
+    return [row.method, prepared, seconds, f"{row.ratio:.3g}", error, row.reference]

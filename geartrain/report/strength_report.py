@@ -254,14 +254,13 @@ def _pins(pins: Sequence[PinContact]) -> Table:
 def _teeth(pairs: Sequence[PairStrength]) -> Table:
     header = (
         *("pair", "wheel", "material", "module", "width", "force (N)", "Y", "at the tip (MPa)", "shared (MPa)"),
-        *("elements (MPa)", "pressure (MPa)", "strength (MPa)", "safety of root", "safety of flank"),
+        *("pressure (MPa)", "strength (MPa)", "safety of root", "safety of flank"),
     )
     rows = [
         (
             *(pair.pair, wheel.wheel, wheel.material, figure(pair.module, 4), figure(pair.face_width, 4)),
             *(figure(pair.tangential, 4), figure(wheel.lewis or None, 4), figure(wheel.tip_stress, 4)),
-            *(figure(wheel.shared_stress, 4), "" if wheel.elements is None else figure(wheel.elements, 4)),
-            *(figure(wheel.pressure, 4), _strength(wheel.strength, wheel.spread)),
+            *(figure(wheel.shared_stress, 4), figure(wheel.pressure, 4), _strength(wheel.strength, wheel.spread)),
             *(figure(wheel.root_safety, 3), figure(wheel.contact_safety, 3)),
         )
         for pair in pairs

@@ -19,7 +19,7 @@ from geartrain.scene import Scene, build_scene
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
-Shown = Literal["page", "embed", "kiosk", "film"]
+Shown = Literal["page", "embed", "kiosk"]
 """How a page shows a train."""
 
 _IN_SCRIPTS: dict[str, str | int | None] = {
@@ -50,9 +50,8 @@ def page(
         Of the page; default the names of the trains.
     teeth : bool
         False draws plain discs until the reader wants teeth.
-    shown : {"page", "embed", "kiosk", "film"}
-        The whole page; the picture with three buttons, for a frame in another page or for a museum's screen; or the
-        picture alone, which scripts set and take.
+    shown : {"page", "embed", "kiosk"}
+        The whole page, or the picture with three buttons, for a frame in another page or for a museum's screen.
 
     Returns
     -------

@@ -16,10 +16,10 @@ pytest.importorskip("playwright", reason="playwright is not installed: no page i
 
 import shipped
 from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Request, sync_playwright
+from stills import NAMES, SWITCHES, find_browser
 from viewing import DESK, GALLERY, Opening, html_of, wait
 
 from geartrain.viewer import page
-from geartrain.viewer.browser import NAMES, SWITCHES, find_browser
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 90_000  # ms: software draws slowly on a busy machine

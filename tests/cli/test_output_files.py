@@ -131,8 +131,8 @@ def test_every_option_that_names_a_file_is_tried_here() -> None:
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("geartrain.analysis.method_accuracy._ENOUGH", 0.0)  # `bench` need not time well what it writes
-    monkeypatch.setattr("geartrain.analysis.method_accuracy._LONG", 0.0)
+    monkeypatch.setattr("geartrain.analysis.accuracy._ENOUGH", 0.0)  # `bench` need not time well what it writes
+    monkeypatch.setattr("geartrain.analysis.accuracy._LONG", 0.0)
     return tmp_path
 
 

@@ -195,12 +195,29 @@ def test_a_file_that_is_there_stays_unless_force_is_used(here: Path) -> None:
         (".", "folder"),
         ("missing/train.html", "no such folder"),
         ("train.txt", "no suffix of a page"),
+        ("train.png", "pictures and films are saved from the page"),
         ("train", "no suffix"),
         ("x" * 300 + ".html", "no name for a file"),
     ],
 )
 def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> None:
     assert said in refusal("planetary-24-18-60", "-o", name)
+    assert list(here.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (("--embed", "--kiosk"), "--embed and --kiosk at once"),
+        (("planetary", "--embed"), "two trains"),
+        (("planetary", "--kiosk"), "two trains"),
+        (("--skip", "1"), "options of motion in time"),
+        (("--turns", "2"), "options of motion in time"),
+        (("planetary", "--dynamics"), "motion in time of two trains"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(here: Path, asked: tuple[str, ...], said: str) -> None:
+    assert said in refusal("worm", *asked)
     assert list(here.iterdir()) == []
 
 

@@ -36,7 +36,8 @@ def test_the_row_stands(source: Source, row: Row) -> None:
 
 
 def test_the_page_is_what_its_script_writes() -> None:
-    assert (DOCS / "sources.md").read_text(encoding="utf-8") == make_sources.page(), "run python docs/make_sources.py"
+    written = (DOCS / "sources.md").read_text(encoding="utf-8")
+    assert written == make_sources.page(), "run python docs/scripts/make_sources.py"
 
 
 def test_every_place_is_named_once_in_its_source() -> None:

@@ -21,7 +21,7 @@ SCRIPT = f"""
 import json, sys
 for name in {HEAVY}:
     sys.modules[name] = None  # an import of it fails, as where it is not installed
-sys.path.insert(0, {str(ROOT / "docs" / "site" / "try")!r})
+sys.path.insert(0, {str(ROOT / "docs" / "scripts" / "site" / "try")!r})
 import try_answer
 try_answer.gather(sys.argv[1])
 print(json.dumps([json.loads(try_answer.answer(text)) for text in json.load(sys.stdin)]))

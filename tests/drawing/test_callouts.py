@@ -15,7 +15,7 @@ pytest.importorskip("matplotlib")
 
 from geartrain.drawing import picture
 from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
-from geartrain.drawing.plan_labels import PlanNames
+from geartrain.drawing.plan_view import PlanNames
 from geartrain.drawing.projection import project_scene
 from geartrain.scene import make_scene
 

@@ -34,8 +34,7 @@ from matplotlib.figure import Figure
 from geartrain.drawing import picture, render
 from geartrain.drawing.arrangement import arrange, spread
 from geartrain.drawing.dial_faces import dials_figure
-from geartrain.drawing.plan_labels import points_in_discs
-from geartrain.drawing.plan_view import plan_figure
+from geartrain.drawing.plan_view import plan_figure, points_in_discs
 from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors, scene_pose

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from geartrain.drawing import law_figure, render, sweep_figure, teeth_figure
-from geartrain.drawing.triangular_pose import DRIVEN, DRIVER, tooth_pair_pose
+from geartrain.drawing.tooth_contact import DRIVEN, DRIVER, tooth_pair_pose
 
 PAIRS = [(48, 96, 0.01), (96, 72, 0.025), (96, 96, 0.01), (15, 60, 0.02), (45, 225, 0.017), (12, 18, 0.03)]
 STANDS = (45, 225, 0.017)

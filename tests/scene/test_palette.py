@@ -137,8 +137,8 @@ GROUNDS = {"#f4f1ea", "#ffffff", "#9aa1ab"}
 def sources() -> list[Path]:
     viewer, docs = ROOT / "geartrain" / "viewer" / "src", ROOT / "docs"
     plots = [
-        *docs.glob("make_*.py"),
-        *docs.glob("studies/*.py"),
+        *docs.glob("scripts/make_*.py"),
+        *docs.glob("scripts/studies/*.py"),
         *(ROOT / "geartrain" / "drawing").rglob("*.py"),
     ]
     return [*viewer.rglob("*.js"), *viewer.rglob("*.css"), *plots]
@@ -156,7 +156,7 @@ def test_no_picture_has_a_colour_of_its_own() -> None:
 
 
 def maker() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("make_palette", ROOT / "docs" / "make_palette.py")
+    spec = importlib.util.spec_from_file_location("make_palette", ROOT / "docs" / "scripts" / "make_palette.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)

@@ -1,7 +1,7 @@
 """The equations of W. D. Smith, Optimal shapes for gears (1993): those that hold hold, those that fail fail as told.
 
-Everything is read off points of finished profiles (docs/sources/smith_profiles.py), or taken at random arguments in 40
-digits.
+Everything is read off points of finished profiles (docs/scripts/sources/smith_profiles.py), or taken at random
+arguments in 40 digits.
 """
 
 from __future__ import annotations

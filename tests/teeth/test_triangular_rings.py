@@ -15,7 +15,7 @@ import pytest
 from polygons import Judge, Outline
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.drawing.triangular_pose import tooth_pair_pose
+from geartrain.drawing.tooth_contact import tooth_pair_pose
 from geartrain.synthesis import ToothSizes
 from geartrain.synthesis.tooth_sizes.outline_agreement import confirm_by_outlines
 from geartrain.teeth.triangular.clearance_window import find_window

@@ -79,7 +79,6 @@ class PairUnderLoad:
     wheels    both, as the pair names them
     module, width   of it; the width is the narrower one
     wear      least and greatest wear coefficient
-    elements  whether stresses are checked by finite elements
     spurs     of bevels: the spur pair that stands for them
     swing     the torque that bends and presses over the mean one, which wears
     remarks   what does not hold of its wheels
@@ -90,7 +89,6 @@ class PairUnderLoad:
     module: float
     width: float
     wear: WearRange
-    elements: bool = False
     spurs: VirtualSpurs | None = None
     swing: float = 1.0
     remarks: tuple[str, ...] = ()
@@ -209,9 +207,6 @@ class PairUnderLoad:
             strength=None if strength is None else strength.si / _MPA,
             spread=None if strength is None else float(own.material.spread.value),
             iso=None if roots is None else roots[at],
-            elements=self._by_elements(own, torque)
-            if self.elements and tip is not None and not self.lean.helix
-            else None,
             wear=self._wear(at),
         )
 
@@ -264,13 +259,6 @@ class PairUnderLoad:
         arm = abs(load.path.pitch.axle_of(own.gear)) * float(load.path.at(place).cos_psi[0])
         section = own.side.weakest_section(own.side.load_at(float(radius), arm))
         return section.stress(force * arm * self.module, self.width, self.module)
-
-    def _by_elements(self, own: WheelUnderLoad, torque: float) -> float:
-        from geartrain.teeth.strength.finite_elements import root_stress_factor
-
-        load = self._tip_load(own)
-        found = root_stress_factor(own.side, own.z, load, own.elasticity.poisson)
-        return found * torque / (self.width * self.module**2)
 
     # ------------------------------------------------------------------------------------------------- ISO and wear
 

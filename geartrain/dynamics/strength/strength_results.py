@@ -75,8 +75,6 @@ class WheelStrength(Result):
         Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
     iso : IsoRoot or None
         Root stress by ISO 6336-3 for the wheel as a hob cuts it.
-    elements : float or None
-        Root stress by finite elements on the outline, the load at the tip [MPa]; None where not asked for.
     wear : FlankWear or None
         None where no time is given, or no hardness.
 
@@ -87,7 +85,7 @@ class WheelStrength(Result):
 
     KEYS = (
         *("wheel", "material", "torque", "section", "thickness", "lewis", "tip_stress", "shared_stress", "pressure"),
-        *("strength", "spread", "root_safety", "contact_safety", "iso", "elements", "wear"),
+        *("strength", "spread", "root_safety", "contact_safety", "iso", "wear"),
     )
 
     wheel: str
@@ -102,7 +100,6 @@ class WheelStrength(Result):
     strength: float | None
     spread: float | None
     iso: IsoRoot | None = None
-    elements: float | None = None
     wear: FlankWear | None = None
 
     @property

@@ -55,7 +55,6 @@ class StrengthQuestion:
     meshes    pairs with real teeth as they are driven in this case
     scale     turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input
     wear      least and greatest wear coefficient
-    elements  whether stresses are checked by finite elements
     over      turns of the input whose greatest torques bend and press; None where means do
     greatest  by pair: the greatest torque on its driven side in them [N m]
     """
@@ -67,7 +66,6 @@ class StrengthQuestion:
     scale: float | None
     turns: float | None
     wear: WearRange
-    elements: bool = False
     over: float | None = None
     greatest: Mapping[str, float] = field(default_factory=dict)
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
@@ -251,7 +249,7 @@ class StrengthQuestion:
             for name in gear.pair
             if (other := self._spoilt_elsewhere(mesh, name))
         )
-        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, self.elements, spurs, swing, notes)
+        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
         """Teeth of a wheel as cut for all mates; where faults of another pair prevent that, as this pair requires."""
@@ -410,7 +408,7 @@ def _input_speed(train: TrainMechanics, state: str | None) -> float:
 
 
 def solve_strength(
-    train: TrainMechanics, state: str | None, service: Service, elements: bool = False, over: float | None = None
+    train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
     """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
     check_numbers(over=over)
@@ -423,7 +421,7 @@ def solve_strength(
         raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
-    question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own, elements)
+    question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
     if over is None:
         return question.answer()
     from geartrain.dynamics.turn.train_turn import solve as solve_over_turns

@@ -257,11 +257,6 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
     return _window(sizes.at(0.0))
 
 
-def forget_windows() -> None:
-    """Windows are worked out anew: for whoever measures how long that takes."""
-    _window.cache_clear()
-
-
 @lru_cache(maxsize=8192)
 def _window(sizes: TriangularSizes) -> ClearanceWindow:
     reach = sizes.greatest_excess

@@ -40,11 +40,6 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
     return TriangularContact(sizes)
 
 
-def forget_contacts() -> None:
-    """Contacts are worked out anew: for whoever measures how long that takes."""
-    _contact.cache_clear()
-
-
 class TriangularTransmission(TransmissionFunction):
     """The law of a pair of wheels, the first of `sizes` driving.
 

@@ -3,7 +3,6 @@
 import { Fraction } from "./fraction.js";
 import { Machine } from "./motion.js";
 import { Plan } from "./plan.js";
-import { Film } from "./still.js";
 import { buildInterface } from "./ui/interface.js";
 import { Showcase } from "./ui/showcase.js";
 import { Stage } from "./view.js";
@@ -77,14 +76,6 @@ const painted = () =>
     setTimeout(done, 400);
   });
 
-/** A stage and nothing round it, for films. */
-function beginFilm() {
-  const film = new Film(app);
-  film.open(0);
-  globalThis.geartrain.film = film.stage instanceof Stage ? film : null;
-  globalThis.geartrain.ready = true;
-}
-
 /** Words and dials first, then the wheels as discs, then their teeth. */
 async function begin(build) {
   build(app);
@@ -100,5 +91,4 @@ async function begin(build) {
 }
 
 const way = Showcase.asked(location.hash, options.shown);
-if (options.shown === "film") beginFilm();
-else begin(way ? () => (app.interface = new Showcase(app, way)) : buildInterface);
+begin(way ? () => (app.interface = new Showcase(app, way)) : buildInterface);

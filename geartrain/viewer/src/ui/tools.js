@@ -1,6 +1,7 @@
 // How the picture is shown: from where, in which colours, taken apart or whole.
 import { MODES, legend } from "./colours.js";
 import { el, field } from "./element.js";
+import { Recording } from "./recording.js";
 import { savePicture } from "./saving.js";
 
 const SMALL = "(max-width: 820px), (max-height: 520px)"; // as in page.css
@@ -37,6 +38,7 @@ export class Tools {
       onchange: () => this.#cut((this.wanted = this.open.checked)),
     });
     this.opening = field("Cut open", this.open, { class: "field tick" });
+    this.recording = new Recording();
     this.teeth.checked = options?.teeth !== false;
     this.row = el(
       "div",
@@ -48,6 +50,7 @@ export class Tools {
       field("Teeth", this.teeth, { class: "field tick" }),
       this.opening,
       el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
+      this.recording.node,
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), this.row);
     this.small = matchMedia(SMALL);
@@ -67,6 +70,7 @@ export class Tools {
   /** The sides now shown; the picture is brought to what the controls say. */
   use(sides) {
     this.sides = sides;
+    this.recording.use(sides);
     const stages = sides.flatMap(({ stage }) => stage ?? []);
     this.opening.hidden = !stages.some((stage) => stage.canOpen);
     this.open.checked = this.wanted ?? stages.some((stage) => stage.world?.opened);

@@ -1,0 +1,73 @@
+"""Write the gallery of shipped trains from what they answer: `python docs/scripts/make_gallery.py`.
+
+The site turns each row into a card with the train's picture, a page in which it turns, and its report.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import geartrain
+from geartrain.kinematics.answer import Answer
+from geartrain.report.document import exact
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "gallery.md"
+GROUPS = {
+    "antikythera": "The Antikythera mechanism",
+    "historic": "Clocks, calendars and other old machines",
+    "engineering": "Gearboxes, loops and puzzles",
+}
+LEAD = """# Gallery
+
+Every train that comes with geartrain, with what it answers. The [site](index.md#this-site) shows each turning, with its
+plan and dials, a page in which it turns, and its report; `geartrain view NAME -o x.html` makes the page here. Files
+stand in `trains/`; each names its sources.
+"""
+MOST = 4
+
+
+def main() -> None:
+    """Write the page."""
+    PAGE.write_text(page(), encoding="utf-8")
+    print(f"wrote {PAGE.relative_to(ROOT)}")
+
+
+def page() -> str:
+    """The page: a table for each folder of trains."""
+    return LEAD + "".join(line for folder, title in GROUPS.items() for line in _group(folder, title))
+
+
+def _group(folder: str, title: str) -> Iterator[str]:
+    yield f"\n## {title}\n\n| train | what it is | verdict | outputs |\n|---|---|---|---|\n"
+    for path in sorted((ROOT / "trains" / folder).glob("*.yaml")):
+        train = geartrain.load(path)
+        answers = list(train.answers())
+        cells = (path.stem, train.declaration.title or "", _verdict(train, answers), _outputs(answers))
+        yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |\n"
+
+
+def _verdict(train: geartrain.GearTrain, answers: list[Answer]) -> str:
+    kinds = list(dict.fromkeys(answer.verdict.kind for answer in answers))
+    words = f"{', '.join(kinds)}; {len(answers)} states" if train.states else kinds[0]
+    jam = "; its teeth cannot turn" if any(mesh.fault for mesh in train.meshes) else ""
+    return words + jam
+
+
+def _outputs(answers: list[Answer]) -> str:
+    """The first outputs with their speeds, in all states where there are several; pointers before others."""
+    results = [result for answer in answers for result in answer.outputs.values()]
+    results.sort(key=lambda result: not (result.output.dial or result.targets))
+    names = list(dict.fromkeys(result.name for result in results))
+    shown = [f"{name} {_speeds(answers, name)}" for name in names[:MOST]]
+    return ", ".join(shown) + (f" and {len(names) - MOST} more" if len(names) > MOST else "")
+
+
+def _speeds(answers: list[Answer], name: str) -> str:
+    speeds = [exact(found.speed) for answer in answers if (found := answer.outputs.get(name))]
+    return " or ".join(dict.fromkeys(speeds))
+
+
+if __name__ == "__main__":
+    main()

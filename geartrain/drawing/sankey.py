@@ -1,0 +1,492 @@
+"""Where the parts of a picture of power flow stand: columns from where power enters, bands between them.
+
+Lengths are in inches, x to the right and y down. A band is a stream; its width is its power. Bands that close a loop
+run back above everything else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+from math import inf
+
+from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
+
+NAME = 0.46  # room above a node
+DROP, BEND = 0.14, 0.05  # how far a loss falls, and the inner radius on its way down
+TURN = 0.14  # inner radius of a band that turns back
+_BETWEEN = 0.1  # nodes of a column
+_WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
+
+
+@dataclass(eq=False)
+class SankeySpot:
+    """A node in its column, or (without one) the place where a band passes a column.
+
+    power         that passes it; `shed`, width of what it loses
+    left, right   room for words on both sides of its middle
+    """
+
+    node: PowerNode | None
+    column: int
+    height: float
+    power: Fraction = Fraction(0)
+    shed: float = 0.0
+    left: float = 0.0
+    right: float = 0.0
+    top: float = 0.0
+    before: list[BandSegment] = field(default_factory=list)
+    after: list[BandSegment] = field(default_factory=list)
+
+    @property
+    def above(self) -> float:
+        """Room for the name."""
+        return NAME if self.node else _BETWEEN
+
+    @property
+    def below(self) -> float:
+        """Room for what is lost."""
+        return DROP + self.head + 0.24 if self.shed else _BETWEEN
+
+    @property
+    def head(self) -> float:
+        """Length of the arrow head of what it loses."""
+        return min(max(0.3 * self.shed, 0.08), 0.2)
+
+    @property
+    def width(self) -> float:
+        """Of its box."""
+        return _WIDTHS[self.node.kind] if self.node else 0.0
+
+
+@dataclass(eq=False)
+class BandSegment:
+    """A band between two spots: in neighbouring columns, or back; its tops at both."""
+
+    source: SankeySpot
+    target: SankeySpot
+    stream: PowerStream
+    width: float
+    back: bool = False
+    start: float = 0.0
+    end: float = 0.0
+
+    @property
+    def span(self) -> int:
+        """Columns that a band runs back over; 0 of one that leads on."""
+        return self.source.column - self.target.column if self.back else 0
+
+
+@dataclass(frozen=True)
+class ReturnBand:
+    """A band that runs back: how far right of its source and left of its target it turns, and the top of its lane."""
+
+    piece: BandSegment
+    right: float
+    left: float
+    lane: float
+
+
+@dataclass(frozen=True)
+class SankeyLayout:
+    """Everything in its place.
+
+    bands   that lead on, each as its pieces from column to column; `turns`, those that run back
+    x       middle of each column
+    scale   inches by power
+    sheds   what is lost by node
+    low     least y of all parts
+    """
+
+    spots: Sequence[SankeySpot]
+    bands: Sequence[Sequence[BandSegment]]
+    turns: Sequence[ReturnBand]
+    x: Sequence[float]
+    scale: float
+    sheds: Mapping[PowerNode, Fraction]
+    low: float
+    width: float
+    height: float
+
+
+_LEAST_GAP = 0.62  # between columns
+_CLEAR = 0.06  # between words and a band that turns back beside them
+
+
+def turns(
+    table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
+) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
+    """Bands that run back, the shortest innermost, and how much room they take right and left of each column."""
+    taken: dict[tuple[int, bool], float] = {}
+    turns: list[ReturnBand] = []
+    lane = inf
+    for piece in sorted(back, key=lambda each: (each.span, each.start)):
+        first, last = piece.target.column, piece.source.column
+        lane = min([lane, *(spot.top - spot.above for column in table[first : last + 1] for spot in column)])
+        lane -= piece.width + 0.06
+        # the words over the ends of a band stand within its turns, not over them
+        source, target = (
+            end - spot.width / 2 + _CLEAR
+            for end, spot in ((piece.source.right, piece.source), (piece.target.left, piece.target))
+        )
+        right, left = taken.get((last, True), max(TURN, source)), taken.get((first, False), max(TURN, target))
+        turns.append(ReturnBand(piece, right, left, lane))
+        taken[last, True], taken[first, False] = right + piece.width + 0.04, left + piece.width + 0.04
+    return turns, taken
+
+
+def abscissae(
+    table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], least: float
+) -> list[float]:
+    """The middle of each column: wide enough apart for names and turns, and spread to fill the least width."""
+    left = [max(spot.left for spot in column) for column in table]
+    right = [max(spot.right for spot in column) for column in table]
+    gaps = []
+    for at in range(len(table) - 1):
+        names = right[at] + left[at + 1] + 0.12
+        behind, before = room.get((at, True), 0.0), room.get((at + 1, False), 0.0)
+        turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
+        gaps.append(max(names, _LEAST_GAP, turning + 0.2))
+    edges = left[0] + right[-1] + 0.2
+    x = [left[0] + 0.1]
+    for gap in _widened(gaps, least - edges):
+        x.append(x[-1] + gap)
+    return x
+
+
+def _widened(gaps: Sequence[float], whole: float) -> list[float]:
+    """The narrowest gaps widened alike, so that all fill the whole."""
+    ranked = sorted(gaps)
+    for count in range(len(gaps), 0, -1):
+        level = (whole - sum(ranked[count:])) / count
+        if level >= ranked[count - 1]:
+            return [max(gap, level) for gap in gaps]
+    return list(gaps)
+
+
+TALL = 2.4  # of the fullest column
+_BACK = 1.1  # of all bands that run back, at most
+
+
+def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
+    """Losses by node, and streams, with bearings that only take from one shaft drawn as a loss of that shaft."""
+    gives = {stream.source for stream in flow.streams}
+    takers: dict[PowerNode, list[PowerNode]] = {}
+    for stream in flow.streams:
+        takers.setdefault(stream.target, []).append(stream.source)
+    at = {
+        node: takers[node][0] if node.kind == "bearing" and node not in gives and len(takers[node]) == 1 else node
+        for node in flow.losses
+    }
+    sheds: dict[PowerNode, Fraction] = {}
+    for node, loss in flow.losses.items():
+        sheds[at[node]] = sheds.get(at[node], Fraction(0)) + loss
+    return sheds, [stream for stream in flow.streams if at.get(stream.target, stream.target) == stream.target]
+
+
+def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
+    """Streams that lead on, and those that run back: of a loop, one in which power only circles."""
+    ahead = [stream for stream in streams if stream.circling < stream.power]
+    back: list[PowerStream] = []
+    for stream in _met(streams):
+        if stream.circling == stream.power:
+            closes = stream.source in _reached(ahead, stream.target)
+            (back if closes else ahead).append(stream)
+    return ahead, back
+
+
+def _met(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
+    """All streams by depth-first search from where power comes in, the greatest stream of a node first."""
+    after: dict[PowerNode, list[PowerStream]] = {}
+    for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
+        after.setdefault(stream.source, []).append(stream)
+    seen: set[PowerNode] = set()
+    for start in after:
+        todo = [iter(after[start])] if start not in seen else []
+        seen.add(start)
+        while todo:
+            for stream in todo[-1]:
+                yield stream
+                if stream.target not in seen:
+                    seen.add(stream.target)
+                    todo.append(iter(after.get(stream.target, ())))
+                    break
+            else:
+                todo.pop()
+
+
+def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
+    seen, todo = {node}, [node]
+    while todo:
+        here = todo.pop()
+        fresh = {stream.target for stream in streams if stream.source == here} - seen
+        seen |= fresh
+        todo += fresh
+    return seen
+
+
+def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
+    """Each node one column after all that feed it; what leaves the train stands last."""
+    columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
+    moved = True
+    while moved:
+        moved = False
+        for stream in ahead:
+            if columns[stream.target] <= columns[stream.source]:
+                columns[stream.target] = columns[stream.source] + 1
+                moved = True
+    last = 1 + max(at for node, at in columns.items() if node.kind != "out")
+    return {node: last if node.kind == "out" else at for node, at in columns.items()}
+
+
+def find_scale(
+    columns: Mapping[PowerNode, int], through: Mapping[PowerNode, Fraction], back: Sequence[PowerStream]
+) -> float:
+    """Inches by power."""
+    sums = [Fraction(0)] * (max(columns.values()) + 1)
+    for node, at in columns.items():
+        sums[at] += through[node]
+    scale = TALL / float(max(sums))
+    returning = float(sum((stream.power for stream in back), Fraction(0)))
+    return min(scale, _BACK / returning) if returning else scale
+
+
+def make_bands(
+    spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
+) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
+    """Streams as bands of pieces, and the spots where they pass columns."""
+    bands: list[list[BandSegment]] = []
+    passing: list[SankeySpot] = []
+    for stream in (*ahead, *back):
+        width = float(stream.power) * scale
+        way = [spots[stream.source], spots[stream.target]]
+        if stream in ahead:
+            between = [SankeySpot(None, at, width) for at in range(way[0].column + 1, way[1].column)]
+            passing += between
+            way[1:1] = between
+        band = [BandSegment(source, target, stream, width, stream not in ahead) for source, target in pairwise(way)]
+        for piece in band:
+            piece.source.after.append(piece)
+            piece.target.before.append(piece)
+        bands.append(band)
+    return bands, passing
+
+
+_SWEEPS = 24
+_CROSSING = 1e-3  # what a crossing of the thinnest bands counts
+
+
+def order_columns(table: Sequence[list[SankeySpot]]) -> None:
+    """Put each column in the order with the least tangle, out of some beginnings."""
+    found: list[tuple[float, list[list[SankeySpot]]]] = []
+    declared = [list(column) for column in table]
+    beginnings: tuple[Callable[[list[SankeySpot]], list[SankeySpot]], ...] = (
+        list,
+        lambda column: column[::-1],
+        _loops_first,
+    )
+    for begin in beginnings:
+        trial = [begin(column) for column in declared]
+        _untangle(trial)
+        found.append((_tangle(trial, range(len(trial))), trial))
+    _, best = min(found, key=lambda each: each[0])
+    for column, order in zip(table, best, strict=True):
+        column[:] = order
+
+
+def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
+    """What circles above what passes."""
+    return sorted(column, key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
+
+
+def _untangle(table: Sequence[list[SankeySpot]]) -> None:
+    """Order columns by what they depend on, to and fro; then swap spots while that uncrosses bands."""
+    whole = range(len(table))
+    best, least = [list(column) for column in table], _tangle(table, whole)
+    for sweep in range(_SWEEPS):
+        forth = sweep % 2 == 0
+        places = _ranks(table)
+        for column in table if forth else reversed(table):
+            column.sort(key=lambda spot: _middle(spot, forth, places))
+            places |= _ranks([column])
+        if (tangle := _tangle(table, whole)) < least:
+            best, least = [list(column) for column in table], tangle
+    for column, order in zip(table, best, strict=True):
+        column[:] = order
+    for _ in range(_SWEEPS):
+        if not sum(_swap(table, at) for at in whole):
+            break
+
+
+def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
+    """Swap spots of one column where that uncrosses bands; True if any were swapped."""
+    column, swapped = table[at], False
+    near = range(max(0, at - 1), min(len(table), at + 2))
+    tangle = _tangle(table, near)
+    for upper in range(len(column) - 1):
+        for lower in range(upper + 1, len(column)):
+            column[upper], column[lower] = column[lower], column[upper]
+            if (now := _tangle(table, near)) < tangle - 1e-9:  # a gain of rounding would be swapped back for ever
+                tangle, swapped = now, True
+            else:
+                column[upper], column[lower] = column[lower], column[upper]
+    return swapped
+
+
+def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
+    return {spot: (at + 0.5) / len(column) for column in table for at, spot in enumerate(column)}
+
+
+def _middle(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
+    """Mean place of the neighbours on one side, by width."""
+    pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
+    if not pieces:
+        return places[spot]
+    others = [(piece.source if forth else piece.target, piece.width) for piece in pieces]
+    return sum(places[other] * width for other, width in others) / sum(width for _, width in others)
+
+
+def _tangle(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
+    """How much bands cross near some columns: for each crossing the widths multiplied, and a little."""
+    total = 0.0
+    for at in columns:
+        places = {spot: place for place, spot in enumerate(table[at])}
+        ahead = [piece for spot in table[at] for piece in spot.after if not piece.back]
+        if at + 1 < len(table) and at + 1 in columns:
+            ends = {spot: place for place, spot in enumerate(table[at + 1])}
+            for number, one in enumerate(ahead):
+                for other in ahead[number + 1 :]:
+                    if (places[one.source] - places[other.source]) * (ends[one.target] - ends[other.target]) < 0:
+                        total += one.width * other.width + _CROSSING
+        # a band that turns back passes all that is above it in its column
+        for spot in table[at]:
+            for turning, after in ((spot.after, True), (spot.before, False)):
+                width = sum(piece.width for piece in turning if piece.back)
+                for above in table[at][: places[spot]] if width else ():
+                    passed = [piece.width for piece in (above.after if after else above.before) if not piece.back]
+                    total += sum(passed) * width + _CROSSING * len(passed)
+    return total
+
+
+_HEIGHT_SWEEPS = 24
+
+
+def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
+    """Tops of all spots, so that bands run level where they can, and of their bands."""
+    for column in table:
+        y = 0.0
+        for spot in column:
+            y += spot.above
+            spot.top = y
+            y += spot.height + spot.below
+    for sweep in range(4 * _HEIGHT_SWEEPS):
+        forth = sweep % 2 == 0
+        for column in table if forth else reversed(table):
+            _ports(table)
+            # at first bands of one side, to come near, then both
+            wanted = [
+                _wanted(spot, sweep >= _HEIGHT_SWEEPS or forth, sweep >= _HEIGHT_SWEEPS or not forth) for spot in column
+            ]
+            for spot, top in zip(column, _apart(column, wanted), strict=True):
+                spot.top = top
+    _ports(table)
+
+
+def _wanted(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
+    """The top at which a spot's bands would run level, and how much they weigh; bands that pass bend the least."""
+    shift = weight = 1e-9
+    for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
+        for piece in pieces:
+            if not piece.back:
+                passing = (piece.source.node is None) + (piece.target.node is None)
+                force = (1.0, 2.0, 8.0)[passing] * (piece.width + 0.02)
+                shift += sense * force * (piece.start - piece.end)
+                weight += force
+    return spot.top + shift / weight, weight
+
+
+def _apart(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
+    """Tops nearest to the wanted ones that keep the spots of a column apart: the least sum of weighted squares."""
+    offsets, y = [], 0.0
+    for at, spot in enumerate(column):
+        offsets.append(y)
+        following = column[at + 1].above if at + 1 < len(column) else 0.0
+        y += spot.height + spot.below + following
+    groups: list[list[float]] = []  # mean, weight, members
+    for (top, weight), offset in zip(wanted, offsets, strict=True):
+        groups.append([top - offset, weight, 1])
+        while len(groups) > 1 and groups[-2][0] > groups[-1][0]:
+            (a, v, m), (b, w, n) = groups[-2:]
+            groups[-2:] = [[(a * v + b * w) / (v + w), v + w, m + n]]
+    means = [mean for mean, _, members in groups for _ in range(int(members))]
+    return [mean + offset for mean, offset in zip(means, offsets, strict=True)]
+
+
+def _ports(table: Sequence[Sequence[SankeySpot]]) -> None:
+    """Tops of bands at both ends: in the order of where they come from and go to, those that run back uppermost."""
+    for column in table:
+        for spot in column:
+            spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))
+            spot.after.sort(key=lambda piece: (not piece.back, piece.span, piece.target.top + piece.target.height / 2))
+            y = spot.top
+            for piece in spot.before:
+                piece.end = y
+                y += piece.width
+            y = spot.top
+            for piece in spot.after:
+                piece.start = y
+                y += piece.width
+
+
+__all__ = [
+    "BEND",
+    "DROP",
+    "NAME",
+    "TALL",
+    "TURN",
+    "BandSegment",
+    "ReturnBand",
+    "SankeyLayout",
+    "SankeySpot",
+    "lay_out_sankey",
+]
+
+Width = Callable[[PowerNode, Fraction], float]
+
+
+def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, least: float) -> SankeyLayout:
+    """All parts of a flow in their places.
+
+    name    width of the words above a node that some power passes; `loss`, of those below one that loses some power
+    least   width of the whole at least
+    """
+    sheds, streams = collapsed(flow)
+    ahead, back = direct(streams)
+    columns = find_columns(ahead)
+    through: dict[PowerNode, Fraction] = {}
+    for node in columns:
+        given = sum((s.power for s in streams if s.source == node), Fraction(0)) + sheds.get(node, Fraction(0))
+        through[node] = max(given, sum((s.power for s in streams if s.target == node), Fraction(0)))
+    scale = find_scale(columns, through, back)
+    spots = {}
+    for node, at in columns.items():
+        lost = sheds.get(node, Fraction(0))
+        spot = spots[node] = SankeySpot(node, at, float(through[node]) * scale, through[node], float(lost) * scale)
+        spot.left = spot.right = name(node, through[node]) / 2
+        if lost:
+            middle, half = spot.width / 2 + BEND + spot.shed / 2, loss(node, lost) / 2
+            spot.left, spot.right = max(spot.left, half - middle), max(spot.right, half + middle)
+    bands, passing = make_bands(spots, ahead, back, scale)
+    every = [*spots.values(), *passing]
+    table = [[spot for spot in every if spot.column == at] for at in range(max(columns.values()) + 1)]
+    order_columns(table)
+    settle_heights(table)
+    lanes, gaps = turns(table, [band[0] for band in bands if band[0].back])
+    x = abscissae(table, gaps, least)
+    high = min([spot.top - spot.above for spot in every] + [turn.lane for turn in lanes])
+    low = max(spot.top + spot.height + spot.below for spot in every)
+    edge = max(spot.right for spot in table[-1]) + 0.1
+    leading = [band for band in bands if not band[0].back]
+    return SankeyLayout(every, leading, lanes, x, scale, sheds, high, x[-1] + edge, low - high)

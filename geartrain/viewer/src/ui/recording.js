@@ -1,0 +1,66 @@
+// The picture in motion, to a file of the reader's: a film of what the canvas shows while it is recorded.
+import { el } from "./element.js";
+import { fileName, saveAs } from "./saving.js";
+
+const RATE = 30; // pictures a second at most
+const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
+
+/** The kind of film this browser records, null where it records none. */
+function filmType() {
+  if (!HTMLCanvasElement.prototype.captureStream || !globalThis.MediaRecorder) return null;
+  return TYPES.find((type) => MediaRecorder.isTypeSupported(type)) ?? null;
+}
+
+/** A button that starts and stops; each side's canvas becomes one film. */
+export class Recording {
+  constructor() {
+    this.type = filmType();
+    this.recorders = [];
+    this.node = el("button", { type: "button", class: "record", "aria-label": "Record film", "aria-pressed": "false", onclick: () => this.toggle() }, "Record");
+    this.use([]);
+  }
+
+  /** The sides now shown; what was recorded of others ends. */
+  use(sides) {
+    this.stop();
+    this.sides = sides.filter(({ stage }) => stage?.renderer);
+    this.node.hidden = !this.type || !this.sides.length;
+  }
+
+  toggle() {
+    if (this.recorders.length) this.stop();
+    else this.start();
+  }
+
+  start() {
+    this.recorders = this.sides.map((side) => this.#record(side));
+    this.#show(true);
+  }
+
+  #record({ scene, stage }) {
+    const stream = stage.canvas.captureStream(RATE);
+    const recorder = new MediaRecorder(stream, { mimeType: this.type });
+    const parts = [];
+    recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
+    recorder.addEventListener("stop", () => {
+      for (const track of stream.getTracks()) track.stop();
+      saveAs(new Blob(parts, { type: "video/webm" }), fileName([scene.name, scene.state], "webm"));
+    });
+    recorder.start();
+    stage.request(); // a canvas at rest gives no picture
+    return recorder;
+  }
+
+  stop() {
+    for (const recorder of this.recorders) {
+      if (recorder.state !== "inactive") recorder.stop();
+    }
+    this.recorders = [];
+    this.#show(false);
+  }
+
+  #show(recording) {
+    this.node.setAttribute("aria-pressed", String(recording));
+    this.node.textContent = recording ? "Stop" : "Record";
+  }
+}

@@ -661,5 +661,5 @@ def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) 
 
 @pytest.mark.parametrize("source", ["'pennestri-2002'", "'freeth-2021'", repr(THREE)])
 def test_neither_a_train_that_moves_nor_a_small_gridlock_needs_networkx(source: str) -> None:
-    used = imported_by(f"import geartrain; geartrain.load({source}).gridlock")
+    used = imported_by(f"import geartrain; geartrain.load({source}).kinematics.gridlock")
     assert not used & {"networkx", "numpy", "scipy"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
 from textwrap import dedent
@@ -19,18 +19,21 @@ from geartrain import GearTrain, GearTrainError, load
 for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
+PASSED = "geartrain/passed"  # key of pytest's cache
+
 # a shell that starts tests in the background has interrupts ignored, and so would commands that tests interrupt
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# the same examples in every run, so that a change is judged by itself; --slow draws new ones
+# the same examples in every run, so that a change is judged by itself; --slow draws new ones, and more
 _CLOCKLESS = [HealthCheck.too_slow, HealthCheck.data_too_large]
 settings.register_profile("hunt", deadline=None, max_examples=60, suppress_health_check=_CLOCKLESS)
-settings.register_profile("laws", settings.get_profile("hunt"), derandomize=True)
+settings.register_profile("laws", settings.get_profile("hunt"), max_examples=30, derandomize=True)
 settings.load_profile("laws")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
+    parser.addoption("--rest", action="store_true", help="leave out what passed in the last run without --rest")
     parser.addoption("--trains", type=int, default=1000, help="how many random trains each law is held on (1000)")
     parser.addoption("--first-train", type=int, default=0, help="the seed of the first random train (0)")
     parser.addoption("--mutants", type=int, default=1000, help="how many spoilt declarations are tried (1000)")
@@ -39,10 +42,28 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: more than a few seconds; runs with --slow only")
+    config.addinivalue_line("markers", "needs(*modules): skipped where one of these cannot be imported")
     if config.getoption("--slow"):
         settings.load_profile("hunt")
-    if os.environ.get("GEARTRAIN_REQUIRE_EXTRAS"):  # all of `.[dev]` is installed: what cannot be imported is a failure
+    if os.environ.get("GEARTRAIN_REQUIRE_EXTRAS"):  # all of `.[ci]` is installed: what cannot be imported is a failure
         pytest.importorskip = lambda name, *_, **__: import_module(name)
+    if getattr(config, "cache", None) and not config.getoption("--rest") and not hasattr(config, "workerinput"):
+        config.pluginmanager.register(Passed(config))
+
+
+class Passed:
+    """Keeps in pytest's cache which tests passed, for `--rest`."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self.config, self.names = config, set[str]()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.when == "call" and report.passed:
+            self.names.add(report.nodeid)
+
+    def pytest_sessionfinish(self) -> None:
+        assert self.config.cache is not None
+        self.config.cache.set(PASSED, sorted(self.names))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
@@ -64,12 +85,32 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object | 
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    if config.getoption("--slow"):
-        return
-    skip = pytest.mark.skip(reason="slow: run with --slow")
+    """Deselect the tests marked slow, unless `--slow` is given, and with `--rest` what passed before."""
+    slow, rest = config.getoption("--slow"), config.getoption("--rest")
+    passed = set(config.cache.get(PASSED, ())) if rest and config.cache else set()
+    left = [item for item in items if item.nodeid in passed or ("slow" in item.keywords and not slow)]
+    if left:
+        config.hook.pytest_deselected(items=left)
+        out = {item.nodeid for item in left}
+        items[:] = [item for item in items if item.nodeid not in out]
     for item in items:
         if "slow" in item.keywords:
-            item.add_marker(skip)
+            item.add_marker(pytest.mark.timeout(3600))
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Skip a test that needs a library which is not installed."""
+    for mark in item.iter_markers("needs"):
+        for module in mark.args:
+            pytest.importorskip(module, reason=f"{module} is not installed")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_core() -> Iterator[None]:
+    """Commands that run in the process of the tests start no others, however long they take."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("geartrain.numerics.work.executors.cores", lambda: 1)
+        yield
 
 
 @pytest.fixture

@@ -12,6 +12,8 @@ from geartrain.cli.reconstruction_findings import stoppable
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
+    from geartrain.cli.long_runs import RunOptions
+    from geartrain.numerics.work import Execution
     from geartrain.synthesis.reconstruction.evidence_question import EvidenceQuestion
     from geartrain.synthesis.reconstruction.known_rank import KnownRank
     from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
@@ -51,17 +53,15 @@ def known_trains(files: Sequence[str], same: Sequence[str], question: EvidenceQu
 
 
 def rank_trains(
-    known: KnownTrains, evidence: Train, problem: ReconstructionProblem, found: Reconstructions
+    known: KnownTrains, evidence: Train, problem: ReconstructionProblem, found: Reconstructions, options: RunOptions
 ) -> tuple[KnownRank, ...]:
     """What each train costs; one that is stopped is left out."""
-    from geartrain.numerics.work import Execution
     from geartrain.synthesis.reconstruction.known_rank import RankedQuestion, rank_known_train
     from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 
     ranked: list[KnownRank] = []
     for train in known.trains:
-        with stoppable(f"what {train.name} costs") as bar:
-            execution = Execution(tell=bar.reach)
+        with stoppable(f"what {train.name} costs", options) as execution:
 
             def search(asked: ReconstructionProblem, execution: Execution = execution) -> Reconstructions:
                 answer = find_reconstructions(asked, execution, listed=0)

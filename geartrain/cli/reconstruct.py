@@ -22,7 +22,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.ranked_trains import known_trains, rank_trains
 from geartrain.cli.reconstruction_findings import (
@@ -125,8 +125,8 @@ def run(
             metavar="ITS=OURS",
         ),
     ] = None,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
     out: Out = None,
     json: Json = False,
@@ -158,7 +158,7 @@ def run(
     listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
     # how much is listed, and per what, changes no task; but where none is, tasks may leave out skeletons
     asked = {"question": question_digest(question.problem), "listed": bool(listing)}
-    options = RunOptions.alone(workers, scheduler, resume)
+    options = RunOptions(workers, dask, resume)
     expected = tell_question(question.problem, options)
     with long_run("reconstruct", asked, folder, options) as given:
         found = find_reconstructions(question.problem, weighted(given, question.problem, expected), listing, per)
@@ -167,7 +167,7 @@ def run(
         close_journal(given.journal, not found.complete)
     listed = () if count else found.candidates if every else found.candidates[:best]
     drawn = draw_candidates(found, question.problem, tuple(declared.outputs), sample, seed) if sample else ()
-    known = rank_trains(ranked, declared, question.problem, found)
+    known = rank_trains(ranked, declared, question.problem, found, options)
     report = ReconstructionReport(
         declared.name,
         question.problem,
@@ -176,7 +176,7 @@ def run(
         question.unused,
         tuple(_ranked(declared, listed)),
         None if original is None else rank_of(original, found),
-        look_into(declared, question.problem, found, dropped, counts_only=count),
+        look_into(declared, question.problem, found, options, dropped, counts_only=count),
         question.base,
         question.joined,
         expected,

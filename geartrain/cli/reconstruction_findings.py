@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from geartrain.cli.common import Sink, as_json, tell
-from geartrain.cli.long_runs import ProgressBar, RunOptions, close_journal, long_run, progress
+from geartrain.cli.long_runs import RunOptions, close_journal, long_run, progress
 from geartrain.numerics.decimal_text import plural
 
 if TYPE_CHECKING:
@@ -76,18 +76,18 @@ def look_into(
     evidence: Train,
     problem: ReconstructionProblem,
     found: Reconstructions,
+    options: RunOptions,
     dropped: tuple[ChangedCount, ...] = (),
     counts_only: bool = False,
 ) -> CandidateFindings:
     """What is told of the candidates, or why there are none; with `counts_only` no more than assumptions."""
-    from geartrain.numerics.work import Execution
     from geartrain.synthesis.reconstruction.candidate_findings import CandidateFindings, find_facts
     from geartrain.synthesis.reconstruction.missing_explanation import explain_missing
 
     if found.complete and not counts_only and not any(count.mechanisms for count in found.counts):
         missing = None
-        with stoppable("why nothing fits") as bar:
-            missing = explain_missing(problem, Execution(tell=bar.reach))
+        with stoppable("why nothing fits", options) as execution:
+            missing = explain_missing(problem, execution)
         return CandidateFindings(assumptions=dropped, missing=missing)
     if counts_only:
         return CandidateFindings(assumptions=dropped)
@@ -119,11 +119,13 @@ def drop_facts(
 
 
 @contextmanager
-def stoppable(what: str) -> Iterator[ProgressBar]:
-    """A progress bar for what is told besides; if it is stopped, the answer is told without it."""
+def stoppable(what: str, options: RunOptions) -> Iterator[Execution]:
+    """How an additional question is worked on, with a progress bar; if it is interrupted, it is left out."""
+    from geartrain.numerics.work import Execution
+
     try:
-        with progress(what, patience=_PATIENCE) as bar:
-            yield bar
+        with options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
+            yield Execution(executor, tell=bar.reach)
     except KeyboardInterrupt:
         tell(f"stopped: {what} is left out")
 

@@ -29,7 +29,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run, progress
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run, progress
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
@@ -60,8 +60,8 @@ def run(
         int | None, typer.Option("--trials", help="So many runs with friction drawn from its declared deviation.")
     ] = None,
     seed: Seed = 1,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
     fast: Fast = None,
     plot: Annotated[
@@ -95,7 +95,7 @@ def run(
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None:
-        options = RunOptions.alone(workers, scheduler, resume)
+        options = RunOptions(workers, dask, resume)
         tried = _tried(train, over_turn, (samples, input_), (trials, seed), fast, out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 from pydantic import BaseModel
+from shipped import every_train
 
 from geartrain import GearTrainError, load
 from geartrain.numerics.containers import FrozenDict, LazyMapping
-from geartrain.train.declaration_files import shipped
 
 
 def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:
@@ -50,7 +50,7 @@ def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:
         yield path
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", every_train())
 def test_nothing_in_a_declaration_or_an_answer_can_be_changed(name: str) -> None:
     train = load(name)
     state = train.states[0] if train.states else None

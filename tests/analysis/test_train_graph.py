@@ -38,7 +38,7 @@ def turning_graph(train: GearTrain) -> nx.Graph:
     return graph
 
 
-@pytest.mark.parametrize("name", shipped.trains())
+@pytest.mark.parametrize("name", shipped.every_train())
 def test_every_link_and_pair_of_a_shipped_train_carries_what_is_declared(name: str) -> None:
     train = shipped.train(name)
     declared, turning = train.declaration, turning_graph(train)
@@ -99,7 +99,7 @@ def holder(turning: nx.Graph, link: str, frame: str) -> str | None:
     return str(path[at])
 
 
-@pytest.mark.parametrize("name", shipped.trains())
+@pytest.mark.parametrize("name", shipped.every_train())
 def test_speeds_of_a_graph_are_those_of_its_state(name: str) -> None:
     train = shipped.train(name)
     for state in train.states or (None,):
@@ -114,7 +114,7 @@ def test_speeds_of_a_graph_are_those_of_its_state(name: str) -> None:
                 assert speeds[0] - speeds[2] == data["ratio"] * (speeds[1] - speeds[2])
 
 
-@pytest.mark.parametrize("name", [name for name in shipped.trains() if name not in SLOW_LOSSES])
+@pytest.mark.parametrize("name", shipped.every_train(name for name in shipped.trains() if name not in SLOW_LOSSES))
 def test_meshes_and_efficiencies_are_those_in_force(name: str) -> None:
     train = shipped.train(name)
     if train.declaration.tooth_form is None and not any(gear.tooth_form for gear in train.declaration.gears):

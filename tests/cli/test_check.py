@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from commands import RIGHT, call
+from shipped import every_train
 
 from geartrain import load, shipped
 
@@ -134,7 +135,7 @@ def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
     assert call("check", "--quiet", "prague-orloj").stdout == ""
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", every_train())
 def test_no_train_with_figures_is_said_to_have_none(name: str) -> None:
     text = shipped()[name].read_text(encoding="utf-8")
     outputs = [output for answer in load(name).answers() for output in answer.outputs.values()]

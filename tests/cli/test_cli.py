@@ -21,8 +21,9 @@ from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, verbs
 from jsonschema import Draft202012Validator
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
+from shipped import every_train
 
-from geartrain import load, shipped
+from geartrain import load
 from geartrain.cli import main
 
 COMMANDS = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
@@ -395,7 +396,7 @@ def _row(terms: list[tuple[str, str, str]]) -> Row:
     return row
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", every_train())
 def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(run: Run, name: str) -> None:
     train = load(name)
     answers = list(train.answers())

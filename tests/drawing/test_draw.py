@@ -447,7 +447,7 @@ def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:
 DIALLED = [name for name in shipped.trains() if load(name).declaration.dials and not load(name).states]
 
 
-@pytest.mark.parametrize("name", DIALLED)
+@pytest.mark.parametrize("name", shipped.every_train(DIALLED))
 def test_a_pointer_at_its_zero_mark_reads_the_first_cell(name: str) -> None:
     """Its float error is some 1e-17 turns at the start, and of any sign."""
     scene = shipped.scene(name)

@@ -39,7 +39,7 @@ from geartrain.uncertainty import (
     run_trials,
 )
 from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndex
-from geartrain.uncertainty.posterior.pairwise_posterior import joint_posterior, most_informative_wheels
+from geartrain.uncertainty.posterior.inference import joint_posterior, most_informative_wheels
 
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)

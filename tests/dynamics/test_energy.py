@@ -20,7 +20,7 @@ from random_trains import driven_train
 from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turning_graph, wheel_table
 from reference_solver import find_carrier as carrier_of
 
-from geartrain import GearTrain, GearTrainError, load, shipped
+from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import Torques, find_power_flow
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
@@ -115,14 +115,14 @@ def written(random: Random) -> object:
     return random.choice(ways)
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", catalogue.every_train())
 def test_no_shipped_train_creates_energy(name: str) -> None:
     train = catalogue.train(name).unfolded
     for found in asked(train):
         require_no_energy(train, found)
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", catalogue.every_train())
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
 def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int) -> None:
     """Efficiencies in every way they are written, bearings, friction on its teeth and pins, and a load or two."""

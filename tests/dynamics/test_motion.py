@@ -727,6 +727,7 @@ def test_a_driver_that_is_turned_by_what_it_drives_is_infinitely_behind_where_no
     assert not rate.any()
 
 
+@pytest.mark.slow
 def test_extremes_are_found_between_the_positions() -> None:
     """Twenty turns in 200,000 positions miss the peaks of the teeth; the search between them does not."""
     motion = load("moon-triangular").motion(outputs=["moon"])

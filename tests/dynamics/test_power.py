@@ -155,7 +155,7 @@ def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
     return {found[1]: str(-1 if speed > 0 else 1)} if found and speed else {}
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", catalogue.every_train())
 def test_every_shaft_and_pair_of_a_shipped_train_gives_on_what_it_takes_in(name: str) -> None:
     for train in (catalogue.train(name), lossy(name)):
         for found, flow in flows(train):

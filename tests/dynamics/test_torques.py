@@ -12,6 +12,7 @@ from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
 from places import DATA
+from shipped import every_train
 
 from geartrain import GearTrainError, load, shipped
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
@@ -166,7 +167,7 @@ def test_a_compound_set_has_the_efficiency_of_its_closed_form(
         assert back.efficiency == (1 - ratio) / (1 - eta * ratio)
 
 
-@pytest.mark.parametrize("name", [name for name in shipped() if not load(name).states])
+@pytest.mark.parametrize("name", every_train(name for name in shipped() if not load(name).states))
 def test_without_losses_powers_sum_to_zero_exactly(name: str) -> None:
     train = load(name)
     case = train.declaration.case(None)

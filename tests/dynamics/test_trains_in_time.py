@@ -204,6 +204,7 @@ def test_the_moons_train_parts_as_in_the_table(
     assert run.energy.closure < 1e-12
 
 
+@pytest.mark.slow
 def test_figures_say_how_far_a_mean_is_known_and_what_depends_on_the_step() -> None:
     run = load("moon-triangular-inertia").dynamics(rate="1 turn/s", turns=8, steps=4000, samples=36_000, fast=False)
     torque = next(each for each in run.figures if each.name == "torque of the drive")
@@ -215,6 +216,9 @@ def test_figures_say_how_far_a_mean_is_known_and_what_depends_on_the_step() -> N
     assert all((each.interval is None) == (each.kind == "extreme") for each in run.figures)
     for each in run.figures:
         assert not each.settled or each.kind == "extreme" or not each.unit or each.interval <= 0.05 * abs(each.fine)
+
+
+def test_figures_of_a_part_of_a_turn_have_no_interval() -> None:
     few = load("moon-triangular-inertia").dynamics(rate="0.3 turn/s", turns=0.1, steps=4000, fast=False)
     assert all(each.interval is None for each in few.figures)
 

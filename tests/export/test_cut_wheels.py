@@ -242,7 +242,7 @@ def overlapping(trains: Iterable[str], play: float, count: int) -> tuple[int, li
 # ------------------------------------------------------------------------------------------------------ one source
 
 
-@pytest.mark.parametrize("name", TRAINS)
+@pytest.mark.parametrize("name", shipped.every_train(TRAINS))
 def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
     """Every vertex of either outline lies on the other, for every wheel that is cut.
 
@@ -328,9 +328,12 @@ def test_the_wheels_of_two_known_trains_have_one_size() -> None:
 # ------------------------------------------------------------------------------------------- parts that turn together
 
 
-def test_no_two_wheels_of_a_shipped_train_overlap_as_they_turn() -> None:
-    count, wrong = overlapping(TRAINS, 0.0, 3)
-    assert count > 180
+@pytest.mark.parametrize(
+    ("names", "pairs"), [(list(shipped.KINDS), 50), pytest.param(TRAINS, 180, marks=pytest.mark.slow)]
+)
+def test_no_two_wheels_of_a_shipped_train_overlap_as_they_turn(names: list[str], pairs: int) -> None:
+    count, wrong = overlapping(names, 0.0, 3)
+    assert count > pairs
     assert wrong == []
 
 

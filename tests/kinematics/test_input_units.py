@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from models import PAIR, PLANETARY, pair, refusal
+from shipped import every_train
 from strategies import Data, driven_trains
 
 import geartrain
@@ -252,7 +253,7 @@ def test_radians_change_nothing_but_the_last_digits(both: tuple[Data, Data], dat
     assert second.method == ("floats" if len(kinds) > 1 else "exact")
 
 
-@pytest.mark.parametrize("name", list(geartrain.shipped()))
+@pytest.mark.parametrize("name", every_train())
 def test_no_shipped_train_hangs_on_the_units_or_the_order_of_its_inputs(name: str) -> None:
     """A plain train is read in rpm, one with a unit of time in that; lengths go with no speed in time."""
     train = geartrain.load(name)

@@ -10,6 +10,7 @@ import pytest
 import yaml
 from places import TRAINS
 from reference_solver import rank_of, solve_naively, turning_graph, willis_rows
+from shipped import every_train
 from shipped import train as load
 
 from geartrain import GearTrain, shipped
@@ -76,7 +77,7 @@ def plain(train: GearTrain) -> Iterator[tuple[str | None, dict[str, Any]]]:
         yield name, data | {"fixed": fixed, "locks": locks, "inputs": declared.case(name).inputs}
 
 
-@pytest.mark.parametrize("name", [name for name in shipped() if name not in OBLIQUE])
+@pytest.mark.parametrize("name", every_train(name for name in shipped() if name not in OBLIQUE))
 def test_a_train_on_parallel_axes_has_the_speeds_of_dense_elimination(name: str) -> None:
     train = load(name)
     missing: set[str] = set()
@@ -91,7 +92,7 @@ def test_a_train_on_parallel_axes_has_the_speeds_of_dense_elimination(name: str)
     assert missing == BEHIND_A_CORNER.get(name, set())
 
 
-@pytest.mark.parametrize("name", [name for name in shipped() if name not in OBLIQUE])
+@pytest.mark.parametrize("name", every_train(name for name in shipped() if name not in OBLIQUE))
 def test_carriers_rank_and_mobility_are_those_of_the_plain_rows(name: str) -> None:
     train = load(name)
     _, data = next(plain(train))

@@ -65,7 +65,7 @@ def test_rows_of_pairs_are_those_of_the_declaration_in_whole_numbers(data: Data)
         assert line == {link: lead * row.get(link, Fraction(0)) for link in found.links}
 
 
-@pytest.mark.parametrize("name", shipped.trains())
+@pytest.mark.parametrize("name", shipped.every_train())
 def test_every_shipped_train_has_its_matrix_in_every_state(name: str) -> None:
     train = shipped.train(name)
     for state in train.states or (None,):

@@ -140,5 +140,5 @@ def test_without_pandas_it_is_said_what_brings_it(monkeypatch: pytest.MonkeyPatc
         return real(name, *args, **given)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(MissingExtraError, match="errors"):
+    with pytest.raises(MissingExtraError, match="tables"):
         geartrain.load("planetary-24-18-60").solve().to_frame()

@@ -209,12 +209,7 @@ def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> Non
 # ------------------------------------------------------------------------------------------------- three forms, one say
 
 
-# a report tells nothing of how teeth are cut, by which alone it differs from freeth-2021-teeth, the dearest of all
-TWIN = "freeth-2021-cut"
-REPORTED = [pytest.param(name, marks=[pytest.mark.slow] if name == TWIN else []) for name in shipped.trains()]
-
-
-@pytest.mark.parametrize("name", REPORTED)
+@pytest.mark.parametrize("name", shipped.every_train())
 def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
     document = describe_train(shipped.report(name))
     page, text = Page(to_html([document])), to_markdown([document])
@@ -239,7 +234,7 @@ def test_what_is_wider_than_paper_is_printed_in_strips_with_every_cell_once() ->
     ]
 
 
-@pytest.mark.parametrize("name", REPORTED)
+@pytest.mark.parametrize("name", shipped.every_train())
 def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> None:
     train, report = shipped.train(name), json.loads(as_json([shipped.report(name)]))
     holds("report", report)

@@ -59,7 +59,7 @@ def sense(train: geartrain.GearTrain, label: str) -> np.ndarray:
     return next(each for each in ways if np.linalg.norm(np.cross(each, mine)) < 1e-12) / np.linalg.norm(mine)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", shipped.every_train(NAMES))
 def test_pitch_circles_of_wheels_in_mesh_touch_and_roll(name: str) -> None:
     train, layout = load(name)
     gears = [circuit for circuit in train.circuits if circuit.kind == "gear"]
@@ -141,7 +141,7 @@ def poses(train: geartrain.GearTrain, layout: Layout, count: int) -> Iterator[di
         yield {label: carried(label, np.array(axis.point), angles) for label, axis in layout.axes.items()}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", shipped.every_train(NAMES))
 def test_no_two_wheels_of_one_height_overlap_while_carriers_turn(name: str) -> None:
     train, layout = load(name)
     upright = [wheel for wheel in layout.wheels.values() if abs(way(layout, wheel)[2]) == 1 and not wheel.cone]
@@ -163,7 +163,7 @@ def test_no_two_wheels_of_one_height_overlap_while_carriers_turn(name: str) -> N
             assert discs[0].intersection(discs[1]).area < 1e-6, (a.wheel, b.wheel)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", shipped.every_train(NAMES))
 def test_a_tooth_stands_before_a_space_in_every_mesh(name: str) -> None:
     train, layout = load(name)
     for gear in train.declaration.gears:
@@ -188,7 +188,7 @@ def test_a_tooth_stands_before_a_space_in_every_mesh(name: str) -> None:
         assert math.remainder(past[0] - past[1] - 0.5, 1.0) == pytest.approx(0, abs=1e-6)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", shipped.every_train(NAMES))
 def test_declared_positions_and_modules_hold_and_notices_say_what_why_and_what_to_do(name: str) -> None:
     train, layout = load(name)
     for label, axis in train.declaration.axes.items():

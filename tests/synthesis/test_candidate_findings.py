@@ -35,11 +35,11 @@ def question(seed: int) -> Question:
     return problem, found, WeighedTrains.of(trains, weights), [weight / whole for weight in weights]
 
 
-SEEDS = [seed for seed in range(14, 60) if 0 < len(question(seed)[1]) <= 300]
+SEEDS = [seed for seed in range(14, 60) if seed not in (28, 29, 50, 55)]  # which have no answer, or over 300
 
 
 def test_most_random_questions_have_an_answer() -> None:
-    assert len(SEEDS) > 30
+    assert [seed for seed in range(14, 60) if 0 < len(question(seed)[1]) <= 300] == SEEDS
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -23,13 +23,15 @@ def grown(seed: int, rings: bool = False) -> list[set[Node]]:
 
 
 @pytest.mark.parametrize("rings", [False, True])
-@pytest.mark.parametrize("seed", range(200))
-def test_trains_are_those_that_grow_in_the_frame(seed: int, rings: bool) -> None:
-    evidence = random_evidence(seed, rings)
-    expected = grown(seed, rings)
-    found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
-    assert [count.mechanisms for count in found.counts] == [len(trees) for trees in expected]
-    assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
+@pytest.mark.parametrize("seeds", [range(100), pytest.param(range(100, 200), marks=pytest.mark.slow)])
+def test_trains_are_those_that_grow_in_the_frame(seeds: range, rings: bool, subtests: pytest.Subtests) -> None:
+    for seed in seeds:
+        with subtests.test(seed=seed):
+            evidence = random_evidence(seed, rings)
+            expected = grown(seed, rings)
+            found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
+            assert [count.mechanisms for count in found.counts] == [len(trees) for trees in expected]
+            assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
 
 
 @pytest.mark.parametrize("rings", [False, True])
@@ -39,9 +41,14 @@ def test_most_random_questions_have_answers(rings: bool) -> None:
 
 
 @pytest.mark.parametrize("rings", [False, True])
-@pytest.mark.parametrize("seed", range(60))
-def test_a_candidate_turns_as_its_dials_say(seed: int, rings: bool) -> None:
+def test_candidates_turn_as_their_dials_say(rings: bool, subtests: pytest.Subtests) -> None:
     """The solver knows nothing of reconstructions: it finds carriers by itself and solves Willis' equations."""
+    for seed in range(60):
+        with subtests.test(seed=seed):
+            _turn_as_their_dials_say(seed, rings)
+
+
+def _turn_as_their_dials_say(seed: int, rings: bool) -> None:
     data = random_evidence(seed, rings)
     evidence = declare(data)
     found = find_reconstructions(evidence_question(evidence).problem, listed=10)

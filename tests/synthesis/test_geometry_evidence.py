@@ -197,9 +197,14 @@ def test_an_arbor_between_two_places() -> None:
     assert [bool(weight(x)) for x in (7, 8, 40, 72, 73)] == [False, True, True, True, False]
 
 
-@pytest.mark.parametrize("seed", range(200))
-def test_polygons_close_as_plain_trials_say(seed: int) -> None:
+def test_polygons_close_as_plain_trials_say(subtests: pytest.Subtests) -> None:
     """Distances that some lengths of the sides can reach, found by all corners and the triangle inequality in turn."""
+    for seed in range(200):
+        with subtests.test(seed=seed):
+            _close_as_plain_trials_say(seed)
+
+
+def _close_as_plain_trials_say(seed: int) -> None:
     dice = random.Random(seed)
     distance = dice.randint(0, 30)
     sides = []
@@ -258,8 +263,13 @@ def test_mates_of_one_wheel_do_not_overlap() -> None:
     assert weight(15, 20) == 0  # 22 mm apart
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_orders_of_layers_against_all_permutations(seed: int) -> None:
+def test_orders_of_layers_against_all_permutations(subtests: pytest.Subtests) -> None:
+    for seed in range(60):
+        with subtests.test(seed=seed):
+            _orders_against_all_permutations(seed)
+
+
+def _orders_against_all_permutations(seed: int) -> None:
     dice = random.Random(seed)
     number = dice.randint(2, 6)
     blocked = []
@@ -282,10 +292,11 @@ def test_orders_of_layers_against_all_permutations(seed: int) -> None:
 # pruning
 
 
-def test_pairs_kept_apart_lose_no_possible_candidate() -> None:
+@pytest.mark.parametrize("seeds", [range(35), pytest.param(range(35, 70), marks=pytest.mark.slow)])
+def test_pairs_kept_apart_lose_no_possible_candidate(seeds: range) -> None:
     """Random questions with random places: what is possible is the same with the pairs and without."""
     refused = possible = 0
-    for seed in range(70):
+    for seed in seeds:
         dice = random.Random(seed)
         problem = random_problem(seed, idlers=True)
         arbors = (problem.input, *problem.arbors)
@@ -306,8 +317,8 @@ def test_pairs_kept_apart_lose_no_possible_candidate() -> None:
         assert {*able} == {one.arbor for one in fewer if candidate_likelihood(one.arbor, geometry)}, seed
         refused += len(every) - len(able)
         possible += len(able)
-    assert refused > 40
-    assert possible > 40
+    assert refused > 20
+    assert possible > 20
 
 
 # from evidence

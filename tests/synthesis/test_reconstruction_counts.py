@@ -27,6 +27,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
+LONG = {"b byzantine", "random 1016", "medium 7004"}  # each some seconds
 QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
 
 
@@ -63,7 +64,12 @@ def _dial(given: dict[str, Any]) -> SearchedDial:
     return SearchedDial(given["name"], least, greatest, signed, NEW if place == "new" else place)
 
 
-@pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question["name"].replace(" ", "-"))
+def _parameter(question: dict[str, Any]) -> Any:
+    name = question["name"]
+    return pytest.param(question, id=name.replace(" ", "-"), marks=[pytest.mark.slow] if name in LONG else [])
+
+
+@pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])
 def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
     found = find_reconstructions(asked(question), listed=0)
     assert found.complete
@@ -103,6 +109,7 @@ def test_back_wheels_have_as_many_trains_with_five_added_as_another_program_foun
     assert [each.mechanisms for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
 
 
+@pytest.mark.slow
 def test_counts_in_doubt_have_the_trains_of_each_combination() -> None:
     whole = _read(evidence_question(read_evidence("back-wheels")).problem, {"l1": (37, 38), "e3": (222, 223)})
     each = [_read(whole, {"l1": (one,), "e3": (other,)}) for one in (37, 38) for other in (222, 223)]

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shipped import every_train
 
 import geartrain
 from geartrain import GearTrain
@@ -220,7 +221,7 @@ def test_a_search_says_so_too() -> None:
 # shipped trains ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", list(geartrain.shipped()))
+@pytest.mark.parametrize("name", every_train())
 def test_shipped_trains_turn_as_their_targets_say(name: str) -> None:
     for answer in geartrain.load(name).answers():
         for result in answer.outputs.values():

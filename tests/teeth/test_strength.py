@@ -6,7 +6,7 @@ from math import cos, isinf, pi, radians, sqrt, tan
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain
@@ -100,6 +100,7 @@ def test_the_forces_of_all_couples_balance_the_torque(position: float) -> None:
     assert len(load.couples(X)) == count
 
 
+@settings(max_examples=20)
 @given(st.floats(0.5, 8), st.floats(0.1, 30))
 def test_pressure_goes_with_the_root_of_force_and_the_inverse_of_size(scale: float, more: float) -> None:
     law = Involute(form="involute").law(20, 40)

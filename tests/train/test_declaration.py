@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 from models import PAIR, PLANETARY, pair, planetary, refusal
+from shipped import every_train
 
-from geartrain import GearTrainError, load, shipped
+from geartrain import GearTrainError, load
 from geartrain.errors import DeclarationError
 from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.train.validation import declare
@@ -408,7 +409,7 @@ def test_every_shipped_train_loads_is_determined_and_keeps_what_it_expects(shipp
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
     if "shipped_name" in metafunc.fixturenames:
-        metafunc.parametrize("shipped_name", list(shipped()))
+        metafunc.parametrize("shipped_name", every_train())
 
 
 Refuse = Callable[..., GearTrainError]

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
+from shipped import every_train
 from studies.train_families import chain
 
 from geartrain import GearTrain, GearTrainError, load
@@ -47,7 +48,7 @@ def count_parses(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return met
 
 
-@pytest.mark.parametrize("name", sorted(shipped()))
+@pytest.mark.parametrize("name", every_train())
 def test_a_shipped_train_written_as_json_is_read_as_yaml_is(name: str, tmp_path: Path) -> None:
     data = yaml.safe_load(shipped()[name].read_text(encoding="utf-8"))
     text = json.dumps(data, indent=1, default=str, ensure_ascii=False)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from shipped import trains
+from shipped import every_train
 from typer.testing import CliRunner
 
 import geartrain
@@ -79,7 +79,7 @@ def test_plain_data_may_be_short_too() -> None:
     assert geartrain.GearTrain.declare(data).solve()["b"] * 3 == -1
 
 
-@pytest.mark.parametrize("name", trains())
+@pytest.mark.parametrize("name", every_train())
 def test_every_shipped_train_is_short_and_means_what_its_long_form_means(name: str) -> None:
     path = shipped()[name]
     text = path.read_text(encoding="utf-8")

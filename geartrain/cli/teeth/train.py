@@ -9,8 +9,8 @@ from typing import Annotated, Any
 import typer
 
 from geartrain.cli.common import File, Force, Json, Names, Out, StateName
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
-from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, Workers, read_tolerance
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
 
 Flag = bool
 
@@ -57,7 +57,7 @@ def run(
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
-    scheduler: Scheduler = None,
+    dask: Dask = None,
     resume: Resume = False,
     csv: Csv = False,
     json: Json = False,
@@ -103,7 +103,7 @@ def run(
         "best": best,
         "by": by,
     }
-    with long_run("teeth", question, out, RunOptions(workers, scheduler, resume)) as given:
+    with long_run("teeth", question, out, RunOptions(workers, dask, resume)) as given:
         found = search_train(
             train,
             state,

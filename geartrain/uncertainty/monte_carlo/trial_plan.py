@@ -90,19 +90,17 @@ class TrialPlan:
         """True if some pair is filed to fit."""
         return any(pair.stroke for pair in self.pairs)
 
-    def scaled(self, factor: float, kind: str = "") -> TrialPlan:
-        """The plan with all errors, or those of one kind, so many times as great.
+    def scaled(self, factor: float) -> TrialPlan:
+        """The plan with all errors multiplied by a factor.
 
         Parameters
         ----------
         factor : float
             0 or more.
-        kind : str
-            A kind of error; "" for all.
         """
 
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
-            return {each: off.times(factor) if kind in ("", each) else off for each, off in errors.items()}
+            return {each: off.times(factor) for each, off in errors.items()}
 
         wheels = tuple(replace(each, errors=times(each.errors)) for each in self.wheels)
         pairs = tuple(replace(each, fitting=times(each.fitting)) for each in self.pairs)
@@ -184,7 +182,7 @@ def find_trial_plan(
     Returns
     -------
     TrialPlan
-        To be handed to `run_trials`, `jamming_map`, `find_tolerance`, `find_sobol_indices` and `run_course`.
+        To be handed to `run_trials`, `jamming_map`, `find_sobol_indices` and `run_course`.
 
     Raises
     ------

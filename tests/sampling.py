@@ -1,0 +1,18 @@
+"""Which cases of a long list run every time."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable
+from typing import Any
+
+import pytest
+
+
+def first_few(number: int, cases: Iterable[Any]) -> list[Any]:
+    """Parameters of a test: the first `number` of the cases; the others only run with `--slow`."""
+    return [pytest.param(case, marks=[pytest.mark.slow] if at >= number else []) for at, case in enumerate(cases)]
+
+
+def all_but(dear: Container[Any], cases: Iterable[Any]) -> list[Any]:
+    """Parameters of a test: the cases; the dear ones, which take seconds each, only run with `--slow`."""
+    return [pytest.param(case, marks=[pytest.mark.slow] if case in dear else []) for case in cases]

@@ -24,7 +24,7 @@ FOR = {
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",
     "tables": "Parquet and pandas: `montecarlo`, `posterior`, `.to_frame()`",
-    "fast": "compiled runs of `motion`, `torques --turns`, `dynamics`",
+    "fast": "compiled runs of `motion` and `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
     "sympy": "`train.formula(...)` as an expression of sympy",
     "watch": "`watch`: pages that follow a file",
@@ -51,7 +51,8 @@ In a copy of the sources `pip install -e '.[plot]'` does the same by the name of
 {rows}
 
 Sizes are those of installed files, before Python compiles them. Extras share packages: together they weigh less than
-their sum. `step` is no part of `all`, for what it weighs; `dev` is for working on geartrain, `site` for this site.
+their sum. `all` leaves `step` out because of its size. `dev` (810 MB with the core) is for working on geartrain, `ci`
+adds the browser driver, the site and the libraries without which some tests are skipped, and `site` builds this site.
 """
 
 

@@ -117,7 +117,6 @@ class GearTrain:
         samples: int = ...,
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
-        fast: bool | None = None,
     ) -> TorqueCycle: ...
 
     def torques(
@@ -128,7 +127,6 @@ class GearTrain:
         samples: int = 20_000,
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
-        fast: bool | None = None,
     ) -> Torques | TorqueCycle:
         """Torques on links and pairs, and the flow of power, under the loads of one state: means, or over a turn.
 
@@ -145,9 +143,6 @@ class GearTrain:
             The link whose torque over a turn is requested, by default the crank or input.
         on_done : callable, optional
             Called with the number of positions that have been worked out since.
-        fast : bool, optional
-            Whether compiled kernels balance the positions, the same to 1e-12 and ten times as fast; by default where
-            the run is long and the extra `fast` is installed.
 
         Returns
         -------
@@ -162,7 +157,7 @@ class GearTrain:
         if turns is not None:
             from geartrain.dynamics.turn import train_turn
 
-            return train_turn.solve(self.mechanics, state, turns, samples, of, on_done, fast)
+            return train_turn.solve(self.mechanics, state, turns, samples, of, on_done)
         from geartrain.dynamics.torques import train_torques
 
         return train_torques.solve(self.mechanics, state)
@@ -188,8 +183,9 @@ class GearTrain:
         tolerance : float, optional
             Read transmission functions from tables of this accuracy [pitch], several times faster.
         fast : bool, optional
-            Whether compiled kernels follow the motion, the same to 1e-12 rad and ten times as fast; by default where
-            numba is installed and there are so many positions that it pays to load it.
+            Whether compiled kernels follow the motion, the same to 1e-12 rad and about ten times as fast; by default
+            where numba is installed and there are so many positions that it pays to load it. Pairs that depend on each
+            other are followed without kernels.
 
         Returns
         -------

@@ -33,7 +33,7 @@ Force = Annotated[bool, typer.Option("--force", help="Write over files that are 
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
 Fast = Annotated[
     bool | None,
-    typer.Option("--fast/--no-fast", help="Compiled kernels, or none; by default where they pay."),
+    typer.Option("--fast/--no-fast", help="Compile inner loops with numba, or do not; by default in long runs."),
 ]
 StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
 FirstState = Annotated[str | None, typer.Option("--state", help="The state; default the first.")]

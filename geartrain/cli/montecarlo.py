@@ -11,7 +11,6 @@ import typer
 from geartrain.cli.common import (
     INTERRUPTED,
     STANDARD,
-    Fast,
     File,
     Force,
     Json,
@@ -54,7 +53,6 @@ def run(
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,
-    fast: Fast = None,
     plot: Plot = None,
     picture: Picture = "errors",
     json: Json = False,
@@ -76,7 +74,6 @@ def run(
     sweep = read_clearances(clearance) if clearance else []
     studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
-    plan = plan.judged(fast, trials)
     options = RunOptions(workers, dask, resume)
     table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
     findings = drawn = None
@@ -116,7 +113,7 @@ def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: Tr
     from geartrain.uncertainty import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
-        found = run_trials(plan, trials, seed, given, take, plan.fast)
+        found = run_trials(plan, trials, seed, given, take)
         if not found.complete:
             raise _StoppedError  # so that the table stays partial
     return found

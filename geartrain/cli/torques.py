@@ -12,7 +12,6 @@ from geartrain.cli.common import (
     GOOD,
     INTERRUPTED,
     VERDICT,
-    Fast,
     File,
     Force,
     Json,
@@ -63,7 +62,6 @@ def run(
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,
-    fast: Fast = None,
     plot: Annotated[
         Path | None,
         typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
@@ -89,14 +87,14 @@ def run(
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
-    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_, fast)
+    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None:
         options = RunOptions(workers, dask, resume)
-        tried = _tried(train, over_turn, (samples, input_), (trials, seed), fast, out, options)
+        tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -109,9 +107,7 @@ def run(
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
-def _over_turn(
-    train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None, fast: bool | None
-) -> TorqueCycle:
+def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
     """Torque over some turns in the one state that is loaded."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
@@ -124,7 +120,7 @@ def _over_turn(
     else:
         span = float(read_turns("--turns", turns))
     with progress("torques over the turns", patience=2.0) as bar:
-        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance, fast=fast)
+        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
 
 
 def _tried(
@@ -132,7 +128,6 @@ def _tried(
     over_turn: TorqueCycle,
     run: tuple[int, str | None],
     drawn: tuple[int, int],
-    fast: bool | None,
     out: Path | None,
     options: RunOptions,
 ) -> FrictionTrials:
@@ -143,7 +138,7 @@ def _tried(
     check_trials(drawn[0])
     plan = find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
-        found = try_frictions(plan, *drawn, given, fast)
+        found = try_frictions(plan, *drawn, given)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
         tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")

@@ -23,13 +23,12 @@ if TYPE_CHECKING:
     from geartrain.dynamics.inertia.separation_rate import PairSeparation, SeparationRates
     from geartrain.dynamics.motion.corner_positions import CornerPositions
     from geartrain.dynamics.motion.error_composition import ErrorSamples
-    from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
-    from geartrain.dynamics.motion.motion_model import Motion
+    from geartrain.dynamics.motion.motion_model import Motion, TransmissionErrorCurve
     from geartrain.dynamics.motion.motion_run import MotionRun
     from geartrain.dynamics.motion.order_spectrum import SpectrumLine
+    from geartrain.dynamics.motion.pair_impacts import ToothImpact
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
-    from geartrain.dynamics.motion.tooth_impacts import ToothImpact
     from geartrain.dynamics.strength.contact_results import FlankStrength, PinContact, PointContact
     from geartrain.dynamics.strength.strength_results import (
         ArborStrength,
@@ -157,14 +156,14 @@ _PLACES = {
     "SpectrumPeak": "time.run_parts",
     "SteppedSeparation": "time.stepped_separation",
     "TimeRun": "time.time_run",
-    "ToothImpact": "motion.tooth_impacts",
+    "ToothImpact": "motion.pair_impacts",
     "TorqueCycle": "turn.torque_cycle",
     "TorqueExtreme": "turn.cycle_parts",
     "TorqueVerdict": "torques.torque_results",
     "Torques": "torques.torque_results",
     "TrainMechanics": "train_mechanics",
     "TrainStrength": "strength.strength_results",
-    "TransmissionErrorCurve": "motion.error_curve",
+    "TransmissionErrorCurve": "motion.motion_model",
     "VibrationModes": "time.vibration_modes",
     "WheelStrength": "strength.strength_results",
     "find_link_inertias": "inertia.link_inertia",

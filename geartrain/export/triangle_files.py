@@ -101,7 +101,8 @@ class _GlbFile:
     def to_bytes(self, name: str, root: int) -> bytes:
         """The file: a header, the JSON chunk and the binary chunk (glTF 2.0, section 4.4)."""
         data, views = b"", []
-        for own, more in zip(self.views, _VIEWS, strict=True):
+        for each, more in zip(self.views, _VIEWS, strict=True):
+            own = each or bytes(4)  # no view is empty
             views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(own)} | more)
             data += own
         content = {
@@ -115,7 +116,7 @@ class _GlbFile:
             "meshes": self.meshes,
             "accessors": self.accessors,
             "animations": self.animations,
-            "bufferViews": [view for view in views if view["byteLength"]],
+            "bufferViews": views,
             "buffers": [{"byteLength": len(data)}],
         }
         content = {key: value for key, value in content.items() if value != []}
@@ -218,7 +219,8 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
     turning = Keyframes.of(work, turns)
     if turning is None:
         return
-    channels, samplers = [], []
+    channels: list[dict[str, Any]] = []
+    samplers: list[dict[str, Any]] = []
     clocks: dict[int, int] = {}
     for at, body in enumerate(work.scene.bodies):
         count = turning.keys(at)

@@ -14,7 +14,7 @@ Exact numbers
 Floats
     long_float, error_free                floats with an exponent of their own; sums and products with their error
     rounding_bounds, bounded_polynomials  a priori bounds on rounding; polynomials in float64 with such bounds
-    sparse_least_squares, gauss_kernel    least squares with a few entries a row; small dense systems inside loops
+    sparse_least_squares                  least squares with a few entries a row
     roots, simultaneous_roots             bracketed roots, one by one and many at once
     global_minimum, range_extremes        the minimum of a function with kinks; extremes of runs of a row
     chebyshev, polynomial_pieces          functions as series and as pieces of polynomials

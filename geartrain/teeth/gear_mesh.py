@@ -1,4 +1,4 @@
-"""A gear pair with real teeth, whatever their form, and what is wrong with them in the ways in which it is driven."""
+"""A gear pair with real teeth: what a train asks of it, whatever their form."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
-from geartrain.teeth.pair_verdict import friction_lock, friction_lock_at_speed
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -94,19 +93,6 @@ class GearMesh(ABC):
         return rubbed(law, self.wheels)
 
     @property
-    def friction_words(self) -> str:
-        """Its friction in words, at the speed at which it runs."""
-        declared, at = self.wheels.friction_law, self.wheels.pitch_line
-        if declared is None:
-            return f"Coefficient of friction {self.law.friction:g}"
-        if at is None:
-            return f"Friction by the law '{declared.law}' of speed, and no speed is known"
-        return (
-            f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
-            f"{self.losses.friction:.6g}"
-        )
-
-    @property
     def pitch_radius(self) -> float | None:
         """Radius [m] at which the first wheel named rolls on the second; None where nothing gives the pair a size."""
         module, size = self.wheels.module, self.own_size
@@ -158,8 +144,17 @@ class GearMesh(ABC):
     def own_faults(self) -> Iterator[Problem]:
         """Everything that is wrong with these teeth, without pair and place."""
         yield from (fault.problem for fault in self.verdict.faults)
+        yield from self.friction_faults()
 
-        yield from friction_faults(self)
+    def friction_faults(self) -> Iterator[Problem]:
+        """That friction locks these teeth, if it does."""
+        from geartrain.teeth.pair_verdict import friction_lock, friction_lock_at_speed
+
+        if self.wheels.friction_law is None:
+            if self.law.locks:
+                yield friction_lock(self.law.friction, self.law.locking_friction)
+        elif self.verdict and self.losses.locks:
+            yield friction_lock_at_speed(self.wheels.friction_law.law, self.law.locking_friction)
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
@@ -236,16 +231,45 @@ class GearMesh(ABC):
         GearTrainError
             Where no such wheel can be cut.
         """
-        from geartrain.teeth.outlines.wheel_outline import MeshedTeeth, outline_wheel
+        import numpy as np
 
-        size, counts = self.own_size, self.wheels.counts[:: 3 - 2 * gear]
+        from geartrain.teeth.outlines.contour import Contour
+        from geartrain.teeth.outlines.cut_wheel import WheelOutline
+        from geartrain.teeth.outlines.tooth_outline import repeated
+        from geartrain.teeth.outlines.wheel_outline import bore
+
+        size = self.own_size
         scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
         tooth, mate = (self.requirement(name, scale, tolerance).cut() for name in self.gear.pair[:: 3 - 2 * gear])
-        # of the driven wheel play is an angle
-        turned = counts[0] if self.driven == self.gear.pair[gear - 1] else counts[1]
+        z, other = self.wheels.counts[:: 3 - 2 * gear]
         distance = self.wheels.touching if size is None else size.distance
-        meshed = MeshedTeeth(tooth, mate, counts[0], distance, self.verdict.play * turned / 2)
-        return outline_wheel(gear, meshed, cut)
+        teeth = Contour.of(repeated(tooth.tooth, z)).scaled(cut.module)
+        if tooth.kind == "ring":
+            rim = 2 * cut.module if cut.rim is None else cut.rim
+            contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
+        else:
+            contours = [teeth, *bore(cut, tooth.root * cut.module)]
+        points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
+        side = points[points[:, 1] >= 0]
+        side = side[np.argsort(np.hypot(*side.T))]
+        half = float(np.interp(z / 2, np.hypot(*side.T), np.arctan2(side[:, 1], side[:, 0])))
+        return WheelOutline(
+            gear=gear,
+            z=z,
+            kind=tooth.kind,
+            contours=tuple(contours),
+            module=cut.module,
+            pitch_radius=z / 2 * cut.module,
+            tip_radius=tooth.tip * cut.module,
+            root_radius=tooth.root * cut.module,
+            thickness=half * z * cut.module,
+            fillet=0.0,
+            relief=0.0,
+            clearance=(distance - mate.tip - tooth.root) * cut.module,
+            backlash=self.verdict.play * (z if self.driven == self.gear.pair[gear - 1] else other) / 2 * cut.module,
+            centre_distance=distance * cut.module,
+            tolerance=cut.tolerance,
+        )
 
     @property
     def has_cut_sizes(self) -> bool:
@@ -319,6 +343,19 @@ class GearMesh(ABC):
         """True if something is lost between these teeth."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
+    @property
+    def friction_words(self) -> str:
+        """The friction of the pair in words, at the speed at which it runs."""
+        declared, at = self.wheels.friction_law, self.wheels.pitch_line
+        if declared is None:
+            return f"Coefficient of friction {self.law.friction:g}"
+        if at is None:
+            return f"Friction by the law '{declared.law}' of speed, and no speed is known"
+        return (
+            f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
+            f"{self.losses.friction:.6g}"
+        )
+
     def efficiency(self, driver: str) -> SlidingEfficiency:
         """What arrives of the power that one wheel puts in, over a turn.
 
@@ -370,9 +407,6 @@ class GearMesh(ABC):
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 
-# ---------------------------------------------------------------------------------------------------------- mesh faults
-
-
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
     """Everything wrong with one pair in the ways it is driven; what is wrong in some ways only says in which."""
     said = [list(way.own_faults()) for way in ways]
@@ -384,12 +418,3 @@ def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
             placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
             found += [] if placed in found else [placed]
     return tuple(found)
-
-
-def friction_faults(mesh: GearMesh) -> Iterator[Problem]:
-    """That friction locks these teeth, if it does."""
-    if mesh.wheels.friction_law is None:
-        if mesh.law.locks:
-            yield friction_lock(mesh.law.friction, mesh.law.locking_friction)
-    elif mesh.verdict and mesh.losses.locks:
-        yield friction_lock_at_speed(mesh.wheels.friction_law.law, mesh.law.locking_friction)

@@ -12,8 +12,8 @@ budget
     In: a train, with whatever it declares. Out, by `find_budget`: what each pointer's error comes from (ratio, pins'
     theory, teeth, lost motion, cutting), in degrees and in days (docs/budgets.md).
 manufacturing_errors
-    In: wheels with each tooth where it stands, `CutWheel`. Out, by `cut_transmission_function`: the transmission
-    function and events of one pair over the cycle of its teeth.
+    In: what a train declares of how its wheels are cut, and drawn wheels with each tooth where it is. Out: which pairs
+    jam, clash, stand still or lose contact, and their transmission functions. The trials of `monte_carlo` ask it.
 """
 
 from __future__ import annotations
@@ -33,13 +33,6 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.budget.train_budget import find_budget as find_budget
     from geartrain.uncertainty.confidence_intervals import IntervalEstimate as IntervalEstimate
     from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
-    from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
-        CutTransmissionFunction as CutTransmissionFunction,
-    )
-    from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
-        cut_transmission_function as cut_transmission_function,
-    )
-    from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel as CutWheel
     from geartrain.uncertainty.manufacturing_errors.declared_errors import read_error_overrides as read_error_overrides
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map as jamming_map
@@ -74,8 +67,6 @@ __all__ = [
     "CountCombination",
     "CountProbability",
     "CrankLoad",
-    "CutTransmissionFunction",
-    "CutWheel",
     "FrictionPlan",
     "FrictionSpread",
     "FrictionTrials",
@@ -96,7 +87,6 @@ __all__ = [
     "TrialResults",
     "WeightDrive",
     "WheelPosterior",
-    "cut_transmission_function",
     "find_budget",
     "find_friction_plan",
     "find_sobol_indices",
@@ -121,8 +111,6 @@ __getattr__ = lazy_names(
         "ClearanceCase": "monte_carlo.clearance_study",
         "CountCombination": "posterior.posterior_result",
         "CountProbability": "posterior.posterior_result",
-        "CutTransmissionFunction": "manufacturing_errors.cut_transmission",
-        "CutWheel": "manufacturing_errors.cut_wheel",
         "IntervalEstimate": "confidence_intervals",
         "MonteCarloResult": "monte_carlo.monte_carlo_result",
         "PairEventRates": "monte_carlo.trial_results",
@@ -135,7 +123,6 @@ __getattr__ = lazy_names(
         "TrialPlan": "monte_carlo.trial_plan",
         "TrialResults": "monte_carlo.trial_results",
         "WheelPosterior": "posterior.posterior_result",
-        "cut_transmission_function": "manufacturing_errors.cut_transmission",
         "find_sobol_indices": "monte_carlo.sobol_indices",
         "find_trial_plan": "monte_carlo.trial_plan",
         "infer_counts": "posterior.inference",

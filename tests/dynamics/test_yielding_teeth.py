@@ -17,8 +17,8 @@ from geartrain import GearTrain
 from geartrain.dynamics import find_vibration_modes
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
 from geartrain.dynamics.contacts.law_tables import tabled_angle
-from geartrain.dynamics.contacts.slack_pin import SlackPin
 from geartrain.dynamics.contacts.tooth_yield import ToothYield, damping_ratio
+from geartrain.dynamics.contacts.train_model import SlackPin
 from geartrain.dynamics.steps.run_record import GAP, TIME_APART
 from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.errors import QuestionError

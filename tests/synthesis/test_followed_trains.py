@@ -8,11 +8,10 @@ from itertools import islice
 import numpy as np
 import pytest
 from concrete_trees import exact_dial, explanations, package_arbor, random_problem, sure_arbor, with_rings
+from studies.followed_train import is_reached
 
-from geartrain.synthesis.reconstruction.followed_train import is_reached
 from geartrain.synthesis.reconstruction.path_choice import PathChoice
-from geartrain.synthesis.reconstruction.path_growth import PathGrowth
-from geartrain.synthesis.reconstruction.path_lists import PathList
+from geartrain.synthesis.reconstruction.path_lists import PathGrowth, PathList
 from geartrain.synthesis.reconstruction.path_trees import PathTrees
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,

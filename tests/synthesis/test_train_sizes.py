@@ -14,7 +14,7 @@ from geartrain import GearTrain
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.errors import QuestionError
 from geartrain.synthesis import BestTrainSizes, SizeLimit, find_train_sizes
-from geartrain.synthesis.tooth_sizes.declared_sizes import declared_sizes, sizeable_meshes
+from geartrain.synthesis.tooth_sizes.train_sizes import declared_sizes, sizeable_meshes
 
 NARROW = {"radii": (0.99, 1.06)}
 TWO = """

@@ -13,17 +13,16 @@ from typing import Any
 import numpy as np
 import pytest
 from sorge import Pair, least_play
+from studies.cut_pair_law import CutPairLaw
 from test_hand_cut_batch import chance_that_none_rises
 
 from geartrain import GearTrain, load
 from geartrain.numerics import Execution, Journal, open_executor
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.uncertainty import (
-    CutWheel,
     IntervalEstimate,
     TrialPlan,
     TrialResults,
-    cut_transmission_function,
     find_sobol_indices,
     find_trial_plan,
     read_error_overrides,
@@ -31,6 +30,7 @@ from geartrain.uncertainty import (
     run_trials,
 )
 from geartrain.uncertainty.confidence_intervals import deviation_of, mean_of, percentile_of, wilson
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 from geartrain.uncertainty.monte_carlo.clearance_study import run_clearances
 from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
@@ -107,7 +107,7 @@ def test_every_trial_follows_the_law_of_its_own_wheels() -> None:
     for at in range(40):
         if not drawn.good[0][at] or not drawn.good[1][at]:
             continue
-        law = cut_transmission_function(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
+        law = CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
         lag = float(law.error(2 * pi * turns[at])) - plan.pairs[0].even
         assert abs(found[at]) == pytest.approx(abs(lag), abs=1e-10)
         checked += 1
@@ -142,9 +142,7 @@ def test_a_chain_is_one_law_after_the_other() -> None:
     even = 19 / 30 * plan.pairs[0].even + plan.pairs[1].even
     lag = float(TriangularTransmission(one.sizes).angle(0.0))
     for at in np.flatnonzero(drawn.good[0] & drawn.good[1] & drawn.good[2] & drawn.good[3]):
-        laws = [
-            cut_transmission_function(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)
-        ]
+        laws = [CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)]
         start = 2 * pi * float(turns[at])
         middle = float(laws[0].angle(start)) - lag
         end = float(laws[1].angle(middle)) + 19 / 30 * lag
@@ -216,7 +214,7 @@ def test_the_first_order_is_right_to_the_second_away_from_changes_of_couples() -
         one, two = drawn.pair(0).first.place, drawn.pair(0).second.place
         sizes = plan.pairs[0].sizes
         even = CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
-        couples = cut_transmission_function(sizes, *even).driving(np.array([S]))
+        couples = CutPairLaw.of(sizes, *even).driving(np.array([S]))
         first = -(float(law.speed(S)) * one[:, couples[0][0]] - two[:, couples[1][0]])
         left.append(np.abs(errors - float(law.error(S)) - first).mean())
     assert 1.8 < log2(left[1] / left[0]) < 2.2

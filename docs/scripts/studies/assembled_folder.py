@@ -83,7 +83,8 @@ class MeasuredOverlap:
 
 def read_parts(folder: Path) -> list[AssembledPart]:
     """All parts of assembly.stl, which follow each other as the nodes of assembly.glb that have a mesh."""
-    triangles = trimesh.load(folder / "assembly.stl", process=False).triangles
+    whole: Any = trimesh.load(folder / "assembly.stl", process=False)
+    triangles = whole.triangles
     data = (folder / "assembly.glb").read_bytes()
     content = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     nodes = content["nodes"]

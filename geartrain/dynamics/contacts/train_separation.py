@@ -11,7 +11,7 @@ from geartrain.errors import check_numbers
 
 if TYPE_CHECKING:
     from geartrain.dynamics.inertia.separation_rate import SeparationRates
-    from geartrain.dynamics.motion.tooth_impacts import ToothImpact
+    from geartrain.dynamics.motion.pair_impacts import ToothImpact
     from geartrain.dynamics.train_mechanics import TrainMechanics
 
 
@@ -117,7 +117,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     from geartrain.dynamics.inertia.link_inertia import find_link_inertias
     from geartrain.dynamics.motion.motion_model import Motion
     from geartrain.dynamics.motion.motion_problem import find_motion_problem
-    from geartrain.dynamics.motion.tooth_impacts import find_impacts
+    from geartrain.dynamics.motion.pair_impacts import find_impacts
 
     inertias = {each.link: each.value for each in find_link_inertias(train, state)}
     moving = find_motion_problem(train, state)

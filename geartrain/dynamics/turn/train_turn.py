@@ -28,7 +28,6 @@ def solve(
     samples: int = SAMPLES,
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
-    fast: bool | None = None,
 ) -> TorqueCycle:
     """The torque at every position of some turns: see `GearTrain.torques`."""
     check_numbers(turns=turns)
@@ -39,7 +38,7 @@ def solve(
         check_choice("link", of, tuple(train.declaration.links))
     if found is None:
         return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
-    return find_torque_cycle(found, find_motion_problem(train, state), turns, samples, of, on_done, fast)
+    return find_torque_cycle(found, find_motion_problem(train, state), turns, samples, of, on_done)
 
 
 def study_friction(

@@ -176,9 +176,7 @@ class TriangularMesh(GearMesh):
         """Everything that is wrong, with what would mend it."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.wheels.friction_law is not None:
-            from geartrain.teeth.gear_mesh import friction_faults
-
-            yield from friction_faults(self)
+            yield from self.friction_faults()
         elif self.verdict and self.law.locks:
             yield Problem(*explain_friction_lock(self.law))
 

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.work import Execution
@@ -332,9 +331,7 @@ class FrictionTrials(Result):
         return self.done == self.wanted
 
 
-def try_frictions(
-    plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None, fast: bool | None = None
-) -> FrictionTrials:
+def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None) -> FrictionTrials:
     """Torque over a turn, so many times, each with frictions of its own.
 
     The same for any number of workers, however often it was interrupted and taken up. Interrupted (Ctrl-C), it returns
@@ -350,8 +347,6 @@ def try_frictions(
         The same seed draws the same frictions.
     means : Execution, optional
         Executor, journal of finished trials, progress report; by default this process, and none of the others.
-    fast : bool, optional
-        Whether compiled kernels balance the positions; by default where that pays and the extra `fast` is installed.
 
     Returns
     -------
@@ -384,13 +379,11 @@ def try_frictions(
     True
     """
     check_trials(trials)
-    # of a study that this process makes for itself anyway, or that costs little beside the trials
-    compiled = plan.study is not None and is_fast(fast, plan.study.seconds * trials)
     size = min(_MOST, -(-trials // _TASKS))
     tasks = [[start, min(start + size, trials)] for start in range(0, trials, size)]
     found: list[list[float | None]] = []
     try:
-        for rows in (means or Execution()).run(partial(work_frictions, plan, seed, fast=compiled), tasks):
+        for rows in (means or Execution()).run(partial(work_frictions, plan, seed), tasks):
             found += rows
     except KeyboardInterrupt:
         if not found:
@@ -403,10 +396,8 @@ def try_frictions(
     )
 
 
-def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int], fast: bool = False) -> list[list[float | None]]:
-    """Some trials as plain data: the figures of each, None where the train locks; `fast` by compiled kernels."""
-    if fast and plan.study is not None:
-        plan.study.compile()
+def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
+    """Some trials as plain data: the figures of each, None where the train locks."""
     return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 

@@ -97,7 +97,6 @@ def run_trials(
     seed: int = 1,
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
-    fast: bool | None = None,
 ) -> TrialResults:
     """Monte Carlo: each trial cuts all wheels anew and judges every pair over its whole cycle of teeth.
 
@@ -116,9 +115,6 @@ def run_trials(
         Executor, journal of finished blocks, progress report; by default this process, and none of the others.
     take : callable, optional
         Given each block of trials as it comes, a TrialRecord.
-    fast : bool, optional
-        Whether a compiled kernel judges pairs with every error, the same to 1e-12; by default where numba is installed
-        and there is so much work that it pays to load it.
 
     Returns
     -------
@@ -150,7 +146,6 @@ def run_trials(
     (0, [0.0, 0.0566])
     """
     check_trials(trials)
-    plan = plan.judged(fast, trials)
     means, work, tasks = means or Execution(), partial(work_block, plan, seed), trial_tasks(trials)
     found: list[TrialRecord] = []
     try:

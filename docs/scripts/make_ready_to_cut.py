@@ -84,7 +84,7 @@ def _proved(name: str, kind: str) -> dict[str, Any]:
 
     start = process_time()
     train = geartrain.load(name)
-    work = SolidModel(train, ManufacturingSizes(), train.state_or_first(None))
+    work = SolidModel(train, ManufacturingSizes(), train.declaration.state_or_first(None))
     proof = prove_train(work)
     proved = process_time()
     kinds, _ = installed(list(KINDS))

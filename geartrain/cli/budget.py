@@ -60,7 +60,7 @@ def run(
     force: Force = False,
 ) -> None:
     """What each pointer's error comes from, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.numerics.work import Execution
     from geartrain.report.budget_report import describe_budget
     from geartrain.uncertainty.budget.train_budget import STAGES, BudgetQuestion, find_budget
@@ -82,7 +82,7 @@ def run(
     train = load(file)
     with RunOptions(workers).executor("budget") as executor, progress("budget", STAGES) as bar:
         means = Execution(executor)
-        found = find_budget(train, question, train.state_or_first(state), means, bar.advance)
+        found = find_budget(train, question, train.declaration.state_or_first(state), means, bar.advance)
     if plot is not None:
         from geartrain.drawing import budget_figure
 

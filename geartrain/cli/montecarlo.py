@@ -61,7 +61,7 @@ def run(
     force: Force = False,
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.uncertainty import find_trial_plan, read_error_overrides
     from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies

@@ -71,7 +71,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.torque_figures import collect_torque_report
     from geartrain.report.torque_report import describe_torques
 
@@ -111,7 +111,9 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
     """Torque over some turns in the one state that is loaded."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
-        period = train.torque_period(state, link)
+        from geartrain.dynamics.turn.train_turn import find_torque_period
+
+        period = find_torque_period(train.mechanics, state, link)
         if period is None:
             raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
         span = float(period)
@@ -171,6 +173,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
+    from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_cycle_report import turns_text
     from geartrain.report.torque_report import summary_text
 
@@ -180,7 +183,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
         draw(torque_cycle_figure(over_turn, f"{name}: torque over {turns_text(over_turn.span)}"), picture)
         return
     watts = watts_per_unit(train.declaration, train.declaration.case(torques.state))
-    if torques.verdict.kind == "unloaded" and (ways := train.drive_both_ways(torques.state)):
+    if torques.verdict.kind == "unloaded" and (ways := drive_both_ways(train.mechanics, torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(train.power_flow(torques), f"{name}: {summary_text(torques)}", watts), picture)
+    draw(power_figure(torques, f"{name}: {summary_text(torques)}", watts), picture)

@@ -82,7 +82,7 @@ def _of_doubt() -> dict[str, Schema]:
 
 def _of_spheres() -> dict[str, Schema]:
     from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.polyhedron_survey import SurveyRow
+    from geartrain.spherical.polyhedron_gears import SurveyRow
     from geartrain.spherical.tooth_count_search import ToothCountSuggestions
 
     return {

@@ -126,7 +126,7 @@ def test_a_fault_deep_inside_is_one_too(
         raise RuntimeError("deep")
 
     monkeypatch.setattr("geartrain.analysis.gear_train.GearTrain.solve", fail)
-    monkeypatch.setattr("geartrain.analysis.loader.load", fail)
+    monkeypatch.setattr("geartrain.analysis.gear_train.load", fail)
     for verb in ("solve", "report", "check", "compare", "torques", "equations", "graph"):
         assert run(verb, "worm")[0] == 3, verb
 

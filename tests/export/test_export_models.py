@@ -438,7 +438,7 @@ def test_key_frames_of_real_teeth_follow_the_motion() -> None:
     for link, (moments, quaternions) in channels.items():
         at = links.index(link)
         error = motion.at(float(turns) * moments / moments[-1]).error[at]
-        parent = train.tree.parent[link][0]
+        parent = train.kinematics.tree.parent[link][0]
         if parent != train.declaration.frame:
             continue
         speed = work.scene.bodies[at].speed

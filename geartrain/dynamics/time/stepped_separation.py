@@ -220,7 +220,7 @@ class SteppedSeparation(Result):
 
     See Also
     --------
-    geartrain.GearTrain.stepped_separation : gives it.
+    geartrain.dynamics.step_to_separation : gives it.
     """
 
     input: str

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.cycle_parts import CycleFigures
     from geartrain.dynamics.turn.pair_contact import PairContact
     from geartrain.dynamics.turn.turn_balance import TurnBalance
-    from geartrain.train.friction_in_force import FrictionInForce
+    from geartrain.train.declaration import FrictionInForce
 
 
 @dataclass

@@ -16,7 +16,7 @@ from time import monotonic
 from typing import Any
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem
-from geartrain.numerics.work.executors import WorkerDiedError, WorkerPool, follow
+from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
 
 try:
     dask: Any = import_module("dask")  # it carries no types

@@ -19,7 +19,7 @@ from multiprocessing.connection import Connection
 from threading import Thread
 from typing import Any
 
-from geartrain.numerics.work.executors import WorkerDiedError, WorkerPool, follow
+from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
 
 _MOST = 61 if sys.platform == "win32" else 10_000  # as many processes as Windows can wait for
 

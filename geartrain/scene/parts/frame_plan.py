@@ -106,7 +106,7 @@ class FramePlan:
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
         """Diameters of the arbor on an axis and of its pivots, as asked for, else as its link declares (mm)."""
         train = self.stack.train
-        links = [link for link in train.declaration.links if train.tree.axis(link) == axis]
+        links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
         if self.core is not None or not declared:
             return self.core, None
@@ -119,7 +119,7 @@ class FramePlan:
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
         for link, carried in by_carrier.items():
-            axis = self.stack.train.tree.axis(link) or ""
+            axis = self.stack.train.kinematics.tree.axis(link) or ""
             own = [disc for disc in self.stack.discs if disc.link == link]
             at = self.stack.flat(self.stack.axes[axis].point)
             own_pins = next((each for each in self.stack.pin_circles.values() if each.link == link), None)
@@ -135,7 +135,7 @@ class FramePlan:
             if circle.link in seated:
                 continue  # its pins go through all discs
             seated.add(circle.link)
-            axis = self.stack.train.tree.axis(circle.link) or ""
+            axis = self.stack.train.kinematics.tree.axis(circle.link) or ""
             slots = self._slots(circle)
             if circle.link not in by_carrier and axis in self.stack.axes and slots:
                 at = self.stack.flat(self.stack.axes[axis].point)
@@ -389,7 +389,7 @@ def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
     for link, declared in train.declaration.links.items():
-        axis = train.tree.axis(link) or ""
+        axis = train.kinematics.tree.axis(link) or ""
         radius = _PART * max((disc.outer for disc in stack.discs if disc.axis == axis), default=0.0)
         if link in held - bearing and not declared.wheels and axis in stack.axes and radius:
             at, found = stack.flat(stack.axes[axis].point), []

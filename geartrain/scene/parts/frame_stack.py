@@ -148,7 +148,11 @@ class FrameStack:
 
     def carrier_axis(self, axis: AxisPlace) -> str | None:
         """The axis of the frame about which an upright axis is carried round."""
-        own = None if axis.carrier == self.frame or not self.is_upright(axis) else self.train.tree.axis(axis.carrier)
+        own = (
+            None
+            if axis.carrier == self.frame or not self.is_upright(axis)
+            else self.train.kinematics.tree.axis(axis.carrier)
+        )
         return own if own in self.axes else None
 
     @cached_property
@@ -222,7 +226,7 @@ class FrameStack:
             pins = {each.link for each in self.pin_circles.values()} | {cup.link for cup in self.cups}
             return dict.fromkeys(inner, (True, False)) | dict.fromkeys(pins - inner, (False, True))
         carriers = {self.layout.axes[each.axis].carrier for each in self.eccentrics}
-        about = {self.train.tree.axis(link) for link in carriers}
+        about = {self.train.kinematics.tree.axis(link) for link in carriers}
         drives = {disc.link for disc in self.wheel_discs if disc.axis in about and disc.hub}
         return dict.fromkeys(drives - {self.frame}, (False, True)) | dict.fromkeys(carriers, (True, False))
 
@@ -253,7 +257,7 @@ class FrameStack:
         middle = plus(place.centre, axis.direction, (below + above) / 2)
         half, height = outer * flat + thick * abs(along), dot(middle, self.normal)
         (x, y), low, high = self.flat(middle), height - half, height + half
-        about = None if axis.carrier == self.frame else self.train.tree.axis(axis.carrier)
+        about = None if axis.carrier == self.frame else self.train.kinematics.tree.axis(axis.carrier)
         if about is not None and about in self.layout.axes:
             centre = self.flat(self.layout.axes[about].point)
             return AcrossWheel(place.wheel, low, high, ((centre, dist(centre, (x, y)) + hypot(outer, thick)),))
@@ -399,7 +403,7 @@ class StackEccentrics:
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
         """Links that bear together what one stands for, on axes that are carried about its own: axes, couplings."""
-        tree = self.stack.train.tree
+        tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot
             if isinstance(coupling, Parallel) and link in pair:
@@ -426,7 +430,7 @@ class StackEccentrics:
 
 def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
     """Walls between thin wheels and links on axes of the frame."""
-    declared, tree = stack.train.declaration, stack.train.tree
+    declared, tree = stack.train.declaration, stack.train.kinematics.tree
     for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
         for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
             own = [disc for disc in stack.wheel_discs if disc.link == thin and declared.wheels[disc.name][1].flexible]
@@ -441,7 +445,10 @@ def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
 def find_pin_circles(stack: FrameStack) -> Iterator[PinCircle]:
     """Pins in round holes that no wheel of their own link is wide enough to bear."""
     for declared in stack.train.declaration.couplings:
-        places = [stack.layout.axes.get(stack.train.tree.axis(link) or "") for link in (declared.pin, declared.slot)]
+        places = [
+            stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")
+            for link in (declared.pin, declared.slot)
+        ]
         if not isinstance(declared, PinsInHoles) or not all(each and stack.is_upright(each) for each in places):
             continue
         first, second = (stack.flat(each.point) for each in places if each)

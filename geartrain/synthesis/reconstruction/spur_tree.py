@@ -322,7 +322,7 @@ class _Parts:
         gears = (each for each in self._solved.circuits if each.kind == "gear")
         for at, each in enumerate(gears):
             if each.carrier not in (each.i, each.j) and are_spur_mates(
-                self.train, self._solved.tree, each.wheels, each.carrier
+                self.train, self._solved.kinematics.tree, each.wheels, each.carrier
             ):
                 for own, other in (each.wheels, each.wheels[::-1]):
                     meshes = found[each.carrier].meshes

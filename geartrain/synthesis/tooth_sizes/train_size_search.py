@@ -177,7 +177,7 @@ class TrainSizeSearch:
         on_step: OnStep,
     ) -> None:
         self.train, self.aim, self.limits, self._on_step = train, aim, tuple(limits), on_step
-        self.output, self.state = output, train.state_or_first(state)
+        self.output, self.state = output, train.declaration.state_or_first(state)
         self.free = checked_ranges({"radii": None} if free is None else free)
         case = train.declaration.case(self.state)
         self.source = train.declaration.crank or next(iter(case.inputs), "")
@@ -211,7 +211,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _all_meshes(self) -> tuple[GearMesh, ...]:
-        return self.train.meshes_in(self.state)
+        return self.train.mechanics.meshes_in(self.state)
 
     @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:

@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.torques.train_torques import drive_both_ways
+from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Quantity
@@ -47,7 +49,7 @@ def natural_turns(train: GearTrain, state: str | None, lead: str, of: str | None
     what speeds are by, an hour or a day. Fewer turns where more teeth pass than can be followed.
     """
     once = abs(train.declaration.case(state).inputs[lead]) or 1
-    period, unit = train.torque_period(state, of), train.declaration.unit_days
+    period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
     if period is None:
         return float(once)
     used = train.motion(state, tuple(train.declaration.links)).ahead.used
@@ -203,7 +205,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mappi
         return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
     if not loses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
-    ways = train.drive_both_ways(state)
+    ways = drive_both_ways(train.mechanics, state)
     if not ways or not ways[0].torques.verdict:
         return CrankLoad(link, None, None, "no loads are declared", pointers)
     way = ways[0]

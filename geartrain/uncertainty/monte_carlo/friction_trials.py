@@ -103,7 +103,9 @@ class FrictionPlan:
     @cached_property
     def study(self) -> FrictionStudy | None:
         """What trials have in common, as long as the same side drives each pair; None where they have nothing."""
-        return self._nominal.friction_study(self.turns, self.samples, self.state, self.of)
+        from geartrain.dynamics.turn.train_turn import study_friction
+
+        return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)
 
     def follow(self, drawn: Train) -> CycleFigures:
         """Figures of the run of one trial.
@@ -122,7 +124,9 @@ class FrictionPlan:
         from geartrain.dynamics.turn.cycle_parts import CycleFigures
 
         train, parts, study = GearTrain(drawn), (*drawn.gears, *drawn.couplings), self.study
-        if study is not None and (study.certain or train.drivers(self.state) == self._nominal.drivers(self.state)):
+        if study is not None and (
+            study.certain or train.mechanics.drivers(self.state) == self._nominal.mechanics.drivers(self.state)
+        ):
             frictions = {part.name: friction for part in parts if (friction := drawn.friction_of(part)) is not None}
             figures = study.figures(frictions)
             if not study.certain or figures.mean is not None:  # where it locks other sides may drive

@@ -1,22 +1,35 @@
-"""From a train and what is prescribed to an answer: the train or the part that matters, the method, judged outputs."""
+"""The kinematics of a train: its tree, circuits, mobility and speeds, each found once, when it is first requested.
+
+An answer goes from what is prescribed in a state to the train or the part of it that matters, the method, and judged
+outputs. Remarks are conventions and means that the answers of a sound declaration depend on: notes, never errors.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
-from geartrain.errors import Problem, QuestionError, RangeError, check_choice, suggest
+from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy
-from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import OutputResult, Relative, SpeedValue, judge_outputs
+from geartrain.kinematics.planet_copies import check_copies, has_copies
 from geartrain.kinematics.relative_speeds import relative_speed
-from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, determined_verdict, exact_verdict, solve
+from geartrain.kinematics.speeds import (
+    EXACT_BUDGET,
+    Mobility,
+    Solution,
+    determined_verdict,
+    exact_verdict,
+    find_mobility,
+    solve,
+)
 from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
 from geartrain.kinematics.verdict import Verdict
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
@@ -25,10 +38,40 @@ from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.long_float import rounded, scaled
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
-from geartrain.train import StateCase, Train
+from geartrain.train import GearPair, StateCase, Train
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.gridlock.removal import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds
+
+
+# ----------------------------------------------------------------------------------------------------------------- lint
+
+
+def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
+    """Pairs whose sense is a convention, for nothing declared fixes it, and pairs whose drive is intermittent."""
+    at = {gear.name: position for position, gear in enumerate(train.gears)}
+    for circuit in circuits:
+        if circuit.note:
+            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
+    for position, gear in enumerate(train.gears):
+        yield from (_intermittent(train, wheel, position) for wheel in gear.pair if _is_finger(train, gear, wheel))
+
+
+def _is_finger(train: Train, gear: GearPair, name: str) -> bool:
+    """True of a spur wheel of one tooth, but for helical teeth, which overlap, and for a form that shapes the tooth."""
+    wheel = train.wheels[name][1]
+    return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
+
+
+def _intermittent(train: Train, wheel: str, position: int) -> Problem:
+    what = f"wheel '{wheel}' has one tooth, which cannot drive continuously"
+    why = "the mean ratio is exact; the motion is intermittent"
+    return Problem(what, why, "", train.place("gears", position))
+
+
+# ----------------------------------------------------------------------------------------------------- train kinematics
+
 
 Method = Literal["auto", "exact", "sparse", "floats"]
 """How to solve; "floats" is an older name of "sparse"."""
@@ -36,35 +79,175 @@ Method = Literal["auto", "exact", "sparse", "floats"]
 _CONDITIONED = 400  # links up to which each has its condition number; beyond, those of the outputs
 
 
-@dataclass(frozen=True)
-class SpeedProblem:
-    """A train whose speeds are asked for, case by case.
+@final
+@dataclass(frozen=True, eq=False)
+class TrainKinematics:
+    """Everything about a declared train that follows without teeth.
 
-    signs         -1 for links whose axis points against the reference direction of its parallels
-    is_rotation   of two links, whether the axes between them are all parallel
+    Attributes
+    ----------
+    declaration : Train
+        What is declared.
+
+    See Also
+    --------
+    geartrain.GearTrain.kinematics : gives it.
     """
 
     declaration: Train
-    circuits: Sequence[Circuit]
-    signs: Mapping[str, int]
-    is_rotation: Callable[[str, str], bool]
+
+    # ------------------------------------------------------------------------------------------ joints and circuits
+
+    @cached_property
+    def tree(self) -> Tree:
+        """The turning pairs as a spanning tree rooted at the frame."""
+        tree = find_tree(self.declaration)
+        if has_copies(self.declaration):
+            check_copies(self.declaration, tree)
+        return tree
+
+    @cached_property
+    def circuits(self) -> tuple[Circuit, ...]:
+        """One fundamental circuit for each gear pair and coupling."""
+        return find_circuits(self.declaration, self.tree)
+
+    def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
+        """The circuits but those of some pairs.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Pairs left out.
+
+        Raises
+        ------
+        QuestionError
+            For a pair that is not declared.
+        """
+        known = [circuit.id for circuit in self.circuits]
+        for name in (name for name in names if name not in known):
+            what = f"'{self.declaration.name}' has no pair '{name}'"
+            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
+        return tuple(circuit for circuit in self.circuits if circuit.id not in names)
+
+    @cached_property
+    def _axes(self) -> Axes:
+        return Axes(self.declaration, self.tree)
+
+    @cached_property
+    def signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels."""
+        return self._axes.link_signs
+
+    @cached_property
+    def joint_sums(self) -> frozenset[str]:
+        """Links whose speed is a sum over non-parallel joints, and not a rotation."""
+        return self._axes.joint_sums
+
+    def is_rotation(self, of: str, base: str) -> bool:
+        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation.
+
+        Parameters
+        ----------
+        of, base : str
+            Two links; the order does not matter.
+        """
+        return not self.joint_sums or self._axes.is_rotation(of, base)
+
+    # -------------------------------------------------------------------------------------------------------- states
+
+    @cached_property
+    def cases(self) -> Mapping[str | None, StateCase]:
+        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
+        declared = self.declaration.cases
+        return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
+
+    @property
+    def usable_states(self) -> tuple[str | None, ...]:
+        """States in which speeds can be calculated; None for a train without states."""
+        return tuple(state for state, case in self.cases.items() if not case.problems)
+
+    def case(self, state: str | None = None) -> StateCase:
+        """What is prescribed in one state.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Raises
+        ------
+        DeclarationError
+            Where speeds cannot be calculated in it.
+        """
+        case = self.cases[self.declaration.single_state(state)]
+        if case.problems:
+            raise DeclarationError(case.problems)
+        return case
+
+    # ------------------------------------------------------------------------------------------- mobility and speeds
 
     @cached_property
     def whole(self) -> SolvedPart:
         """All links and circuits, ready to be solved."""
         return self._part(self.circuits, tuple(self.declaration.links))
 
+    @cached_property
+    def mobility(self) -> Mobility:
+        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
+
+    @cached_property
+    def is_placed(self) -> bool:
+        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
+        return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
+
+    @cached_property
+    def gridlock(self) -> Gridlock:
+        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
+        from geartrain.kinematics.gridlock import find_gridlock
+
+        return find_gridlock(self.whole, self.mobility)
+
+    @cached_property
+    def remarks(self) -> tuple[Problem, ...]:
+        """Conventions that the answers of a sound declaration depend on: notes, never errors."""
+
+        return tuple(lint_train(self.declaration, self.circuits))
+
     def solution(self, case: StateCase) -> Solution:
-        """Exact speeds and the verdict, however long they take."""
+        """Exact speeds and the verdict, however long they take.
+
+        Parameters
+        ----------
+        case : StateCase
+            One of `cases`.
+        """
         return solve(self.whole, case, self.signs, None)
 
-    def equations(self, case: StateCase) -> WillisSystem:
-        """The labelled Willis system of one case."""
-        return self._system(self.whole, case)
+    def equations(self, state: str | None = None) -> WillisSystem:
+        """The labelled Willis system of one state (docs/theory.md, 6).
 
-    def answer(self, case: StateCase, output: str | None = None, method: Method = "auto") -> Answer:
-        """Speeds and judged outputs; with an `output` (or a link), only the circuits that drive it are solved."""
-        wanted, part = None, self.whole
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        return self._system(self.whole, self.case(state))
+
+    def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
+        """Speeds and judged outputs in one state: see `GearTrain.solve`.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        output : str, optional
+            An output or a link: only the circuits that drive it are solved.
+        method : {"auto", "exact", "sparse"}
+            How to solve.
+        """
+        wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
         if output is not None:
             case, wanted = self.single_output(case, output)
             part = self._pruned(case, wanted)
@@ -87,8 +270,15 @@ class SpeedProblem:
         verdict, speeds = solution.verdict, solution.speeds
         return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
-    def sensitivity(self, case: StateCase, answer: Answer) -> Iterator[Sensitivity]:
-        """What one tooth fewer or more on each uncertain wheel does to each output of an answer."""
+    def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
+        """What one tooth fewer or more on each uncertain wheel does to each output of an answer.
+
+        Parameters
+        ----------
+        answer : Answer
+            As `solve` gives it.
+        """
+        case = self.case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
             return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).relative
@@ -96,12 +286,30 @@ class SpeedProblem:
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
     def floats(
-        self, case: StateCase, inputs: Mapping[str, Sequence[float]] | None, condition_of: Sequence[str]
+        self,
+        state: str | None = None,
+        inputs: Mapping[str, Sequence[float]] | None = None,
+        condition_of: Sequence[str] = (),
     ) -> FloatSpeeds:
-        """Float64 speeds; `inputs` give speeds, one a case, in place of the declared ones."""
+        """Float64 speeds through a sparse LU, with error estimates; many input speeds share one factorisation.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        inputs : mapping of str to sequence of float, optional
+            Link -> speeds, one a case, in place of the declared ones [unit of the train].
+        condition_of : sequence of str
+            Links whose component-wise condition number is wanted (docs/theory.md, equation 25).
+
+        Returns
+        -------
+        FloatSpeeds
+            Speeds and error estimates, arrays (link, case).
+        """
         from geartrain.kinematics.speeds import solve_floats
 
-        system = self.equations(case)
+        system, case = self.equations(state), self.case(state)
         if inputs is not None:
             _check_inputs(inputs, tuple(case.inputs))
         for link in condition_of:
@@ -109,7 +317,20 @@ class SpeedProblem:
         return solve_floats(system, inputs, condition_of)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """The case with one output, and the links that output is made of: what turns, and from where it is seen."""
+        """The case with one output, and the links that output is made of: what turns, and from where it is seen.
+
+        Parameters
+        ----------
+        case : StateCase
+            One of `cases`.
+        output : str
+            An output or a link.
+
+        Raises
+        ------
+        QuestionError
+            For an output that is not declared.
+        """
         train = self.declaration
         declared = case.outputs.get(output)
         if declared is None and output not in train.links:
@@ -122,6 +343,20 @@ class SpeedProblem:
         outputs = {output: declared} if declared else {}
         links = declared.links(output, train.frame) if declared else (output, train.frame)
         return replace(case, outputs=outputs), links
+
+    def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
+        """By output or link: what turns, and the link from which it is seen.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None only of a train that has none.
+        names : sequence of str
+            Outputs or links; by default all outputs, and all links of a train without any.
+        """
+        case = self.case(state)
+        chosen = names or tuple(case.outputs) or tuple(self.declaration.links)
+        return {name: self.single_output(case, name)[1] for name in chosen}
 
     # ------------------------------------------------------------------------------------------ the part that matters
 

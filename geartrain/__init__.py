@@ -14,7 +14,7 @@ from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain as GearTrain
-    from geartrain.analysis.loader import load as load
+    from geartrain.analysis.gear_train import load as load
     from geartrain.errors import GearTrainError as GearTrainError
     from geartrain.kinematics.answer import Answer as Answer
     from geartrain.kinematics.verdict import Verdict as Verdict
@@ -30,7 +30,7 @@ __getattr__ = lazy_names(
         "GearTrain": "analysis.gear_train",
         "GearTrainError": "errors",
         "Verdict": "kinematics.verdict",
-        "load": "analysis.loader",
+        "load": "analysis.gear_train",
         "shipped": "train.declaration_files",
     },
 )

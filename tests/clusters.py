@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import select
 import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 PATIENCE = 60.0  # s: for what is certain to come, on however busy a machine
 
@@ -21,6 +22,13 @@ def until(condition: Any, what: str) -> Any:
             return found
         time.sleep(0.02)
     raise AssertionError(f"waited in vain for {what}")
+
+
+def next_line(stream: IO[str]) -> str:
+    """The next line that a process writes into a pipe, which is empty so far."""
+    ready, _, _ = select.select([stream], [], [], PATIENCE)
+    assert ready, f"no line in {PATIENCE:g} s"
+    return stream.readline()
 
 
 def alive(pid: int) -> bool:
@@ -53,11 +61,19 @@ def mixed(number: int) -> dict[str, Any]:
     return {"n": number, "third": number / 3, "huge": number**40, "pair": (number, None), "text": "Zähne\n", "no": []}
 
 
+def slow(seconds: float) -> tuple[float, int]:
+    """The time it takes, and the process that took it."""
+    time.sleep(seconds)
+    return seconds, os.getpid()
+
+
 def gated(task: tuple[str, int, int]) -> int:
-    """The square; tasks from `free` on wait until the folder has a gate that is open."""
+    """The square; tasks from `free` on wait until the folder has a gate that is open, or is gone with its test."""
     folder, number, free = task
     note(folder, number)
+    end = time.monotonic() + 2 * PATIENCE
     while number >= free and not (Path(folder) / "gate").exists():
+        assert time.monotonic() < end, "waited in vain at the gate"
         time.sleep(0.01)
     return number**2
 

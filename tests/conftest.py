@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
 from textwrap import dedent
@@ -93,6 +93,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.hook.pytest_deselected(items=left)
         out = {item.nodeid for item in left}
         items[:] = [item for item in items if item.nodeid not in out]
+    for item in items:
+        if "slow" in item.keywords:
+            item.add_marker(pytest.mark.timeout(3600))
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
@@ -100,6 +103,14 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
     for mark in item.iter_markers("needs"):
         for module in mark.args:
             pytest.importorskip(module, reason=f"{module} is not installed")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_core() -> Iterator[None]:
+    """Commands that run in the process of the tests start no others, however long they take."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("geartrain.numerics.work.executors.cores", lambda: 1)
+        yield
 
 
 @pytest.fixture

@@ -15,8 +15,6 @@ HEAD = """# The commands
 
 Written by `docs/scripts/make_commands.py` from the commands' own help texts. Every command also has `--help` (or `-h`).
 
-`posterior` was called `sweep` and `montecarlo` was called `errors`; the old words work still, and say the new ones.
-
 Where a command takes FILE, give a YAML declaration or the name of a shipped train (`geartrain list`).
 
 | exit code | means |

@@ -19,14 +19,12 @@ RECORD, PAGE = ROOT / "docs/data/extras.json", ROOT / "docs/extras.md"
 FOR = {
     "report": "`report`, `compare`, `torques` and others with `-o PAGE.html`",
     "plot": "`draw`, and `--plot` of every command",
-    "dask": "`--scheduler`: long runs on a cluster",
+    "dask": "`--dask`: long runs on a cluster",
     "dxf": "`export` of DXF",
-    "model": "`export` of GLB",
-    "nest": "`export --sheet`: parts laid out on sheets",
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",
-    "errors": "Sobol indices, Parquet and pandas: `montecarlo`, `.to_frame()`",
-    "fast": "compiled runs of `motion`, `torques --turns`, `dynamics`",
+    "tables": "Parquet and pandas: `montecarlo`, `posterior`, `.to_frame()`",
+    "fast": "compiled runs of `motion` and `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
     "sympy": "`train.formula(...)` as an expression of sympy",
     "watch": "`watch`: pages that follow a file",
@@ -39,7 +37,7 @@ Written by `python docs/scripts/make_extras.py --measure`.
 
 geartrain without extras brings {count:.0f} packages, {size:.0f} MB. That is enough for `solve`, `check`, `report`,
 `view`, `gearbox`, `formula`, `torques`, `motion`, `dynamics`, `strength`, `reconstruct`, all of `teeth` and `mesh`,
-`export` of SVG and STL, and for the library. A command that needs more prints what to install, by the names of the
+`export` of SVG, STL and GLB, and for the library. A command that needs more prints what to install, by the names of the
 packages, for example
 
 ```sh

@@ -16,7 +16,7 @@ from stills import can_draw, gif, stills
 
 import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
-from geartrain.dynamics import MotionRun
+from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.report.document import Document
 from geartrain.report.text import to_terminal
 from geartrain.report.train_data import collect_report
@@ -89,7 +89,7 @@ def pointers() -> None:
 def power() -> None:
     """The power that circulates in Norton's compound train."""
     train = geartrain.load("norton-compound")
-    figure = power_figure(train.power_flow(train.torques()), train.name)
+    figure = power_figure(find_power_flow(train.torques()), train.name)
     (IMAGES / "power.svg").write_bytes(render(figure, ".svg"))
     print("wrote docs/images/power.svg")
 

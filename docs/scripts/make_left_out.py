@@ -67,7 +67,7 @@ alike.
 it: the lists of paths are made with those ways alone that the train takes, and paths are chosen and put together to
 trees by the search itself. Whatever it rules out on the way, for all the reasons that it has, it would rule out here
 too. What the train does not need is not looked for, and counts are held against what is wanted, not counted
-(`followed`). Nothing but the evidence is told, and where whole trees are searched, this still is by lists of paths.
+(`followed`). Nothing but the evidence is told.
 
 - *How does it rank where meshes are told?* The meshes of all wheels that survive are told (`--seen`), and no more
 arbors may be added than are lost. So only what is lost is looked for, as where a mechanism lacks some of its arbors and
@@ -91,10 +91,6 @@ Where nothing but the surviving wheels and the pointers is told, its first rank 
 have explanations with fewer wheels than were lost. Where the meshes of what survives are told too, its rank is known in
 {told}: in {best} nothing weighs more, and in {only} it is the only one of the greatest weight. What is open did not end
 in the time that it had, or is still to be asked (`--more`).
-
-Of the questions that were not asked to the end {slow} are of parts in which paths are listed one by one, and {fast} of
-parts whose whole trees are searched, which is faster: it takes up to six dials of exact speeds and neither idlers nor
-rings (`searched by`).
 """
 
 
@@ -111,11 +107,7 @@ def page(records: LeftOutRecords) -> list[str]:
     lost = "; not: " + ", ".join(f"{row.train} without {' and '.join(row.lost)}" for row in records.lost)
     told = [row.told for row in records.rows if row.told is not None]
     many = sum(row.is_whole and not row.listed and row.rank is None for row in records.rows)
-    slower = {(tree.train, tree.part) for tree in records.trees if tree.slower}
-    rest = [(row.train, row.part) in slower for row in records.rows if not row.is_whole]
     numbers = {
-        "slow": sum(rest),
-        "fast": len(rest) - sum(rest),
         "possible": records.possible,
         "parts": len(records.trees),
         "trains": len({tree.train for tree in records.trees}),

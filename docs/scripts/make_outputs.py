@@ -104,8 +104,9 @@ def run(command: str, folder: Path, status: int = 0) -> tuple[list[str], int]:
     raw = b"".join(_read(ours))
     text = _ESCAPES.sub("", raw.decode("utf-8")).replace("\r\n", "\n")
     text = text.replace(f"{folder}/", "").replace(f"{ROOT}/", "")
-    # a progress bar overwrites itself, and is gone in the end
+    # a progress bar overwrites itself, and is gone in the end; the number of processes is of the machine
     lines = [line.split("\r")[-1].rstrip() for line in text.rstrip().split("\n") if "━" not in line]
+    lines = [line for line in lines if not line.endswith((" worker process", " worker processes"))]
     return lines if text.strip() else [], process.wait()
 
 

@@ -119,8 +119,8 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Every pair's transmission function evaluated directly, and interpolated in tables."""
-    laws = {mesh.name: mesh.law for mesh in train.meshes_in(state) if not mesh.rigid}
-    laws |= {pin.coupling.name: pin.law for pin in train.pins}
+    laws = {mesh.name: mesh.law for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
+    laws |= {pin.coupling.name: pin.law for pin in train.mechanics.pins}
     if not laws:
         what = "each pair with a tooth form has its exact ratio" if train.meshes else _NO_FORM
         raise QuestionError(Problem(what))
@@ -156,7 +156,7 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Errors composed in the solved order (by numpy, compiled, from tables), and superposed to first order."""
-    if not train.meshes_in(state) and not train.pins:
+    if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
 

@@ -9,6 +9,7 @@ from itertools import combinations
 from math import comb, log, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
@@ -17,7 +18,6 @@ from geartrain.numerics.tabular import Tabular
 from geartrain.train import State
 
 if TYPE_CHECKING:
-    from geartrain.analysis.train_strength import TrainUnderLoad
     from geartrain.kinematics.answer import Answer
 
 MOST_COMBINATIONS = 20_000
@@ -113,7 +113,7 @@ class GearSearch(Tabular, Result):
 
     See Also
     --------
-    geartrain.GearTrain.gear_search : gives it.
+    find_gears : gives it.
     """
 
     KEYS = (
@@ -147,24 +147,59 @@ class GearSearch(Tabular, Result):
 
 
 def find_gears(
-    train: TrainUnderLoad, output: str | None, number: int, steps: tuple[float, float], single: bool
+    train: GearTrain,
+    output: str | None = None,
+    gears: int = 0,
+    steps: tuple[float, float] = (1.05, 2.0),
+    single: bool = False,
 ) -> GearSearch:
-    """All gears and, for a number of gears above 1, series of them; see `GearTrain.gear_search`."""
-    source, link = gearbox_ends(train, output)
+    """Every gear that closing elements gives, declared or not, and series of gears.
+
+    Parameters
+    ----------
+    train : GearTrain
+        A train with clutches.
+    output : str, optional
+        One of the declared outputs, by default the first that is not the input.
+    gears : int
+        Forward gears of a series; below 2 none is looked for.
+    steps : tuple of float
+        Least and greatest ratio of a gear over the next.
+    single : bool
+        Only shifts in which one element opens and one closes.
+
+    Returns
+    -------
+    GearSearch
+        Complete and exact: all ways to close as many elements as are needed, and no more.
+
+    Raises
+    ------
+    QuestionError
+        As of `GearTrain.gearbox`, and where there are too many ways.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> found = find_gears(geartrain.load("simpson-set"), gears=3, steps=(1.4, 1.8))
+    >>> [round(float(ratio), 3) for ratio in found.evenest.ratios]
+    [2.455, 1.455, 1.0]
+    """
+    source, link = gearbox_ends(train.declaration, output)
     closed, every, free, locked = _all_gears(train, source, link)
     forward = sorted((each for each in every if each.ratio is not None and each.ratio > 0), key=_falling)
     backward = sorted((each for each in every if each.ratio is not None and each.ratio < 0), key=_falling)
     still = [each for each in every if each.ratio is None]
-    gears = (*forward, *backward, *still)
     ways = comb(len(train.declaration.clutches), closed)
-    found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, gears, free, locked)
-    if number < 2:
+    ordered = (*forward, *backward, *still)
+    found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, ordered, free, locked)
+    if gears < 2:
         return found
     low, high = (Fraction(str(step)) for step in steps)
     links = _links(forward, low, high, single)
-    widest, evenest = _widest(forward, links, number), _evenest(forward, links, number)
-    count = _count(forward, links, number)
-    return replace(found, asked=number, series=count, widest=widest, evenest=evenest)
+    widest, evenest = _widest(forward, links, gears), _evenest(forward, links, gears)
+    count = _count(forward, links, gears)
+    return replace(found, asked=gears, series=count, widest=widest, evenest=evenest)
 
 
 def _falling(gear: PossibleGear) -> Fraction:
@@ -188,7 +223,7 @@ class _AllGears(NamedTuple):
     locked: tuple[_Choice, ...] = ()
 
 
-def _all_gears(train: TrainUnderLoad, source: str, link: str) -> _AllGears:
+def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     """Every gear.
 
     All sets of rows that just suffice have one size, for they are the bases of a matroid.
@@ -212,11 +247,11 @@ def _all_gears(train: TrainUnderLoad, source: str, link: str) -> _AllGears:
     return _AllGears(len(elements), [])
 
 
-def _answered(train: TrainUnderLoad, choices: Sequence[_Choice]) -> list[Answer]:
+def _answered(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
     """What the train does with each choice closed."""
     first = next(iter(train.declaration.states.values()))
     states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}
-    return list(type(train)(train.declaration.model_copy(update={"states": states})).answers())
+    return list(GearTrain(train.declaration.model_copy(update={"states": states})).answers())
 
 
 def _gears(

@@ -9,6 +9,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, find_circulation
+from geartrain.dynamics.torques.power_flow import find_power_flow
+from geartrain.dynamics.torques.train_torques import solve_driven
 from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
@@ -16,12 +18,12 @@ from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.tabular import Tabular
 
 if TYPE_CHECKING:
-    from geartrain.analysis.train_strength import TrainUnderLoad
     from geartrain.dynamics import Torques
     from geartrain.dynamics.torques.power_flow import PowerFlow
+    from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.verdict import Verdict
-    from geartrain.train import Clutch
+    from geartrain.train import Clutch, Train
 
 ElementKind = Literal["brake", "clutch"]
 
@@ -201,37 +203,38 @@ def _told(value: Fraction | None) -> float | None:
     return None if value is None else as_float(value)
 
 
-def find_gearbox(train: TrainUnderLoad, output: str | None = None) -> Gearbox:
+def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
     """All states of a train with clutches; see `GearTrain.gearbox`."""
-    source, link = gearbox_ends(train, output)
-    answers = [train.solve(name) for name in train.states]
+    source, link = gearbox_ends(train.declaration, output)
+    answers = [train.kinematics.solve(name) for name in train.declaration.states]
     found = [_state(train, answer, source, link) for answer in answers]
     states = (_with_step(one, other) for one, other in zip(found, [*found[1:], None], strict=True))
     elements, shifts = tuple(_elements(train, found)), tuple(_shifts(found))
-    return Gearbox(train.name, train.declaration.title, source, link, tuple(states), elements, shifts)
+    own = train.declaration
+    return Gearbox(own.name, own.title, source, link, tuple(states), elements, shifts)
 
 
-def gearbox_ends(train: TrainUnderLoad, output: str | None) -> tuple[str, str]:
-    """The links at which power enters and leaves. Raises `QuestionError` for a train that is no gearbox."""
-    if not train.declaration.clutches or not train.states:
-        what, why = f"'{train.name}' is no gearbox", "it declares no `clutches` with `states` that engage them"
+def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
+    """The links at which power enters and leaves. Raises `QuestionError` for a train that is not a gearbox."""
+    if not declared.clutches or not declared.states:
+        what, why = f"'{declared.name}' is no gearbox", "it declares no `clutches` with `states` that engage them"
         raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with what is `engaged`"))
-    case = train.declaration.case(train.states[0])
+    case = declared.case(declared.state_or_first(None))
     source = next((link for link, speed in case.inputs.items() if speed), None)
     if source is None:
-        raise QuestionError(
-            Problem(f"'{train.name}' has no input that turns", "ratios are over it", "declare `inputs`")
-        )
-    names = [name for name, each in case.outputs.items() if each.links(name, train.declaration.frame)[0] != source]
+        what = f"'{declared.name}' has no input that turns"
+        raise QuestionError(Problem(what, "ratios are over it", "declare `inputs`"))
+    names = [name for name, each in case.outputs.items() if each.links(name, declared.frame)[0] != source]
     if output is None and not names:
-        raise QuestionError(Problem(f"'{train.name}' has no output", "ratios are those of one", "declare `outputs`"))
+        what = f"'{declared.name}' has no output"
+        raise QuestionError(Problem(what, "ratios are those of one", "declare `outputs`"))
     if output is not None:
         check_choice("output", output, case.outputs)
     name = output or names[0]
-    return source, case.outputs[name].links(name, train.declaration.frame)[0]
+    return source, case.outputs[name].links(name, declared.frame)[0]
 
 
-def _state(train: TrainUnderLoad, answer: Answer, source: str, link: str) -> GearState:
+def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> GearState:
     declared, state = train.declaration, answer.state or ""
     engaged, given = declared.states[state].engaged, declared.case(state).inputs
     drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
@@ -243,7 +246,7 @@ def _state(train: TrainUnderLoad, answer: Answer, source: str, link: str) -> Gea
         if name not in engaged and (slip := _slip(speeds, clutch)) is not None
     }
     out, load = speeds.get(link), _load(train, state, source, link) if answer.verdict else None
-    power = None if load is None else _circulation(train, load)
+    power = None if load is None else _circulation(load)
     return GearState(
         state,
         engaged,
@@ -267,9 +270,9 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
     return speeds[one] - (speeds[other] if other else 0)
 
 
-def _load(train: TrainUnderLoad, state: str, source: str, link: str) -> Torques | None:
+def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
     """Torques while the train is driven from its input and a unit of power leaves at the output."""
-    found = train.driven(link, source, state)
+    found = solve_driven(train, link, source, state)
     return found if found.verdict and found.external.get(source) else None
 
 
@@ -281,9 +284,9 @@ def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fr
     }
 
 
-def _circulation(train: TrainUnderLoad, load: Torques) -> tuple[Fraction, Fraction] | None:
+def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:
     """Power that runs round between gear sets, and inside them, over power in."""
-    flow = train.power_flow(load)
+    flow = find_power_flow(load)
     if not flow.power_in:
         return None
     whole = sum((loop.power for loop in flow.loops), Fraction(0))
@@ -327,7 +330,7 @@ def _shifts(states: Sequence[GearState]) -> Iterator[Shift]:
             yield Shift(one.state, other.state, released, applied)
 
 
-def _elements(train: TrainUnderLoad, states: Sequence[GearState]) -> Iterator[ShiftElement]:
+def _elements(train: TrainMechanics, states: Sequence[GearState]) -> Iterator[ShiftElement]:
     for name, clutch in train.declaration.clutches.items():
         closed = tuple(each.state for each in states if name in each.engaged)
         torque, at = _greatest((each.state, each.torques.get(name)) for each in states)

@@ -14,9 +14,9 @@ from geartrain.kinematics.graph import build_graph
 from geartrain.numerics.lazy_graph import Lazy, LazyDict
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.graph import Graph
@@ -30,7 +30,7 @@ _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind",
 def _refuse(*_: object, **__: object) -> NoReturn:
     """Raise `QuestionError` for what would change the graph and not the train."""
     what, why = "the graph of a train cannot be changed", "the answers of the train would not follow"
-    fix = "make another train: with_teeth, with_tooth_form, with_inputs or with_changes; or change a graph.copy()"
+    fix = "make another train: with_teeth or with_changes; or change a graph.copy()"
     raise QuestionError(Problem(what, why, fix))
 
 
@@ -64,11 +64,33 @@ class _Attributes(LazyDict):
         return self
 
 
-def build_train_graph(train: GearTrain, state: str | None) -> Graph:
-    """The declared graph, and on its nodes and edges what `GearTrain.graph_in` says.
+def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
+    """The train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings edges.
 
-    Neither circuits, speeds nor teeth are made before they are read: a train that cannot be solved has a graph too.
+    Nodes carry `declared`, `frame` (True of the one at rest), `wheels`, `reference` (the link that holds its axis)
+    and `speed`; edges `kind`, `label`, `declared`, `axis`, and pairs also `circuit`, `carrier`, `ratio`, `form`,
+    `mesh` and `efficiency` (docs/library.md, 2). All but what is declared is worked out when it is read: a train that
+    cannot be solved has a graph too.
+
+    Parameters
+    ----------
+    train : TrainMechanics
+        `GearTrain.mechanics`.
+    state : str, optional
+        A declared state; None only of a train that has none.
+
+    Returns
+    -------
+    networkx.MultiGraph
+        It cannot be changed; a copy can.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> build_train_graph(geartrain.load("planetary-24-18-60").mechanics).nodes["carrier"]["speed"]
+    Fraction(2, 7)
     """
+    state = train.kinematics.case(state).state
     graph = build_graph(train.declaration)
     graph.graph["state"] = state
     found = _GraphFacts(train, state)
@@ -105,7 +127,7 @@ def _frozen(graph: Graph) -> Graph:
 class _GraphFacts:
     """What nodes and edges ask of a train in one state; each kind of it is found once for all of them."""
 
-    def __init__(self, train: GearTrain, state: str | None) -> None:
+    def __init__(self, train: TrainMechanics, state: str | None) -> None:
         self._train, self._state = train, state
 
     def reference(self, link: str) -> str | None:
@@ -146,7 +168,7 @@ class _GraphFacts:
 
     @cached_property
     def _answer(self) -> Answer:
-        return self._train.solve(self._state)
+        return self._train.kinematics.solve(self._state)
 
     @cached_property
     def _circuits(self) -> Mapping[str, Circuit]:
@@ -162,6 +184,6 @@ class _GraphFacts:
         """The train as losses of a pair see it: with the carrier held, so that no speed has a part in them."""
         from geartrain.dynamics.torques.load_case import LoadCase
 
-        train = self._train
-        case, meshes = train.cases[self._state], {mesh.name: mesh for mesh in train.meshes}
-        return LoadCase(train.declaration, train.tree, train.circuits, train.signs, case, {}, meshes, train.pins)
+        own = self._train
+        case, meshes = own.kinematics.cases[self._state], {mesh.name: mesh for mesh in own.meshes}
+        return LoadCase(own.declaration, own.tree, own.circuits, own.signs, case, {}, meshes, own.pins)

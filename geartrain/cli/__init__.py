@@ -62,7 +62,6 @@ class VerbGroup(EndingGroup, LazyGroup):
                 "bench",
             ),
         ),
-        renamed={"errors": "montecarlo", "sweep": "posterior"},
     )
 
 

@@ -21,7 +21,7 @@ def run(
 ) -> None:
     """Measure error against run time on a train: speeds, transmission functions, motion, torques."""
     from geartrain.analysis.accuracy import find_accuracy
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy
 
     to = sink(out, force, (".md", ".html", ".json"))

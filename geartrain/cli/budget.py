@@ -23,13 +23,13 @@ from geartrain.cli.common import (
     picture_sink,
     sink,
 )
-from geartrain.cli.long_runs import progress
+from geartrain.cli.long_runs import RunOptions, Workers, progress
 from geartrain.cli.option_values import MOST_COUNT, quantity
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.budget.true_anomaly import Body
+    from geartrain.uncertainty.budget.pin_theory import Body
 
 
 def run(
@@ -49,6 +49,7 @@ def run(
         int, typer.Option("--trials", min=1, max=MOST_COUNT, help="How many times the train is cut.")
     ] = 256,
     seed: Seed = 1,
+    workers: Workers = None,
     body: Annotated[
         Names, typer.Option("--body", help="OUTPUT=moon, sun or none: whose true motion it shows, if no name tells.")
     ] = None,
@@ -59,7 +60,8 @@ def run(
     force: Force = False,
 ) -> None:
     """What each pointer's error comes from, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
+    from geartrain.numerics.work import Execution
     from geartrain.report.budget_report import describe_budget
     from geartrain.uncertainty.budget.train_budget import STAGES, BudgetQuestion, find_budget
 
@@ -78,8 +80,9 @@ def run(
         bodies=_bodies(body or ()),
     )
     train = load(file)
-    with progress("budget", STAGES) as bar:
-        found = find_budget(train, question, train.state_or_first(state), on_stage=bar.advance)
+    with RunOptions(workers).executor("budget") as executor, progress("budget", STAGES) as bar:
+        means = Execution(executor)
+        found = find_budget(train, question, train.declaration.state_or_first(state), means, bar.advance)
     if plot is not None:
         from geartrain.drawing import budget_figure
 

@@ -22,7 +22,7 @@ def run(
 
 
 def _check(file: str, quiet: bool) -> int:
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.soundness import find_soundness
     from geartrain.train.trade_words import told_words
 

@@ -33,7 +33,7 @@ Force = Annotated[bool, typer.Option("--force", help="Write over files that are 
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
 Fast = Annotated[
     bool | None,
-    typer.Option("--fast/--no-fast", help="Compiled kernels, or none; by default where they pay."),
+    typer.Option("--fast/--no-fast", help="Compile inner loops with numba, or do not; by default in long runs."),
 ]
 StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
 FirstState = Annotated[str | None, typer.Option("--state", help="The state; default the first.")]
@@ -44,7 +44,7 @@ Seed = Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is dr
 
 def load_all(files: list[str]) -> list[GearTrain]:
     """All trains, or one error that tells what is wrong with each of the files."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
     problems: list[Problem] = []
@@ -60,17 +60,17 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
     """True if all is determined and as expected in a state (by default the first), and no teeth are at fault."""
-    return bool(train.solve(train.state_or_first(state))) and not train.faults
+    return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
     """The named state, or all states in which speeds can be calculated; a note says why another is left out."""
     if state is not None:
         return (state,)
-    for case in train.cases.values():
+    for case in train.kinematics.cases.values():
         for problem in case.problems:
             tell(f"note: state {case.state} is left out: {problem}")
-    return train.usable_states
+    return train.kinematics.usable_states
 
 
 def tell(text: str) -> None:

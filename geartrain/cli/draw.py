@@ -41,7 +41,7 @@ def run(
     output: Annotated[list[str] | None, typer.Option("--output", help="Of dials: only this; may be repeated.")] = None,
 ) -> None:
     """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
 
     suffix_of(out, PICTURES)
     turned = read_turns("--turns", turns)
@@ -57,7 +57,7 @@ def run(
     write_figure(figure, to)
     if is_sound(train, state):
         return
-    verdict = train.solve(train.state_or_first(state)).verdict
+    verdict = train.solve(train.declaration.state_or_first(state)).verdict
     if not verdict:
         tell(f"the train is {verdict}")
     raise typer.Exit(VERDICT)

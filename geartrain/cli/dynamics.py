@@ -70,7 +70,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Motion in time: when teeth part, how often they strike, what outputs and energy do; to a .csv, its course."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.time_report import collect_time_report, describe_time_run
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
@@ -81,7 +81,7 @@ def run(
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
     asked = request.arguments() | {"outputs": tuple(output or ())}
     train = load(file)
-    found = run_in_time(train, train.state_or_first(state), asked)
+    found = run_in_time(train, train.declaration.state_or_first(state), asked)
     stepped = None
     if csv or to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
@@ -107,6 +107,9 @@ def run(
 
 def _stepped(train: GearTrain, found: TimeRun, asked: dict[str, Any]) -> SteppedSeparation:
     """The rate at which teeth first part, in as many turns from the start; Ctrl-C ends it with what is known."""
+    from geartrain.dynamics.time.train_in_time import step_to_separation
+
     more = {name: asked[name] for name in ("steps", "without", "fast")}
     with interruptible("rate at which teeth part") as on_done:
-        return train.stepped_separation(found.state, asked["turns"] + asked["skip"], **more, on_done=on_done)
+        turns = asked["turns"] + asked["skip"]
+        return step_to_separation(train.mechanics, found.state, turns, **more, on_done=on_done)

@@ -17,7 +17,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Print the Willis system of a train, one labelled equation a line, as text or LaTeX."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
 
     to = sink(out, force)
     train = load(file)

@@ -83,7 +83,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Write wheels and plates to cut, the assembly as a solid, the graph, REXS, an FMU and tables of a train."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.scene import SolidModel
 
     if (to is None) == (out is None):
@@ -101,7 +101,7 @@ def run(
     if out is not None:
         _refuse({"--sheet": sheet}, "is for a folder", "give --to FOLDER in place of -o")
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
-    work = SolidModel(train, _making(lengths, process, arms, sheet), train.state_or_first(state))
+    work = SolidModel(train, _making(lengths, process, arms, sheet), train.declaration.state_or_first(state))
     shown = _turns(turns)
     if out is not None:
         _one(work, out, wheel, shown, force)
@@ -120,13 +120,13 @@ def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
 
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
     """A co-simulation unit."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.export import CoSimulationCase, fmu_file
 
     rate, restitution, step, without = of_time.values()
     train = load(file)
     case = CoSimulationCase(
-        train.state_or_first(state),
+        train.declaration.state_or_first(state),
         None if rate is None else input_rate(rate),
         None if step is None else quantity("--step", step, "time", least="above 0"),
         None if restitution is None else read_restitution(restitution),

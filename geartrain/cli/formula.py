@@ -23,7 +23,7 @@ def run(
     force: Force = False,
 ) -> None:
     """What each output is, in lowest terms, as a formula in tooth counts and speeds of inputs; where it locks."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.formula_report import collect_formulas, describe_formulas
 
     to = sink(out, force, (".md", ".html", ".json"))

@@ -30,13 +30,15 @@ def run(
     force: Force = False,
 ) -> None:
     """Ratios, steps, speeds, slip, torques of clutches and brakes, and circulating power, state by state."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.gearbox_report import describe_gear_search, describe_gearbox
 
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
     if search or gears:
-        found = train.gear_search(output, gears, steps, single)
+        from geartrain.analysis.gear_series import find_gears
+
+        found = find_gears(train, output, gears, steps, single)
         give(to, json, lambda: found, lambda: [describe_gear_search(found)])
         raise typer.Exit(GOOD if found.gears and (gears < 2 or found.series) else VERDICT)
     box = train.gearbox(output)

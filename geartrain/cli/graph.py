@@ -24,7 +24,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.kinematics import graph
     from geartrain.report.graph_tables import describe_adjacency, describe_edges
     from geartrain.report.text import to_markdown

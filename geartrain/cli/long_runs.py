@@ -19,13 +19,15 @@ import typer
 from geartrain.cli.common import tell
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from rich.progress import Progress, TaskID
 
     from geartrain.numerics.work import Execution, Journal
 
-Scheduler = Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler, tcp://...")]
+Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default all cores.")]
+Dask = Annotated[str | None, typer.Option("--dask", help="Address of a dask scheduler whose workers do the work.")]
 Resume = Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")]
-SingleWorker = Annotated[int | None, typer.Option("--workers", help="Processes; default this one alone.")]
 
 COMPILING = "compiling kernels for this machine, once: some ten seconds, up to half a minute"
 
@@ -66,16 +68,27 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Who does the work, and whether an interrupted run is taken up; workers None: all cores, or the scheduler's."""
+    """Who does the work, and whether an interrupted run is resumed.
+
+    workers   processes; None for all cores, or for those of the cluster
+    dask      address of a dask scheduler
+    """
 
     workers: int | None
-    scheduler: str | None
-    resume: bool
+    dask: str | None = None
+    resume: bool = False
 
-    @classmethod
-    def alone(cls, workers: int | None, scheduler: str | None, resume: bool) -> RunOptions:
-        """The same, but this process alone works where nothing else is asked."""
-        return cls(1 if workers is None and scheduler is None else workers, scheduler, resume)
+    @contextmanager
+    def executor(self, what: str) -> Iterator[Executor | None]:
+        """The executor of one run; a line on standard error gives the size of the work and the number of workers."""
+        from geartrain.numerics.work import open_executor
+
+        def announce(tasks: int, workers: int) -> None:
+            size = f"{tasks} tasks on " if tasks else ""
+            tell(f"{what}: {size}{workers} worker {'process' if workers == 1 else 'processes'}")
+
+        with open_executor(self.workers, self.dask, announce) as executor:
+            yield executor
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
@@ -95,13 +108,13 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
 
     The journal stands beside the output, and is called after the question.
     """
-    from geartrain.numerics.work import Execution, open_executor
+    from geartrain.numerics.work import Execution
 
     plain = json.loads(json.dumps(question, default=str))
     mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]
     path = (out.parent if out else Path()) / f"{what}-{mark}.partial.jsonl"
     with (
-        open_executor(options.workers, options.scheduler) as executor,
+        options.executor(what) as executor,
         _journal(path, plain, options.resume) as journal,
         progress(what) as bar,
     ):

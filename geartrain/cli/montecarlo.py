@@ -11,7 +11,6 @@ import typer
 from geartrain.cli.common import (
     INTERRUPTED,
     STANDARD,
-    Fast,
     File,
     Force,
     Json,
@@ -23,11 +22,10 @@ from geartrain.cli.common import (
     Without,
     check_distinct_outputs,
     give,
-    read_share,
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.theme import Theme
 from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_findings
 
@@ -35,7 +33,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
     from geartrain.uncertainty import TrialPlan, TrialResults
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.uncertainty.monte_carlo.trial_table import TrialTable
+    from geartrain.uncertainty.monte_carlo.trial_run import TrialTable
 
 
 def run(
@@ -52,14 +50,9 @@ def run(
         str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
     ] = None,
     sobol: Annotated[bool, typer.Option("--sobol", help="Sobol indices by wheel and by kind of error.")] = False,
-    tolerance: Annotated[
-        str | None, typer.Option("--tolerance", help="Greatest error for --jam: a kind of error, or 'all'.")
-    ] = None,
-    jam: Annotated[str, typer.Option("--jam", help="The chance of a jam that --tolerance allows.")] = "1%",
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
-    fast: Fast = None,
     plot: Plot = None,
     picture: Picture = "errors",
     json: Json = False,
@@ -68,24 +61,20 @@ def run(
     force: Force = False,
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.uncertainty import find_trial_plan, read_error_overrides
     from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
-    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.uncertainty.monte_carlo.trial_run import check_trials, journal_key
-    from geartrain.uncertainty.monte_carlo.trial_studies import TrialStudies
-    from geartrain.uncertainty.monte_carlo.trial_table import SUFFIXES, TrialTable
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies
+    from geartrain.uncertainty.monte_carlo.trial_run import SUFFIXES, TrialTable, check_trials, journal_key
 
     to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
     check_trials(trials)
     drawing = check_plot(plot, force, theme, picture)
     check_distinct_outputs(to, drawing)
     sweep = read_clearances(clearance) if clearance else []
-    studies = TrialStudies(sweep, bool(output), sobol, tolerance, float(read_share(jam, "--jam")))
+    studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
-    plan = plan.judged(fast, trials)
-    _check_extras(sobol)
-    options = RunOptions.alone(workers, scheduler, resume)
+    options = RunOptions(workers, dask, resume)
     table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
     findings = drawn = None
     with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:
@@ -109,16 +98,6 @@ def run(
         raise typer.Exit(INTERRUPTED)
 
 
-def _check_extras(sobol: bool) -> None:
-    """Say that an extra is missing before the work, not after."""
-    from importlib.util import find_spec
-
-    from geartrain.errors import MissingExtraError
-
-    if sobol and find_spec("SALib") is None:
-        raise MissingExtraError("SALib", "errors", "Sobol indices")
-
-
 def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
     from geartrain.report.monte_carlo_report import describe_monte_carlo
 
@@ -134,7 +113,7 @@ def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: Tr
     from geartrain.uncertainty import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
-        found = run_trials(plan, trials, seed, given, take, plan.fast)
+        found = run_trials(plan, trials, seed, given, take)
         if not found.complete:
             raise _StoppedError  # so that the table stays partial
     return found

@@ -66,7 +66,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
@@ -87,7 +87,10 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        separation = partial(train.separation_rates, state, without or ()) if train.tells_separation(state) else None
+        from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+
+        own = train.mechanics
+        separation = partial(find_separation, own, state, without or ()) if has_separation(own, state) else None
         of = train.name, state, separation
         _report(asked, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
     if plot is not None:

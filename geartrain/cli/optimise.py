@@ -57,7 +57,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Sizes of triangular teeth, pair by pair and together, with which a train is best; -o x.yaml: as a declaration."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.tooth_sizes_report import describe_train_sizes
     from geartrain.synthesis import find_train_sizes
 

@@ -27,7 +27,7 @@ from geartrain.cli.common import (
     table_text,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.theme import Theme
 from geartrain.cli.uncertainty_plots import Plot, check_plot, draw_counts
@@ -65,8 +65,8 @@ def run(
         int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Combinations of a sample.")
     ] = 1_000_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the sample.")] = 1,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
     plot: Plot = None,
     json: Json = False,
@@ -99,7 +99,7 @@ def run(
         "seed": seed,
     }
     question = {"train": train.model_dump(mode="json"), **asked}
-    with long_run("posterior", question, out, RunOptions.alone(workers, scheduler, resume)) as given:
+    with long_run("posterior", question, out, RunOptions(workers, dask, resume)) as given:
         found = infer_counts(train, **asked, executor=given.executor, journal=given.journal, tell=given.tell)
         close_journal(given.journal, found.cut)
     if drawing.path is not None and not found.best:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -17,31 +17,18 @@ from geartrain.cli.common import (
     Names,
     Out,
     Seed,
+    as_json,
     check_distinct_outputs,
     give,
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers
 from geartrain.cli.option_values import MOST_COUNT
-from geartrain.cli.ranked_trains import known_trains, rank_trains
-from geartrain.cli.reconstruction_findings import (
-    FAMILY,
-    MOST_TURNING,
-    drop_facts,
-    family_text,
-    look_into,
-    tell_question,
-    weighted,
-    write_page,
-)
 from geartrain.numerics.decimal_text import plural
 
 if TYPE_CHECKING:
-    from geartrain.report.reconstruction_report import RankedTrain
-    from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
-    from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
-    from geartrain.train import Train
+    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionAnswer
 
 Evidence = Annotated[
     str,
@@ -54,11 +41,10 @@ Evidence = Annotated[
 
 
 _EVIDENCE = "evidence.yaml"
+_FAMILY = "family.json"
 MOST_DRAWN = 100_000
 """Trains that are drawn at most."""
-_ALL = 1_000_000
-_LOOKED_AT = 2000
-"""Candidates whose meshes and counts are compared, also where fewer are listed."""
+MOST_TURNING = 200
 
 
 def run(
@@ -125,22 +111,19 @@ def run(
             metavar="ITS=OURS",
         ),
     ] = None,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
     out: Out = None,
     json: Json = False,
     force: Force = False,
 ) -> None:
     """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none."""
+    from geartrain.cli.reconstruction_run import CommandRun, write_page
     from geartrain.numerics.files import check_folder
-    from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
-    from geartrain.synthesis.reconstruction.drawn_candidates import draw_candidates
-    from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-    from geartrain.synthesis.reconstruction.lost_arbors import rank_of
-    from geartrain.synthesis.reconstruction.question_digest import question_digest
-    from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-    from geartrain.train.declaration_files import read_evidence, write_declaration
+    from geartrain.report.reconstruction_report import describe_reconstruction
+    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionRequest, reconstruct
+    from geartrain.train.declaration_files import read_declaration, read_evidence
 
     if not without and (seen or source is not None):
         raise typer.BadParameter("it is said of a train without some arbors", param_hint="--seen" if seen else "--from")
@@ -148,87 +131,75 @@ def run(
         raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
     if count and page is not None:
         raise typer.BadParameter("with --count there is nothing to show", param_hint="--page")
+    if same and not rank:
+        raise typer.BadParameter("it names what is in a train that --rank gives", param_hint="--same")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
     check_distinct_outputs(to, turning_page)
-    declared, original = _of_train(evidence, without, source, seen) if without else (read_evidence(evidence), None)
-    question = evidence_question(declared, most, idlers)
-    ranked = known_trains(rank or (), same or (), question)
     if folder is not None:
         check_folder(folder, [_file(1)], force)
-    listing = 0 if count else _ALL if every else max(best, _LOOKED_AT)
-    # how much is listed, and per what, changes no task; but where none is, tasks may leave out skeletons
-    asked = {"question": question_digest(question.problem), "listed": bool(listing)}
-    options = RunOptions.alone(workers, scheduler, resume)
-    expected = tell_question(question.problem, options)
-    with long_run("reconstruct", asked, folder, options) as given:
-        found = find_reconstructions(question.problem, weighted(given, question.problem, expected), listing, per)
-    dropped, told = drop_facts(question.problem, folder, options) if assumptions and found.complete else ((), True)
-    if told:  # else this journal is taken up with the other
-        close_journal(given.journal, not found.complete)
-    listed = () if count else found.candidates if every else found.candidates[:best]
-    drawn = draw_candidates(found, question.problem, tuple(declared.outputs), sample, seed) if sample else ()
-    known = rank_trains(ranked, declared, question.problem, found)
-    report = ReconstructionReport(
-        declared.name,
-        question.problem,
-        found.counts,
-        found.complete,
-        question.unused,
-        tuple(_ranked(declared, listed)),
-        None if original is None else rank_of(original, found),
-        look_into(declared, question.problem, found, dropped, counts_only=count),
-        question.base,
-        question.joined,
-        expected,
-        tuple(_ranked(declared, drawn)),
-        known,
+    request = ReconstructionRequest(
+        read_declaration(evidence) if without else read_evidence(evidence),
+        lost=tuple(without or ()),
+        source=source,
+        seen=seen,
+        wheels=most,
+        idlers=idlers,
+        best=None if every else best,
+        counts_only=count,
+        per=per,
+        sample=sample,
+        seed=seed,
+        assumptions=assumptions,
+        known=tuple(map(read_declaration, rank or ())),
+        same=dict(map(_name_pair, same or ())),
     )
-    if folder is not None and listed:
-        extra = {FAMILY: family_text(report, question.problem)}
-        if without:
-            extra[_EVIDENCE] = write_declaration(declared)
-        _write(declared, listed, folder, force, extra)
+    found = reconstruct(request, CommandRun(folder, RunOptions(workers, dask, resume)))
+    if folder is not None and found.candidates:
+        _write(found, folder, force, with_evidence=bool(without))
     if page is not None:
-        write_page(turning_page, report, declared, listed[:turning])
-    give(to, json, lambda: report, lambda: [describe_reconstruction(report)])
+        write_page(turning_page, found, turning)
+    give(to, json, lambda: found, lambda: [describe_reconstruction(found)])
     if not found.complete:
         raise typer.Exit(INTERRUPTED)
-    raise typer.Exit(GOOD if report.total else VERDICT)
+    raise typer.Exit(GOOD if found.total else VERDICT)
 
 
-def _of_train(file: str, lost: Sequence[str], source: str | None, seen: bool) -> tuple[Train, Arbor]:
-    """Evidence of a train whose arbors are lost, and the train itself as a candidate."""
-    from geartrain.synthesis.reconstruction.lost_arbors import lost_arbors, lost_evidence
-    from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
-    from geartrain.train.declaration_files import read_declaration
-
-    tree = find_spur_tree(read_declaration(file), lost, source)
-    return lost_evidence(tree, lost, seen), tree.arbor(lost_arbors(tree, lost))
+def _name_pair(text: str) -> tuple[str, str]:
+    """`E4=e3`."""
+    own, _, called = map(str.strip, text.partition("="))
+    if not own or not called:
+        raise typer.BadParameter(f"'{text}' is not like E4=e3", param_hint="--same")
+    return own, called
 
 
-def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrain]:
-    from geartrain.report.reconstruction_report import RankedTrain
-    from geartrain.synthesis.reconstruction.candidate_train import TrainConstruction
-
-    for rank, candidate in enumerate(listed, 1):
-        train = TrainConstruction.of(evidence, candidate.arbor)
-        meshes = tuple(f"{driving} > {driven}" for driving, driven in train.meshes)
-        yield RankedTrain(rank, candidate.ranks, candidate.added, candidate.weight, train.added, train.doubtful, meshes)
-
-
-def _write(evidence: Train, listed: Sequence[Candidate], folder: Path, force: bool, extra: Mapping[str, str]) -> None:
-    """Every listed candidate as a declaration of its own, and what else there is, by the name of its file."""
+def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
+    """Every listed candidate as a declaration of its own, the family tree, and the evidence where it was made."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.synthesis.reconstruction.candidate_train import candidate_text
+    from geartrain.train.declaration_files import write_declaration
+
+    evidence = found.evidence
+    assert evidence is not None
+    extra = {_FAMILY: _family_text(found)}
+    if with_evidence:
+        extra[_EVIDENCE] = write_declaration(evidence)
 
     def files() -> Iterator[tuple[str, bytes]]:
-        for rank, candidate in enumerate(listed, 1):
+        for rank, candidate in enumerate(found.candidates, 1):
             name = f"{evidence.name}-{_file(rank).removesuffix('.yaml')}"
             yield _file(rank), candidate_text(evidence, candidate.arbor, name).encode("utf-8")
         yield from ((file, text.encode("utf-8")) for file, text in extra.items())
 
-    check_folder(folder, [*(_file(rank) for rank in range(1, len(listed) + 1)), *extra], force)
+    check_folder(folder, [*(_file(rank) for rank in range(1, len(found.candidates) + 1)), *extra], force)
     tell(f"wrote {plural(write_folder(folder, files(), force), 'file')} to {folder}")
+
+
+def _family_text(found: ReconstructionAnswer) -> str:
+    """The family tree as JSON, with what was asked."""
+    from geartrain.synthesis.reconstruction.reconstruction_problem import question_digest
+
+    asked = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
+    return as_json({**asked, "family": found.findings.family}) + "\n"
 
 
 def _file(rank: int) -> str:

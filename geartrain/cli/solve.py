@@ -21,7 +21,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
 
     if method not in ("auto", "exact", "sparse", "floats"):
         raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or sparse", param_hint="--method")
@@ -38,6 +38,6 @@ def run(
         from geartrain.train.trade_words import told_words
 
         words = told_words("\n".join(str(answer.verdict) for answer in answers if not answer))
-        tables = (speeds_text(answer, output, train.bookkeeping) for answer in answers)
+        tables = (speeds_text(answer, output, train.kinematics.joint_sums) for answer in answers)
         emit("\n".join((*tables, *filter(None, [words]))), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)

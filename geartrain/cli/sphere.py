@@ -28,7 +28,7 @@ from geartrain.cli.theme import Theme
 if TYPE_CHECKING:
     from geartrain.spherical import Configuration, GraphSet
     from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.polyhedron_survey import SurveyRow
+    from geartrain.spherical.polyhedron_gears import SurveyRow
 
 _YAML = (".yaml", ".yml")
 _FILES = (".txt", ".csv", ".dat")
@@ -99,8 +99,8 @@ def _check_listed(to: Sink, picture: Sink) -> None:
 
 def _survey(json: bool, to: Sink) -> None:
     from geartrain.report.spherical_report import describe_survey
-    from geartrain.spherical.polyhedron_survey import SURVEYED
-    from geartrain.spherical.polyhedron_survey import survey as survey_solids
+    from geartrain.spherical.polyhedron_gears import SURVEYED
+    from geartrain.spherical.polyhedron_gears import survey as survey_solids
 
     rows: list[SurveyRow] = []
     with progress("survey", len(SURVEYED)) as bar:

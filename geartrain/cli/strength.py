@@ -29,7 +29,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Contact pressure, root stress and safety of every pair under the declared loads, arbors, and wear."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.strength_report import collect_strength_report, describe_strength
 
     to = sink(out, force, (".md", ".html", ".json"))

@@ -12,7 +12,6 @@ from geartrain.cli.common import (
     GOOD,
     INTERRUPTED,
     VERDICT,
-    Fast,
     File,
     Force,
     Json,
@@ -29,7 +28,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run, progress
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run, progress
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
@@ -60,10 +59,9 @@ def run(
         int | None, typer.Option("--trials", help="So many runs with friction drawn from its declared deviation.")
     ] = None,
     seed: Seed = 1,
-    workers: SingleWorker = None,
-    scheduler: Scheduler = None,
+    workers: Workers = None,
+    dask: Dask = None,
     resume: Resume = False,
-    fast: Fast = None,
     plot: Annotated[
         Path | None,
         typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
@@ -73,7 +71,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.torque_figures import collect_torque_report
     from geartrain.report.torque_report import describe_torques
 
@@ -89,14 +87,14 @@ def run(
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
-    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_, fast)
+    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None:
-        options = RunOptions.alone(workers, scheduler, resume)
-        tried = _tried(train, over_turn, (samples, input_), (trials, seed), fast, out, options)
+        options = RunOptions(workers, dask, resume)
+        tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -109,20 +107,20 @@ def run(
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
-def _over_turn(
-    train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None, fast: bool | None
-) -> TorqueCycle:
+def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
     """Torque over some turns in the one state that is loaded."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
-        period = train.torque_period(state, link)
+        from geartrain.dynamics.turn.train_turn import find_torque_period
+
+        period = find_torque_period(train.mechanics, state, link)
         if period is None:
             raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
         span = float(period)
     else:
         span = float(read_turns("--turns", turns))
     with progress("torques over the turns", patience=2.0) as bar:
-        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance, fast=fast)
+        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
 
 
 def _tried(
@@ -130,7 +128,6 @@ def _tried(
     over_turn: TorqueCycle,
     run: tuple[int, str | None],
     drawn: tuple[int, int],
-    fast: bool | None,
     out: Path | None,
     options: RunOptions,
 ) -> FrictionTrials:
@@ -141,7 +138,7 @@ def _tried(
     check_trials(drawn[0])
     plan = find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
-        found = try_frictions(plan, *drawn, given, fast)
+        found = try_frictions(plan, *drawn, given)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
         tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")
@@ -176,6 +173,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
+    from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_cycle_report import turns_text
     from geartrain.report.torque_report import summary_text
 
@@ -185,7 +183,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
         draw(torque_cycle_figure(over_turn, f"{name}: torque over {turns_text(over_turn.span)}"), picture)
         return
     watts = watts_per_unit(train.declaration, train.declaration.case(torques.state))
-    if torques.verdict.kind == "unloaded" and (ways := train.drive_both_ways(torques.state)):
+    if torques.verdict.kind == "unloaded" and (ways := drive_both_ways(train.mechanics, torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(train.power_flow(torques), f"{name}: {summary_text(torques)}", watts), picture)
+    draw(power_figure(torques, f"{name}: {summary_text(torques)}", watts), picture)

@@ -46,7 +46,7 @@ def draw_counts(
     again   sweeps the same train for the same evidence, with some wheels held to the counts given
     """
     from geartrain.drawing import counts_figure
-    from geartrain.uncertainty.posterior.pairwise_posterior import joint_posterior, most_informative_wheels
+    from geartrain.uncertainty.posterior.inference import joint_posterior, most_informative_wheels
 
     wheels = most_informative_wheels(found)
     draw(counts_figure(found, joint_posterior(found, wheels, again)), to)

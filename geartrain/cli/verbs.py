@@ -9,8 +9,6 @@ from typing import Any, ClassVar
 import typer
 from typer.core import TyperGroup
 
-from geartrain.cli.common import tell
-
 Command = Any
 """A command of click, which typer carries with it or imports, by its version."""
 
@@ -27,8 +25,6 @@ class Verbs(Mapping[str, Command]):
         Where the modules are.
     names
         The verbs, as `--help` lists them.
-    renamed
-        Old words and the verbs they are called now. They work still, and `--help` does not list them.
     make
         Name -> command, for verbs that are no modules; None where the name is that of a module.
     """
@@ -37,14 +33,12 @@ class Verbs(Mapping[str, Command]):
         self,
         package: str,
         names: tuple[str, ...],
-        renamed: Mapping[str, str] | None = None,
         make: Callable[[str], Callable[..., None] | None] = lambda name: None,
     ) -> None:
-        self.package, self.names, self.renamed, self._make = package, names, renamed or {}, make
+        self.package, self.names, self._make = package, names, make
         self._made: dict[str, Command] = {}
 
     def __getitem__(self, name: str) -> Command:
-        name = self.renamed.get(name, name)
         if name not in self.names:
             raise KeyError(name)
         if name not in self._made:
@@ -79,13 +73,3 @@ class LazyGroup(TyperGroup):
     def __init__(self, *given: Any, **more: Any) -> None:
         super().__init__(*given, **more)
         self.commands = self.verbs  # type: ignore[assignment]
-
-    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """The verb that was asked for; what it is called now is said where an old word was used."""
-        name, command, rest = super().resolve_command(ctx, args)
-        new = self.verbs.renamed.get(name or "")
-        if new is None:
-            return name, command, rest
-        if not ctx.resilient_parsing:
-            tell(f"note: `{ctx.command_path} {name}` is called `{ctx.command_path} {new}` now")
-        return new, command, rest

@@ -42,7 +42,7 @@ def run(
 
 
 def _pages(path: Path) -> LivePages:
-    from geartrain.analysis.loader import load
+    from geartrain.analysis.gear_train import load
     from geartrain.report.html_page import to_html
     from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report

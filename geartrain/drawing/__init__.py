@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.form_comparison import shapes_figure as shapes_figure
     from geartrain.drawing.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
     from geartrain.drawing.output_error_plots import motion_figure as motion_figure
+    from geartrain.drawing.output_error_plots import outputs_figure as outputs_figure
     from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
     from geartrain.drawing.power_sankey import power_figure as power_figure
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
@@ -50,6 +51,7 @@ _PLACES = {
     "law_figure": "transmission_curves",
     "monte_carlo_figure": "monte_carlo_plots",
     "motion_figure": "output_error_plots",
+    "outputs_figure": "output_error_plots",
     "picture": "train_pictures",
     "power_figure": "power_sankey",
     "render": "backend",
@@ -70,6 +72,7 @@ __all__ = [
     "law_figure",
     "monte_carlo_figure",
     "motion_figure",
+    "outputs_figure",
     "picture",
     "power_figure",
     "render",

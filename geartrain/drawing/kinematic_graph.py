@@ -87,7 +87,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     too_many(train, len(links), _MOST, "links")
     broken = {
         pair
-        for loop in train.solve(train.state_or_first(state)).verdict.loops
+        for loop in train.solve(train.declaration.state_or_first(state)).verdict.loops
         if not loop.closes
         for pair in loop.pairs
     }

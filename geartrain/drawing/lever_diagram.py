@@ -49,7 +49,7 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
     Raises `QuestionError` where nothing is epicyclic, or for more panels than a page holds.
     """
-    levers = find_levers(train.declaration, train.tree, train.circuits)
+    levers = find_levers(train.declaration, train.kinematics.tree, train.circuits)
     if not levers:
         raise QuestionError(
             Problem(
@@ -141,7 +141,7 @@ def _letters(text: str) -> float:
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
     """The state and what is closed in it, and why it has no speeds; above the first, what all speeds are in."""
     said = [] if answer.state is None else [f"state {answer.state}"]
-    if closed := train.cases[answer.state].engaged:
+    if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
     if first:
         said.append(f"speeds in {train.declaration.unit_name or 'the unit of the inputs'}")
@@ -161,7 +161,9 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
     for x, speed in known:
         axes.plot([x, x], [0.0, speed], color=GREY, linewidth=2.2, zorder=2)
         axes.plot([x], [speed], "o", color=ORANGE if x == 0 else BLUE, markersize=6, markeredgecolor="white", zorder=4)
-    held = sorted({float(x) for link, x in lever.abscissae.items() if link in train.cases[answer.state].fixed})
+    held = sorted(
+        {float(x) for link, x in lever.abscissae.items() if link in train.kinematics.cases[answer.state].fixed}
+    )
     axes.plot(held, [0.0] * len(held), "^", color=PURPLE, markersize=8, zorder=5, gid="held") if held else None
     if labels:
         _names(axes, points, xs)
@@ -170,7 +172,7 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
     """Behind each link that a closed brake or clutch takes hold of, the names of those."""
     found: dict[str, list[str]] = {}
-    for name in train.cases[state].engaged:
+    for name in train.kinematics.cases[state].engaged:
         clutch = train.declaration.clutches[name]
         for link in clutch.locks or (clutch.fixes or "",):
             found.setdefault(link, []).append(name)
@@ -179,7 +181,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
     """From left to right, with speeds about the carrier's axis."""
-    own, marks = train.signs.get(lever.carrier, 1), _marks(train, answer.state)
+    own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
     for x, members in groupby(ordered, key=lambda item: item[1]):
@@ -187,7 +189,7 @@ def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
         for same in [links] if x else [[lever.carrier], [link for link in links if link != lever.carrier]]:
             if same:
                 speed = answer.speeds.get(same[0])
-                turned = None if speed is None else Fraction(speed) * own * train.signs.get(same[0], 1)
+                turned = None if speed is None else Fraction(speed) * own * train.kinematics.signs.get(same[0], 1)
                 found.append(Point(x, same, [marks.get(link, "") for link in same], turned))
     return found
 

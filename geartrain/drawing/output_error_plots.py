@@ -9,11 +9,12 @@ import numpy as np
 
 from geartrain.drawing.backend import Figure
 from geartrain.drawing.style import BLUE, GREY, RED, SMALL, WIDTH, headed
+from geartrain.dynamics.motion.motion_run import MotionRun
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics import ErrorSamples, MotionRun
+    from geartrain.dynamics import ErrorSamples, Motion
     from geartrain.numerics.arrays import Floats
 
 
@@ -88,6 +89,32 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion.train.lead}")
     left_out = _left_out(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *left_out))))
+
+
+def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
+    """How outputs move over some turns of the input: `motion_figure` of a run that is made for it.
+
+    Parameters
+    ----------
+    motion : Motion
+        The motion of the outputs.
+    turns : float
+        Of the input, from 0 [turn].
+    samples : int
+        Positions, 2 or more, both ends included.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As `motion_figure` draws it.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> outputs_figure(geartrain.load("moon-triangular").motion(), turns=0.1, samples=51).axes[-1].get_xlabel()
+    'turns of crank'
+    """
+    return motion_figure(MotionRun(motion, turns, samples))
 
 
 def _left_out(erring: int, exact: int) -> Iterator[str]:

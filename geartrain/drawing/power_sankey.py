@@ -10,7 +10,7 @@ from typing import Any
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Path, PathPatch, Rectangle, Stroke
 from geartrain.drawing.sankey import BEND, DROP, TURN, BandSegment, ReturnBand, SankeyLayout, SankeySpot, lay_out_sankey
 from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WHITE, WIDTH
-from geartrain.dynamics import PowerFlow, PowerNode
+from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 
@@ -23,13 +23,13 @@ _MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, 
 _ROUND = 0.5523  # of a quarter circle by a cubic
 
 
-def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Figure:
+def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
     """The flow of power as a Sankey diagram: bands as wide as their powers, recirculating power running back above.
 
     Parameters
     ----------
-    flow : PowerFlow
-        From `GearTrain.power_flow`; powers are absolute (docs/torques.md, 7).
+    flow : PowerFlow or Torques
+        The flow, or the torques under which it flows; powers are absolute (docs/torques.md, 7).
     title : str
         Above the picture.
     watts : float, optional
@@ -51,10 +51,12 @@ def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Fig
     >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
     ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
-    >>> figure = power_figure(train.power_flow(train.torques()), "A pair")
+    >>> figure = power_figure(train.torques(), "A pair")
     >>> {"a", "b", "A pair"} <= {text.get_text() for text in figure.axes[0].texts}
     True
     """
+    if isinstance(flow, Torques):
+        flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
         raise GearTrainError(Problem("there is no flow of power to draw", title, "give loads to links that turn"))
     if len(flow.nodes) > _MOST:

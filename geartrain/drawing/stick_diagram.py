@@ -62,7 +62,7 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
     left     where the first begins (inches); `middle`, the height of all plates
     """
     declared = train.declaration
-    closed = train.cases[state].engaged
+    closed = train.kinematics.cases[state].engaged
     step = max(STEP, _letters(train) * _ELEMENT_NAME * LETTER + 0.1)
     for at, (name, clutch) in enumerate(declared.clutches.items()):
         x, gap = left + step * (at + 0.5), _CLOSED if name in closed else _OPEN
@@ -274,14 +274,18 @@ def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -
 
 def _axes(train: GearTrain) -> dict[str, str]:
     """Link -> label of the axis it is drawn on."""
-    tree = train.tree
+    tree = train.kinematics.tree
     return {link: tree.axis(link) or "" for link in train.declaration.links}
 
 
 def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
     labels = list(dict.fromkeys(label for label in axis_of.values() if label))
     pairs = [(axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier)) for c in train.circuits]
-    pairs += [(axis_of[train.tree.top[link]], label) for link, label in axis_of.items() if link in train.tree.top]
+    pairs += [
+        (axis_of[train.kinematics.tree.top[link]], label)
+        for link, label in axis_of.items()
+        if link in train.kinematics.tree.top
+    ]
     order = arrange(labels, pairs)
     inputs = [axis_of[link] for link in train.declaration.inputs if axis_of.get(link)]
     if inputs and order.index(inputs[0]) > len(order) / 2:
@@ -396,7 +400,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
         drawing.words.write(axes)
     if elements:
         right = max(max(shaft.xs) for shaft in skeleton.shafts.values()) + 0.9
-        draw_elements(axes, train, train.state_or_first(state), right, skeleton.height / 2)
+        draw_elements(axes, train, train.declaration.state_or_first(state), right, skeleton.height / 2)
     entries = list(_legend(train))
     columns = min(len(entries), int(width / 1.35), 5)
     figure.legend(handles=entries, loc="lower center", ncols=columns, fontsize=SMALL - 1.5, frameon=False)
@@ -433,7 +437,7 @@ class _Drawing:
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
         self._line([left, right], [shaft.y, shaft.y], "white", _LINK + 3.0, zorder=5)
         self._line([left, right], [shaft.y, shaft.y], BLACK, _LINK, zorder=6, gid=f"link {shaft.link}")
-        if self.train.tree.top[shaft.link] == self.train.declaration.frame:
+        if self.train.kinematics.tree.top[shaft.link] == self.train.declaration.frame:
             self._ground(left + 0.04, shaft.y - 0.075)
         self.words.keep_off((left, right), (shaft.y, shaft.y))
         self.words.name_link(shaft.link, left, right, shaft.y)

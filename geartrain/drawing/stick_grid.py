@@ -191,7 +191,11 @@ def find_columns(
 
 def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
     """The moving link that bears an axis."""
-    tops = (train.tree.top[link] for link, own in axis_of.items() if own == axis and link in train.tree.top)
+    tops = (
+        train.kinematics.tree.top[link]
+        for link, own in axis_of.items()
+        if own == axis and link in train.kinematics.tree.top
+    )
     return next((top for top in tops if top != train.declaration.frame), None)
 
 

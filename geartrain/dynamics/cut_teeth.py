@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth, find_disagreements, find_train_teeth
+from geartrain.dynamics.train_teeth import TrainTeeth, find_disagreements, find_train_teeth
 from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.buildability import BuildFinding
 from geartrain.train import Train, Wheel
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.train_mechanics import TrainMechanics
 
 
 class _Place(NamedTuple):
@@ -39,7 +42,7 @@ def find_modules(declared: Train) -> Mapping[str, float]:
     return found
 
 
-def find_cut_teeth(train: ToothedTrain) -> TrainTeeth:
+def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
     """The teeth (modules) of all wheels that lie in a plane, and why others have none; none where a form is faulty."""
     places = _places(train.declaration)
     try:
@@ -48,7 +51,7 @@ def find_cut_teeth(train: ToothedTrain) -> TrainTeeth:
         return TrainTeeth({}, dict.fromkeys(places, error.problems), {}, frozenset(), ())
 
 
-def find_odd_wheels(train: ToothedTrain) -> Iterator[BuildFinding]:
+def find_odd_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
     """Rule W3 of a declaration: the pairs of a wheel agree on its teeth."""
     declared = train.declaration
     for name, problem in find_disagreements(train, _places(declared)).items():

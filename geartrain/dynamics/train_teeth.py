@@ -27,41 +27,14 @@ from geartrain.teeth.outlines.wheel_requirement import PairRequirement, disagree
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.answer import Answer
-    from geartrain.kinematics.circuits import Tree
+    from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.meshing_wheels import DeclaredPair
     from geartrain.teeth.standard_teeth import StandardTeeth
-    from geartrain.train import GearPair, Train, Wheel
+    from geartrain.train import GearPair, Wheel
 
 STANDARD = "standard"
-
-
-class ToothedTrain(Protocol):
-    """What matters here of a train that answers."""
-
-    @property
-    def declaration(self) -> Train:
-        """As declared."""
-
-    @property
-    def meshes(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth."""
-
-    @property
-    def tree(self) -> Tree:
-        """Its turning pairs."""
-
-    @property
-    def signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallels."""
-
-    def state_or_first(self, state: str | None) -> str | None:
-        """The first state, where none is named."""
-
-    def solve(self, state: str | None = None) -> Answer:
-        """Speeds in one state."""
 
 
 class ToothingPlace(Protocol):
@@ -110,7 +83,7 @@ class TrainTeeth:
 
 
 def find_train_teeth(
-    train: ToothedTrain,
+    train: TrainMechanics,
     places: Mapping[str, ToothingPlace],
     play: float | None = None,
     apart: Mapping[str, float] = FrozenDict(),
@@ -123,14 +96,14 @@ def find_train_teeth(
     return _Toothing(train, places, play, apart).all()
 
 
-def find_disagreements(train: ToothedTrain, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
+def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
     """By wheel that lies in a plane, why no teeth suit all of its pairs that declare a form."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
 class _Toothing:
     def __init__(
-        self, train: ToothedTrain, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
+        self, train: TrainMechanics, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
     ) -> None:
         self.train, self.declared, self.places, self.play, self.apart = train, train.declaration, places, play, apart
         self.unbuilt: tuple[Problem, ...] = ()
@@ -260,7 +233,7 @@ class _Toothing:
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
             return 0
         try:
-            speeds = self.train.solve(self.train.state_or_first(None)).speeds
+            speeds = self.train.kinematics.solve(self.declared.state_or_first(None)).speeds
             speed = relative_speed(link, self.train.tree.top[link], speeds.get, self.train.signs)
         except GearTrainError:
             speed = None

@@ -9,6 +9,11 @@ train_file     one file with the whole train: STL, GLB, STEP, GraphML, DOT, REXS
 wheel_file     one wheel as SVG, DXF or STL
 fmu_file       a train that moves in time, as a co-simulation unit
 outline_text   the outline of any wheel as SVG, DXF or CSV
+
+Modules: `file_set` lists the files of an export. Formats: `flat_files` (SVG, DXF), `triangle_files` (STL, GLB),
+`step_file`, `rexs`, `csv_tables`, `co_simulation` (FMU, with `co_simulation_slave`, which runs in it). What to cut and
+how to assemble it: `cut_sheets`, `parts_list`, `assembly_steps`, `assembly_pictures`, `assembly_guide` (the README).
+`proof` turns what is written.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from xml.etree.ElementTree import Element, SubElement
 from pythonfmu import Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Real
 from pythonfmu.enums import Fmi2Status
 
-from geartrain.analysis.loader import load
+from geartrain.analysis.gear_train import load
 from geartrain.dynamics.time.stepwise_simulation import Simulation
 from geartrain.errors import GearTrainError
 from geartrain.export.co_simulation import CASE, DECLARATION

@@ -59,7 +59,7 @@ def _links(work: SolidModel) -> tuple[str, Rows]:
     for answer in (train.solve(state, method="exact") for state in states or (None,)):
         for link in train.declaration.links:
             found = answer.speeds.get(link)
-            joint = train.tree.parent.get(link)
+            joint = train.kinematics.tree.parent.get(link)
             parent, axis = joint if joint else ("", "")
             speed = _both(None if found is None else Fraction(found))
             wheels = " ".join(train.declaration.links[link].wheels)

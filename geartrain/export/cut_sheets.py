@@ -1,19 +1,48 @@
-"""All flat drawings of an export, as they are cut: wheels, plates, and sheets of stock with all of them."""
+"""All flat drawings of an export, as they are cut: wheels, plates, and sheets of stock with all of them.
+
+A wheel sheet is made once for each shape of wheel, however often it is needed. Outlines are moved outwards by half of
+what the cut removes. On stock, parts are placed in rows, the tallest first.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from cmath import exp
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import hypot, pi
 from typing import TYPE_CHECKING
 
-from geartrain.export.kerf import compensated
-from geartrain.export.nested_sheets import FlatPart, nested_sheets
-from geartrain.export.plate_sheets import plate_sheets
-from geartrain.export.wheel_sheets import file_names, wheel_sheets
-from geartrain.scene.solids.flat_drawing import FlatDrawing
+import numpy as np
+
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError
+from geartrain.scene.solids.bearing_plates import Plate
+from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.wheel_arms import RIM
+from geartrain.scene.solids.wheel_blanks import Blank
+from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
+    from shapely import Polygon
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.parts.frame_plates import FlatPlate
     from geartrain.scene.solids.solid_assembly import SolidModel
-    from geartrain.scene.solids.wheel_blanks import Blank
+
+
+@dataclass(frozen=True, slots=True)
+class FlatPart:
+    """A part to be cut.
+
+    name       of its file, and on sheets of stock
+    count      how often it is needed
+    thickness  of its sheet (mm)
+    """
+
+    name: str
+    drawing: FlatDrawing
+    count: int
+    thickness: float
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
@@ -22,8 +51,8 @@ def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
     for folder, part in parts:
         yield f"{folder}/{part.name}", compensated(part.drawing, kerf)
     if work.making.sheet is not None:
-        cut = [FlatPart(each.name, compensated(each.drawing, kerf), each.count, each.thickness) for _, each in parts]
-        for sheet in nested_sheets(cut, work.making.sheet, 2 * work.process.web):
+        cut = [replace(each, drawing=compensated(each.drawing, kerf)) for _, each in parts]
+        for sheet in stock_sheets(cut, work.making.sheet, 2 * work.process.web):
             yield f"sheets/{sheet.file}", sheet.drawing
 
 
@@ -38,3 +67,319 @@ def _parts(work: SolidModel) -> Iterator[tuple[str, FlatPart]]:
     plates = plate_sheets(work)
     for plate, name in zip(plates, file_names(plate.name for plate in plates), strict=True):
         yield "plates", FlatPart(name, plate.drawing, 1, plate.thickness)
+
+
+# -------------------------------------------------------------------------------------------------------------- wheels
+
+_LETTER_SHARE = 0.5  # of the free width of the web: height of letters
+_GREATEST = 5.0  # mm
+_LETTER_WIDTH = 0.62  # of its height, as letters of this kind are in the mean
+_BESIDE = 0.3  # mm between letters and a hole
+_SMALLER, _WAYS, _STEPS = (1.0, 0.8, 0.6, 0.45, 0.3, 0.2), 24, 9  # letters, and places for them, that are tried
+_CENTRAL = 1e-6  # mm from the axle: that hole is the bore
+_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # names that Windows keeps for itself
+
+
+@dataclass(frozen=True, slots=True)
+class WheelSheet:
+    """A drawing with the name of its file, without suffix, what it shows, and how thick its sheet is (mm)."""
+
+    file: str
+    drawing: FlatDrawing
+    parts: tuple[str, ...]
+    thickness: float
+
+
+def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
+    """A sheet for each shape among the blanks; wheels of one shape share it."""
+    alike: dict[object, list[Blank]] = {}
+    for blank in blanks.values():
+        alike.setdefault(_shape(blank), []).append(blank)
+    names = file_names(group[0].wheel for group in alike.values())
+    return tuple(
+        WheelSheet(name, _drawing(group), tuple(blank.wheel for blank in group), group[0].thickness)
+        for name, group in zip(names, alike.values(), strict=True)
+    )
+
+
+def file_names(names: Iterable[str]) -> list[str]:
+    """Names that every file system takes, all different even where letters' case is one."""
+    used: set[str] = set()
+    found = []
+    for name in names:
+        base = re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:80] or "part"
+        stem = base = f"part-{base}" if _RESERVED.match(base) else base
+        count = 1
+        while stem.lower() in used:
+            count += 1
+            stem = f"{base}-{count}"
+        used.add(stem.lower())
+        found.append(stem)
+    return found
+
+
+def _shape(blank: Blank) -> object:
+    outline = tuple(contour.points.round(6).tobytes() for contour in blank.contours)
+    return blank.form, round(blank.thickness, 6), outline
+
+
+def _drawing(group: list[Blank]) -> FlatDrawing:
+    blank = group[0]
+    names = ", ".join(each.wheel for each in group)
+    what = "pins" if blank.kind == "pins" else "teeth"
+    often = f", {len(group)} times" if len(group) > 1 else ""
+    title = (
+        f"{names}{often}: {blank.teeth} {what}{' inside' if blank.kind == 'ring' else ''}, {blank.form}, module "
+        f"{blank.module:.6g} mm, pitch diameter {2 * blank.pitch_radius:.4f} mm, thickness {blank.thickness:.4g} mm"
+        + (f", bore {blank.bore:.4g} mm" if blank.bore else "")
+        + (f", {blank.arms} arms" if blank.arms else "")
+    )
+    inner, outer = blank.bore / 2, min(blank.root_radius, blank.tip_radius)
+    if blank.kind == "ring":
+        inner, outer = blank.root_radius, float(abs(blank.contours[0].points).max())
+    elif blank.arms:
+        inner = outer - RIM * blank.module  # on the rim: below it there is an arm or nothing
+    height = min(_LETTER_SHARE * (outer - inner), _GREATEST, 1.6 * outer / max(len(names), 1))
+    mark = _clear_of(_holes(blank), EngravedText(names, (0.0, (inner + outer) / 2), height), inner, outer)
+    return FlatDrawing(title, blank.contours, (Contour.circle(blank.pitch_radius),), (mark,))
+
+
+def _holes(blank: Blank) -> list[tuple[complex, float]]:
+    """Circles that hold the holes beside a wheel's bore: middles and radii (mm); none of a wheel with arms."""
+    own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
+    found = []
+    for hole in own if not blank.arms and blank.kind != "pins" else ():
+        points = hole.flattened(0.05) @ np.array([1, 1j])
+        middle = complex(points.mean())
+        if abs(middle) > _CENTRAL:
+            found.append((middle, float(abs(points - middle).max())))
+    return found
+
+
+def _clear_of(holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float) -> EngravedText:
+    """Letters as they are if they cross no hole; else where there is room for them, the largest that find some."""
+
+    def free(at: complex, along: complex, height: float) -> bool:
+        half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
+        corners = [abs(at + along * complex(x, y)) for x in (-half, 0.0, half) for y in (-tall, tall)]
+        if max(corners) > outer or min(corners) < inner:
+            return False
+        seen = [((middle - at) * along.conjugate(), radius) for middle, radius in holes]
+        return all(
+            hypot(max(abs(z.real) - half, 0), max(abs(z.imag) - tall, 0)) > radius + _BESIDE for z, radius in seen
+        )
+
+    if not holes or free(complex(*mark.at), 1 + 0j, mark.height):
+        return mark
+    for part in _SMALLER:
+        height = part * mark.height
+        for step in range(_WAYS):
+            out = 1j * exp(-2j * pi * step / _WAYS)
+            for away in np.linspace(outer - height / 2, inner + height / 2, _STEPS).tolist():
+                if free(out * away, -1j * out, height):
+                    at = out * away
+                    return EngravedText(mark.text, (at.real, at.imag), height, -360 * step / _WAYS)
+    return mark
+
+
+# -------------------------------------------------------------------------------------------------------------- plates
+
+_LETTER = 1.8  # mm: height of letters beside holes
+
+
+def plate_sheets(work: SolidModel) -> list[Plate]:
+    """A drawing for each plate."""
+    frame = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
+    base = work.train.declaration.frame
+    dials = [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
+    return [*frame, *dials, *work.couplings.plates]
+
+
+def _sheet(plate: FlatPlate) -> Plate:
+    x, y = plate.at
+    marks = tuple(
+        EngravedText(hole.name, (hole.at[0] - x, hole.at[1] - y - hole.diameter / 2 - 0.7 * _LETTER), _LETTER)
+        for hole in plate.holes
+        if hole.name not in ("pillar", "post", "pin", "hub")
+    )
+    sizes = ", ".join(dict.fromkeys(f"{hole.name} {hole.diameter:.4g}" for hole in plate.holes))
+    title = f"{plate.name}: thickness {plate.high - plate.low:.4g} mm, scale 1:1; holes (mm): {sizes}"
+    drawing = FlatDrawing(title, plate.contours, marks=marks)
+    return Plate(plate.link, plate.name.replace(" ", "-"), drawing, plate.high - plate.low)
+
+
+# ---------------------------------------------------------------------------------------------------------------- kerf
+
+_AROUND = 16  # chords of a quarter turn about a corner
+
+
+def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
+    """A drawing whose outer edges stand half a kerf further out and whose holes are as much narrower.
+
+    Circles stay circles; of other curves chords within the drawing's tolerance are moved.
+
+    Parameters
+    ----------
+    drawing : FlatDrawing
+        True to size.
+    kerf : float
+        Width that the cut takes away (mm), 0 or more.
+
+    Raises
+    ------
+    GearTrainError
+        If a hole is narrower than the cut.
+    MissingExtraError
+        If shapely is not installed.
+    """
+    if not kerf:
+        return drawing
+    cut = tuple(_offset(contour, kerf / 2, at > 0, drawing) for at, contour in enumerate(drawing.cut))
+    return replace(drawing, title=f"{drawing.title}, compensated for a kerf of {kerf:g} mm", cut=cut)
+
+
+def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) -> Contour:
+    by = -by if is_hole else by
+    if contour.is_circle:
+        centre = contour.points.mean(axis=0)
+        radius = float(abs(contour.points[0] - centre).max()) + by
+        if radius > 0:
+            return Contour.circle(radius, (float(centre[0]), float(centre[1])))
+        raise _too_narrow(drawing, -2 * by)
+    try:
+        from shapely import Polygon
+    except ImportError:
+        raise MissingExtraError("shapely", "proof", "an outline compensated for its kerf") from None
+    found = Polygon(contour.flattened(drawing.tolerance)).buffer(by, quad_segs=_AROUND)
+    rings = list(_rings(found))
+    if len(rings) != 1:
+        raise _too_narrow(drawing, 2 * abs(by))
+    return Contour.of([(x, y, 0.0) for x, y in rings[0]])
+
+
+def _rings(shape: Polygon) -> Iterator[np.ndarray]:
+    """Outer edges of what is left, without the point that closes them, counter-clockwise."""
+    for part in getattr(shape, "geoms", [shape]):
+        if not part.is_empty:
+            ring = np.array(part.exterior.coords)[:-1]
+            yield ring if part.exterior.is_ccw else ring[::-1]
+
+
+def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
+    name = drawing.title.split(":")[0]
+    what = f"'{name}' has a hole or a slot narrower than the cut"
+    why = f"the cut takes away {kerf:g} mm"
+    return GearTrainError(Problem(what, why, "give a larger --module or --bore, or another --process", "--process"))
+
+
+# --------------------------------------------------------------------------------------------------------------- stock
+
+_CHORD = 0.005  # mm: by how much a curve leaves its chords at most
+
+
+@dataclass(frozen=True, slots=True)
+class StockSheet:
+    """One sheet of stock: its file without suffix, and the names of the parts on it, one for each piece."""
+
+    file: str
+    drawing: FlatDrawing
+    parts: tuple[str, ...]
+
+
+def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: float) -> tuple[StockSheet, ...]:
+    """Sheets of one size on which all parts are laid out, those of one thickness together.
+
+    Next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808): parts are placed in rows, the tallest
+    first; a part that does not fit into the row begins the next one, a row that does not fit begins the next sheet. The
+    longer side of a part is along the width of the sheet if it fits so, else along its height.
+
+    Parameters
+    ----------
+    parts : iterable of FlatPart
+    size : tuple of float
+        Width and height of a sheet (mm).
+    gap : float
+        Minimum distance of parts from each other and from the edge (mm), 0 or more.
+
+    Raises
+    ------
+    QuestionError
+        For a part that is larger than the sheet.
+    """
+    alike: dict[float, list[FlatPart]] = {}
+    for part in parts:
+        alike.setdefault(float(f"{part.thickness:g}"), []).append(part)  # as it is written in the name of the file
+    found = []
+    for thickness, group in sorted(alike.items()):
+        pieces = [_laid_flat(part, size, gap) for part in group for _ in range(part.count)]
+        for number, placed in enumerate(_rows(pieces, size, gap), 1):
+            found.append(_stock_sheet(f"sheet-{thickness:g}mm-{number}", placed, size))
+    return tuple(found)
+
+
+def _laid_flat(part: FlatPart, size: tuple[float, float], gap: float) -> FlatPart:
+    """A part turned so that it fits on a sheet, its longer side along the sheet's width if possible."""
+    low, high = _box(part.drawing)
+    wide, tall = (high - low).tolist()
+    room = [side - 2 * gap for side in size]
+    ways = [turned for turned in (tall > wide, tall <= wide) if _fits((tall, wide) if turned else (wide, tall), room)]
+    if not ways:
+        what = f"'{part.name}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
+        why = f"it is {wide:.4g} x {tall:.4g} mm, and keeps its gap on all sides"
+        raise QuestionError(Problem(what, why, "give a larger --sheet, or a smaller --module", "--sheet"))
+    return replace(part, drawing=_turned(part.drawing)) if ways[0] else part
+
+
+def _fits(sides: tuple[float, float], room: list[float]) -> bool:
+    return sides[0] <= room[0] and sides[1] <= room[1]
+
+
+def _rows(pieces: list[FlatPart], size: tuple[float, float], gap: float) -> Iterator[list[FlatPart]]:
+    """The pieces of each sheet, moved to their places."""
+    boxes = [_box(piece.drawing) for piece in pieces]
+    order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
+    sheet: list[FlatPart] = []
+    x = y = gap
+    row = 0.0  # height
+    for at in order:
+        low, high = boxes[at]
+        wide, tall = (high - low).tolist()
+        if x + wide + gap > size[0]:
+            x, y, row = gap, y + row + gap, 0.0
+        if y + tall + gap > size[1]:
+            yield sheet
+            sheet, x, y, row = [], gap, gap, 0.0
+        sheet.append(replace(pieces[at], drawing=_shifted(pieces[at].drawing, np.array([x, y]) - low)))
+        x, row = x + wide + gap, max(row, tall)
+    if sheet:
+        yield sheet
+
+
+def _stock_sheet(file: str, placed: list[FlatPart], size: tuple[float, float]) -> StockSheet:
+    border = Contour.of([(0, 0, 0), (size[0], 0, 0), (*size, 0), (0, size[1], 0)])
+    title = f"{file}: {len(placed)} parts on {size[0]:g} x {size[1]:g} mm, scale 1:1"
+    cut = tuple(contour for piece in placed for contour in piece.drawing.cut)
+    marks = tuple(mark for piece in placed for mark in piece.drawing.marks)
+    lines = tuple(line for piece in placed for line in piece.drawing.lines)
+    tolerance = min(piece.drawing.tolerance for piece in placed)
+    drawing = FlatDrawing(title, cut, (border,), marks, tolerance, lines)
+    return StockSheet(file, drawing, tuple(piece.name for piece in placed))
+
+
+def _box(drawing: FlatDrawing) -> tuple[Floats, Floats]:
+    points = drawing.cut[0].flattened(_CHORD)
+    return points.min(axis=0) - _CHORD, points.max(axis=0) + _CHORD
+
+
+def _shifted(drawing: FlatDrawing, by: Floats) -> FlatDrawing:
+    cut = tuple(Contour(each.points + by, each.bulges) for each in drawing.cut)
+    marks = tuple(replace(each, at=(each.at[0] + float(by[0]), each.at[1] + float(by[1]))) for each in drawing.marks)
+    return replace(drawing, cut=cut, pitch=(), marks=marks, lines=tuple(line + by for line in drawing.lines))
+
+
+def _turned(drawing: FlatDrawing) -> FlatDrawing:
+    """Turned by a right angle to the left about the origin."""
+    turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
+    cut = tuple(Contour(each.points @ turn, each.bulges) for each in drawing.cut)
+    marks = tuple(replace(each, at=(-each.at[1], each.at[0]), angle=each.angle + 90) for each in drawing.marks)
+    return replace(drawing, cut=cut, pitch=(), marks=marks, lines=tuple(line @ turn for line in drawing.lines))

@@ -13,12 +13,11 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, install_com
 from geartrain.export.assembly_guide import readme
 from geartrain.export.assembly_pictures import step_pictures
 from geartrain.export.csv_tables import to_tables
-from geartrain.export.cut_sheets import cut_sheets, wheel_drawing
+from geartrain.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.export.flat_files import to_dxf, to_svg
 from geartrain.export.parts_list import parts_list, to_csv
 from geartrain.export.proof import TrainProof, proof_is_installed, prove_train
 from geartrain.export.rexs import to_rexs
-from geartrain.export.wheel_sheets import WheelSheet, wheel_sheets
 from geartrain.kinematics import graph
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 
@@ -44,7 +43,7 @@ SUFFIXES = {
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
 """Suffixes of the one file that holds a wheel."""
 
-_NEEDED = {"dxf": ("ezdxf", "dxf"), "glb": ("pygltflib", "model"), "step": ("OCP", "step")}
+_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +109,7 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     Raises
     ------
     MissingExtraError
-        If the library that writes GLB or STEP is not installed.
+        If the library that writes STEP is not installed.
     GearTrainError
         If the train cannot be shown so: the message says why.
 

@@ -75,7 +75,7 @@ class _Unit:
     def shaft(self, link: str, unit: int) -> None:
         """A shaft for each link that turns, or has wheels; its axis is u."""
         wheels = self.declared.links[link].wheels
-        label = self.work.train.tree.axis(link)
+        label = self.work.train.kinematics.tree.axis(link)
         if link == self.declared.frame and not wheels:
             return
         axis = self.work.layout.axes.get(label or "")

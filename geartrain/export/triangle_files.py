@@ -1,24 +1,30 @@
-"""Solids as binary STL, in mm, and the turning assembly as binary glTF, in metres: a node a body, its rotation in key
-frames.
+"""Solids of triangles: binary STL in mm, and the moving assembly as binary glTF (GLB) in metres.
+
+A GLB file has a node for each body, whose rotation is animated, and below it a node for each of its parts. Vertices are
+quantised (glTF extension KHR_mesh_quantization): positions are 16-bit multiples of a step, which is the largest extent
+of a part over 65534, about the middle of its bounding box; normals are 8-bit. The node of a part holds the transform
+from steps to mm, so that parts of equal shape share one mesh.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+import struct
+from dataclasses import dataclass, field
 from fractions import Fraction
+from math import ceil, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import MissingExtraError
-from geartrain.scene.solids.keyframes import Keyframes
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.decimal_text import read_fraction
 from geartrain.scene.solids.solid_assembly import SolidModel
-from geartrain.scene.solids.solid_part import SolidPart, by_body
+from geartrain.scene.solids.solid_part import SolidPart
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.solids.triangle_solids import Solid
-
 
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
@@ -35,7 +41,11 @@ def to_stl(solid: Solid, name: str) -> bytes:
     return header + np.uint32(len(rows)).tobytes() + rows.tobytes()
 
 
+# ----------------------------------------------------------------------------------------------------------------- GLB
+
 _METRE = 0.001
+_STEPS = 65534  # along the largest extent of a part: from -32767 to 32767
+_UNIT = 127  # 8-bit length of a unit normal
 _COLOURS: dict[str, tuple[float, float, float]] = {
     "surviving": (0.72, 0.53, 0.2),
     "reconstructed": (0.45, 0.56, 0.68),
@@ -46,114 +56,287 @@ _COLOURS: dict[str, tuple[float, float, float]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class _Buffer:
-    """Bytes of all accessors, each at a multiple of four."""
+_VERTEX = np.dtype(
+    {"names": ["position", "normal"], "formats": [("<i2", 3), ("i1", 3)], "offsets": [0, 8], "itemsize": 12}
+)
+"""Position and normal of a vertex, each at a multiple of four bytes, as glTF requires."""
 
-    gltf: Any
-    data: bytearray
+_BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126
+_VERTICES, _INDICES, _KEYS = range(3)  # the buffer views
+_VIEWS: tuple[dict[str, int], ...] = (
+    {"byteStride": _VERTEX.itemsize, "target": 34962},  # ARRAY_BUFFER
+    {"target": 34963},  # ELEMENT_ARRAY_BUFFER
+    {},
+)
 
-    def add(self, values: Any, kind: str, component: int, target: int | None = None, limits: bool = False) -> int:
-        """Number of a new accessor over these values."""
-        from pygltflib import Accessor, BufferView
 
-        raw = values.tobytes()
-        self.gltf.bufferViews.append(
-            BufferView(buffer=0, byteOffset=len(self.data), byteLength=len(raw), target=target)
-        )
-        self.data.extend(raw + b"\0" * (-len(raw) % 4))
-        flat = values.reshape(len(values), -1)
-        ends = {"min": flat.min(axis=0).tolist(), "max": flat.max(axis=0).tolist()} if limits else {}
-        view = len(self.gltf.bufferViews) - 1
-        self.gltf.accessors.append(
-            Accessor(bufferView=view, componentType=component, count=len(values), type=kind, **ends)
-        )
-        return len(self.gltf.accessors) - 1
+@dataclass(slots=True)
+class _GlbFile:
+    """The content of a GLB file: objects of the JSON chunk, and the bytes of each buffer view."""
+
+    nodes: list[dict[str, Any]] = field(default_factory=list)
+    meshes: list[dict[str, Any]] = field(default_factory=list)
+    accessors: list[dict[str, Any]] = field(default_factory=list)
+    animations: list[dict[str, Any]] = field(default_factory=list)
+    views: tuple[bytearray, ...] = field(default_factory=lambda: (bytearray(), bytearray(), bytearray()))
+    shared: dict[object, int] = field(default_factory=dict)  # numbers of accessors and meshes, by their content
+
+    def append(self, view: int, values: np.ndarray[Any, Any]) -> int:
+        """Append an array to a buffer view, padded to a multiple of four bytes, and return where it begins."""
+        start, raw = len(self.views[view]), values.tobytes()
+        self.views[view].extend(raw + b"\0" * (-len(raw) % 4))
+        return start
+
+    def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
+        """Number of a new accessor over `count` elements of a buffer view."""
+        own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
+        self.accessors.append(own | more)
+        return len(self.accessors) - 1
+
+    def node(self, **content: Any) -> int:
+        """Number of a new node."""
+        self.nodes.append(content)
+        return len(self.nodes) - 1
+
+    def to_bytes(self, name: str, root: int) -> bytes:
+        """The file: a header, the JSON chunk and the binary chunk (glTF 2.0, section 4.4)."""
+        data, views = b"", []
+        for each, more in zip(self.views, _VIEWS, strict=True):
+            own = each or bytes(4)  # no view is empty
+            views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(own)} | more)
+            data += own
+        content = {
+            "asset": {"generator": "geartrain", "version": "2.0"},
+            "extensionsUsed": ["KHR_mesh_quantization"],
+            "extensionsRequired": ["KHR_mesh_quantization"],
+            "scene": 0,
+            "scenes": [{"name": name, "nodes": [root]}],
+            "nodes": self.nodes,
+            "materials": _materials(),
+            "meshes": self.meshes,
+            "accessors": self.accessors,
+            "animations": self.animations,
+            "bufferViews": views,
+            "buffers": [{"byteLength": len(data)}],
+        }
+        content = {key: value for key, value in content.items() if value != []}
+        text = json.dumps(content, separators=(",", ":")).encode("ascii")
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """The assembly with its motion over some turns of the lead (default `Keyframes`'s). Raises `MissingExtraError`."""
-    try:
-        from pygltflib import GLTF2, Asset, Buffer, Material, Node, PbrMetallicRoughness
-        from pygltflib import Scene as Root
-    except ImportError:
-        raise MissingExtraError("pygltflib", "model", "a model as GLB") from None
-    gltf = GLTF2(asset=Asset(generator="geartrain", version="2.0"), scene=0)
-    buffer = _Buffer(gltf, bytearray())
-    numbers = {}
-    for name, colour in _COLOURS.items():
-        numbers[name] = len(gltf.materials)
-        metal = PbrMetallicRoughness(baseColorFactor=[*colour, 1.0], metallicFactor=0.4, roughnessFactor=0.5)
-        gltf.materials.append(Material(name=name or "wheel", pbrMetallicRoughness=metal))
-    bodies, points = work.scene.bodies, [np.array(body.point) for body in work.scene.bodies]
+    """The assembly with its motion over some turns of the driving link (by default those of `Keyframes`)."""
+    file, bodies = _GlbFile(), work.scene.bodies
+    points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
         origin = np.zeros(3) if body.parent is None else points[body.parent]
-        gltf.nodes.append(Node(name=body.id, translation=(point - origin).tolist(), rotation=[0.0, 0.0, 0.0, 1.0]))
+        file.node(name=body.id, translation=(point - origin).tolist(), rotation=[0.0, 0.0, 0.0, 1.0], children=[])
     for at, body in enumerate(bodies):
         if body.parent is not None:
-            gltf.nodes[body.parent].children.append(at)
-    for at, parts in by_body(work.parts).items():
-        for part in parts:
-            material = numbers[_material(part)]
-            gltf.meshes.append(_mesh(buffer, part, points[at], material))
-            gltf.nodes.append(Node(name=part.name, mesh=len(gltf.meshes) - 1))
-            gltf.nodes[at].children.append(len(gltf.nodes) - 1)
+            file.nodes[body.parent]["children"].append(at)
+    for part in work.parts:
+        file.nodes[part.body]["children"].append(_part(file, part, points[part.body]))
+    for node in file.nodes[: len(bodies)]:
+        if not node["children"]:
+            del node["children"]  # glTF allows no empty list
+    _animate(file, work, turns)
     roots = [at for at, body in enumerate(bodies) if body.parent is None]
     # z is up on paper, y in glTF: the front of the train looks at the reader
     front = [0.0, 0.0, 0.0, 1.0] if work.scene.front > 0 else [0.0, 1.0, 0.0, 0.0]
-    gltf.nodes.append(Node(name=work.train.name, scale=[_METRE] * 3, rotation=front, children=roots))
-    gltf.scenes.append(Root(name=work.train.name, nodes=[len(gltf.nodes) - 1]))
-    _animate(buffer, work, turns)
-    gltf.buffers.append(Buffer(byteLength=len(buffer.data)))
-    gltf.set_binary_blob(bytes(buffer.data))
-    return b"".join(gltf.save_to_bytes())
+    root = file.node(name=work.train.name, scale=[_METRE] * 3, rotation=front, children=roots)
+    return file.to_bytes(work.train.name, root)
 
 
-def _material(part: SolidPart) -> str:
-    if part.kind == "wheel":
-        return part.status
-    return "plate" if part.kind in ("plate", "pillar", "post") else "arbor"
+def _materials() -> list[dict[str, Any]]:
+    return [
+        {
+            "name": name or "wheel",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [*colour, 1.0],
+                "metallicFactor": 0.4,
+                "roughnessFactor": 0.5,
+            },
+        }
+        for name, colour in _COLOURS.items()
+    ]
 
 
-def _mesh(buffer: _Buffer, part: SolidPart, origin: Floats, material: int) -> Any:
-    """Every triangle with corners of its own, so that edges stay sharp."""
-    from pygltflib import ARRAY_BUFFER, FLOAT, Attributes, Mesh, Primitive
+def _material(part: SolidPart) -> int:
+    name = part.status if part.kind == "wheel" else "plate" if part.kind in ("plate", "pillar", "post") else "arbor"
+    return list(_COLOURS).index(name)
 
-    placed = part.placed
-    corners = (placed.vertices[placed.faces] - origin).astype("<f4")
+
+def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
+    """The node of a part, below its body whose own point is `origin` (mm)."""
+    solid = part.solid
+    low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
+    middle, step = (low + high) / 2, float((high - low).max()) / _STEPS
+    steps = np.rint((solid.vertices - middle) / step).astype(np.int16)
+    matrix = np.identity(4)
+    matrix[:3, :3], matrix[:3, 3] = step * part.turn, part.turn @ middle + part.place - origin
+    mesh = _mesh(file, part, *_vertices(solid, steps))
+    return file.node(name=part.name, mesh=mesh, matrix=matrix.T.reshape(-1).tolist())  # column by column
+
+
+def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Vertices of a mesh, and their indices in its triangles. Corners of one position and one normal are one vertex."""
+    corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.where(length > 0, normals / np.where(length > 0, length, 1), np.array([0.0, 0.0, 1.0]))
-    position = buffer.add(corners.reshape(-1, 3), "VEC3", FLOAT, ARRAY_BUFFER, limits=True)
-    normal = buffer.add(np.repeat(normals, 3, axis=0).astype("<f4"), "VEC3", FLOAT, ARRAY_BUFFER)
-    attributes = Attributes(POSITION=position, NORMAL=normal)
-    return Mesh(name=part.name, primitives=[Primitive(attributes=attributes, material=material)])
+    short = np.repeat(np.rint(_UNIT * normals).astype(np.int64), 3, axis=0)
+    # one integer for each corner: 8 bits for each component of the normal, and the index of the position
+    code = (at << 24) + ((short + 128) << np.array([16, 8, 0])).sum(axis=1)
+    _, first, indices = np.unique(code, return_index=True, return_inverse=True)
+    vertices = np.zeros(len(first), dtype=_VERTEX)
+    vertices["position"], vertices["normal"] = steps[at[first]], short[first]
+    return vertices, indices.reshape(-1).astype("<u2" if len(first) <= 65535 else "<u4")
 
 
-def _animate(buffer: _Buffer, work: SolidModel, turns: Fraction | None) -> None:
-    from pygltflib import FLOAT, Animation, AnimationChannel, AnimationChannelTarget, AnimationSampler
+def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
+    """Number of a mesh of these triangles, which may exist already."""
+    shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
+    if shape not in file.shared:
+        start, positions = file.append(_VERTICES, vertices), vertices["position"]
+        limits = {"min": positions.min(axis=0).tolist(), "max": positions.max(axis=0).tolist()}
+        short = _UNSIGNED_SHORT if indices.itemsize == 2 else _UNSIGNED_INT
+        file.shared[shape] = file.accessor(_VERTICES, start, len(vertices), "VEC3", _SHORT, **limits)
+        file.accessor(_VERTICES, start + 8, len(vertices), "VEC3", _BYTE, normalized=True)
+        file.accessor(_INDICES, file.append(_INDICES, indices), len(indices), "SCALAR", short)
+    if (shape, material) not in file.shared:
+        position = file.shared[shape]
+        attributes = {"POSITION": position, "NORMAL": position + 1}
+        primitive = {"attributes": attributes, "indices": position + 2, "material": material}
+        file.meshes.append({"name": part.name, "primitives": [primitive]})
+        file.shared[shape, material] = len(file.meshes) - 1
+    return file.shared[shape, material]
 
+
+def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
+    """Add the rotation of every body that turns over its parent."""
     turning = Keyframes.of(work, turns)
     if turning is None:
         return
-    animation = Animation(name=f"{turning.turns} turns of {work.scene.bodies[work.scene.lead or 0].id}")
+    channels: list[dict[str, Any]] = []
+    samplers: list[dict[str, Any]] = []
     clocks: dict[int, int] = {}
     for at, body in enumerate(work.scene.bodies):
         count = turning.keys(at)
         if body.parent is None or not count:
             continue
-        t = np.arange(count + 1) / count
         if count not in clocks:
-            clocks[count] = buffer.add((t * turning.seconds).astype("<f4"), "SCALAR", FLOAT, limits=True)
+            moments = (np.arange(count + 1) / count * turning.seconds).astype("<f4")
+            limits = {"min": [float(moments[0])], "max": [float(moments[-1])]}
+            clocks[count] = file.accessor(_KEYS, file.append(_KEYS, moments), count + 1, "SCALAR", _FLOAT, **limits)
         half = turning.angle(at, count) / 2
         axis = np.array(body.direction)
         quaternions = np.column_stack([np.sin(half)[:, None] * axis, np.cos(half)])
         # q and -q turn alike: neighbours of one sign are joined the shorter way by every reader
         apart = (quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0
         quaternions[1:] *= np.where(np.cumsum(apart) % 2, -1.0, 1.0)[:, None]
-        output = buffer.add(quaternions.astype("<f4"), "VEC4", FLOAT)
-        animation.samplers.append(AnimationSampler(input=clocks[count], output=output, interpolation="LINEAR"))
-        target = AnimationChannelTarget(node=at, path="rotation")
-        animation.channels.append(AnimationChannel(sampler=len(animation.samplers) - 1, target=target))
-    if animation.channels:
-        buffer.gltf.animations.append(animation)
+        output = file.accessor(_KEYS, file.append(_KEYS, quaternions.astype("<f4")), count + 1, "VEC4", _FLOAT)
+        channels.append({"sampler": len(samplers), "target": {"node": at, "path": "rotation"}})
+        samplers.append({"input": clocks[count], "output": output, "interpolation": "LINEAR"})
+    if channels:
+        name = f"{turning.turns} turns of {work.scene.bodies[work.scene.lead or 0].id}"
+        file.animations.append({"name": name, "channels": channels, "samplers": samplers})
+
+
+# ----------------------------------------------------------------------------------------------------------- key frames
+
+_A_TURN = 3  # key frames: between two of them a rotation takes the shorter way, so two would be ambiguous
+_RIPPLING = 48  # of a turn, where teeth or pins add something
+_LEAST_RIPPLING = 240
+_MOST = 60_000  # key frames of one body: a longer period is not shown whole
+_USUAL = 10  # turns of the lead, where no period is
+_PACE = 1.0  # seconds in which the fastest body turns once
+_LONGEST = 120.0  # seconds
+
+
+@dataclass(frozen=True)
+class Keyframes:
+    """What turns, and for how long.
+
+    turns     of the lead
+    seconds   that they take
+    speeds    of each body over its parent's, in turns of the lead, about its `direction`; None: it does not turn
+    """
+
+    work: SolidModel
+    turns: Fraction
+    seconds: float
+    speeds: tuple[Fraction | None, ...]
+    ripples: bool
+    _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
+        """The motion of a train over `turns`, by default its period, or ten turns where that is long; None if still."""
+        scene = work.scene
+        if scene.movement.kind == "still" or scene.lead is None:
+            return None
+        speeds = _relative(work)
+        fastest = max((abs(speed) for speed in speeds if speed), default=Fraction(0))
+        if not fastest:
+            return None
+        ripples = scene.movement.kind == "real"
+        dense = _RIPPLING if ripples else _A_TURN
+        if turns is None:
+            period = read_fraction(scene.movement.period) if scene.movement.period else None
+            turns = period if period and period * fastest * dense <= _MOST else Fraction(_USUAL)
+            turns = min(turns, Fraction(_MOST) / (fastest * dense))
+        elif turns <= 0 or turns * fastest * dense > _MOST:
+            most = float(_MOST / (fastest * dense))
+            why = f"its fastest body would need {float(turns * fastest * dense):.4g} key frames"
+            fix = f"give more than 0 and at most {most:.4g}"
+            raise QuestionError(Problem(f"{turns} turns are no animation", why, fix, "--turns"))
+        seconds = min(max(float(turns * fastest) * _PACE, 1.0), _LONGEST)
+        return cls(work, turns, seconds, speeds, ripples)
+
+    def keys(self, body: int) -> int:
+        """Steps between key frames of a body; 0 if it stands still on its parent."""
+        speed = self.speeds[body]
+        turned = abs(float((speed or 0) * self.turns))
+        if self.ripples and self.work.scene.bodies[body].speed is not None:
+            return max(ceil(_RIPPLING * turned), _LEAST_RIPPLING)
+        return ceil(_A_TURN * turned)
+
+    def angle(self, body: int, count: int) -> Floats:
+        """Angle (rad) over its parent at `count` + 1 even moments, about its direction."""
+        bodies = self.work.scene.bodies
+        found = np.zeros(count + 1)
+        for at, sign in ((body, 1), (bodies[body].parent, -1)):
+            if at is not None and bodies[at].parent is not None:
+                own = bodies[at]
+                whole = read_fraction(own.speed or "0") * self.turns
+                # parts of a turn exactly, in whole numbers, so that a body that comes home is there
+                above, below = whole.numerator, whole.denominator * count
+                parts = [above * k % below / below for k in range(count + 1)]
+                found += sign * own.sense * (own.start + 2 * pi * np.array(parts) + self._errors(count)[at])
+        return found
+
+    def _errors(self, count: int) -> Floats:
+        """What teeth and pins add to the angle of each body (rad), (bodies, count + 1)."""
+        bodies = self.work.scene.bodies
+        if not self.ripples:
+            return np.zeros((len(bodies), count + 1))
+        if count not in self._found:  # bodies of one count share it
+            links = tuple(self.work.train.declaration.links)
+            motion = self.work.sized.motion(self.work.scene.state, links)
+            self._found[count] = motion.at(float(self.turns) * np.arange(count + 1) / count).error
+        return self._found[count]
+
+
+def _relative(work: SolidModel) -> tuple[Fraction | None, ...]:
+    bodies = work.scene.bodies
+    found: list[Fraction | None] = []
+    for body in bodies:
+        parent = None if body.parent is None else bodies[body.parent]
+        if parent is None or body.speed is None:
+            found.append(None)
+            continue
+        carried = read_fraction(parent.speed or "0") * parent.sense if parent.parent is not None else Fraction(0)
+        found.append(read_fraction(body.speed) * body.sense - carried)
+    return tuple(found)

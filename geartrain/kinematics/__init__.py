@@ -2,21 +2,25 @@
 
 In: a train's declaration, inputs, what is held. Out: fundamental circuits with their carriers, speeds as Fractions (or
 floats with a bound of their error), degrees of freedom, a verdict with its certificate, outputs held against what is
-expected of them. `geartrain.GearTrain` asks for all of it. The equation of the room is Willis':
-a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
+expected of them. `TrainKinematics` has all of it for one train, each part found once.
 
-graph                 the declared links, turning pairs and gear pairs as a networkx graph
-circuits              joint tree, axes, rigid bodies, fundamental circuits
+The equation of the room is Willis': a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
+
+train_kinematics                 everything below for one train; remarks on a sound declaration
+circuits                         joint tree, axes, rigid bodies, fundamental circuits
 willis_equation, willis_system   the rows of the system, for all that solve it
-willis_matrix         the same rows as a sparse matrix
-components            ordinary trains of one carrier, and the reduced system between them
-speeds                propagation, exact elimination, floats
-formulas              outputs as rational functions of tooth counts, and as an engineer writes them
-relative_speeds       the speed of one link seen from another
-gridlock              locked subgraphs, and the fewest meshes to take out
-phasing               whether teeth meet when a train is put together
-buildability          what of a declared train cannot be built, and what is unwise
-judged_outputs, answer, verdict, lint   what is told of it all
+willis_matrix                    the same rows as a sparse matrix
+components                       ordinary trains of one carrier, and the reduced system between them
+speeds                           propagation, exact elimination, mobility, diagnosis, floats
+formulas                         outputs as rational functions of tooth counts, and as an engineer writes them
+tooth_sensitivity                the effect of one tooth more or less
+relative_speeds, levers          the speed of one link seen from another; links as points of a lever
+gridlock                         locked subgraphs, and the fewest meshes to take out
+phasing                          whether teeth meet when a train is put together
+buildability                     what of a declared train cannot be built, and what is unwise
+planet_copies                    one declared planet that stands for several
+graph                            the declared links, turning pairs and gear pairs as a networkx graph
+judged_outputs, answer, verdict  results
 """
 
 from __future__ import annotations
@@ -37,11 +41,12 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
     from geartrain.kinematics.levers import Lever as Lever
     from geartrain.kinematics.levers import find_levers as find_levers
-    from geartrain.kinematics.phasing.loop_phase import LoopPhase as LoopPhase
+    from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.tooth_sensitivity import Sensitivity as Sensitivity
+    from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
     from geartrain.kinematics.verdict import Loop as Loop
     from geartrain.kinematics.verdict import Verdict as Verdict
     from geartrain.kinematics.willis_equation import WillisEquation as WillisEquation
@@ -63,6 +68,7 @@ __all__ = [
     "OutputResult",
     "Sensitivity",
     "TargetResult",
+    "TrainKinematics",
     "Verdict",
     "WillisEquation",
     "WillisMatrix",
@@ -82,13 +88,14 @@ __getattr__ = lazy_names(
         "Lever": "levers",
         "LockedSubgraph": "gridlock.removal",
         "Loop": "verdict",
-        "LoopPhase": "phasing.loop_phase",
+        "LoopPhase": "phasing.mesh_phasing",
         "MeshPhasing": "phasing.mesh_phasing",
         "MeshRemoval": "gridlock.removal",
         "Mobility": "speeds.mobility",
         "OutputResult": "judged_outputs",
         "Sensitivity": "tooth_sensitivity",
         "TargetResult": "judged_outputs",
+        "TrainKinematics": "train_kinematics",
         "Verdict": "verdict",
         "WillisEquation": "willis_equation",
         "WillisMatrix": "willis_matrix",

@@ -47,7 +47,7 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
     train : Train
         The declaration.
     tree : Tree
-        Its turning pairs as a tree, `GearTrain.tree`.
+        Its turning pairs as a tree, `GearTrain.kinematics.tree`.
     circuits : sequence of Circuit
         Its fundamental circuits, `GearTrain.circuits`.
 
@@ -66,7 +66,7 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
 
     >>> import geartrain
     >>> train = geartrain.load("planetary-24-18-60")
-    >>> find_levers(train.declaration, train.tree, train.circuits)[0].abscissae["frame"]
+    >>> find_levers(train.declaration, train.kinematics.tree, train.circuits)[0].abscissae["frame"]
     Fraction(-2, 5)
     """
     parts = find_components(tuple(train.links), train.frame, circuits)

@@ -35,7 +35,7 @@ class Sensitivity(Result):
 
     >>> import geartrain
     >>> train = geartrain.load("freeth-2008-doubt")
-    >>> found = next(train.sensitivity(train.solve()))
+    >>> found = next(train.kinematics.sensitivity(train.solve()))
     >>> found.wheel, found.output, found.less, found.less == -1e6 / found.teeth
     ('b2', 'moon', -15625.0, True)
     """

@@ -4,25 +4,36 @@ In: numbers and tasks. Out: exact solutions of sparse systems, roots, piecewise 
 results of tasks in their order. Most of it is for the rooms above; a user meets quantities and figures in declarations,
 labelled arrays and long floats in answers, and runs long questions with an executor and a journal.
 
-exact, decimal_text, factored_ratios  integers and Fractions of any length, and their text
-long_float, error_free               floats with an exponent of their own; sums and products with their rounding error
-rounding_bounds                      a priori bounds on the rounding of sums and quotients
-elimination                          sparse linear forms over the rationals
-sparse_least_squares                 least squares with a few entries a row
-integer_lattice, rational_angles     integer rows in a rational span; angles as parts of a turn
-vectors                              three numbers as a vector in space, exact where they are
-graphs                               paths in a rooted forest, groups of what is joined
-lazy_graph                           a networkx graph whose attributes are made when they are read
-block_triangular                     matching, then strongly connected components (Dulmage and Mendelsohn)
-roots, simultaneous_roots            bracketed roots, one by one and many at once
-chebyshev, polynomial_pieces         functions as series and as pieces of polynomials
-kernels, compilation                 functions in plain Python that can be compiled; the time in which they are
-gauss_kernel                         small dense systems inside compiled loops
-quantity, units                      values with a unit, and the number as it was written
-arrays, labelled_array, named_arrays arrays with names on their axes; containers that cannot change
-files                                finished text and tables out, atomically
-lazy_names                           names of a package that are imported when they are asked for
-work                                 independent tasks, their journal, and what runs them
+Exact numbers
+    exact, decimal_text, factored_ratios  integers and Fractions of any length, and their text
+    elimination                           sparse linear forms over the rationals
+    integer_columns, integer_lattice      columns of integers of any length; integer rows in a rational span
+    rational_angles                       angles as parts of a turn
+    calendar_dates                        dates and Julian days in the Julian and the Gregorian calendar
+    weighted_alternatives                 alternatives with weights: totals, marginals, draws
+Floats
+    long_float, error_free                floats with an exponent of their own; sums and products with their error
+    rounding_bounds, bounded_polynomials  a priori bounds on rounding; polynomials in float64 with such bounds
+    sparse_least_squares                  least squares with a few entries a row
+    roots, simultaneous_roots             bracketed roots, one by one and many at once
+    global_minimum, range_extremes        the minimum of a function with kinks; extremes of runs of a row
+    chebyshev, polynomial_pieces          functions as series and as pieces of polynomials
+    batch_means, information              intervals of means of correlated values; information in bits
+    vectors, polylines                    vectors in space, exact where they are; lines of points
+    kernels, compilation                  functions in plain Python that can be compiled; the time in which they are
+Graphs
+    graphs, lazy_graph                    paths in a rooted forest, groups of what is joined; a graph of networkx
+    block_triangular                      matching, then strongly connected components (Dulmage and Mendelsohn)
+Values with names and units, and their forms
+    quantity, quantity_bounds, units      values with a unit, their limits, and the number as it was written
+    arrays, labelled_array, named_arrays  arrays with names on their axes; arrays in named tuples
+    plain_data, tabular, result_picture   results as JSON, as tables, as pictures
+    containers, packing                   mappings that cannot change; arrays as text
+    markdown_text                         text that Markdown takes literally
+Files, work, modules
+    files                                 finished text and tables out, atomically
+    work                                  independent tasks, their journal, and what runs them
+    lazy_names                            names of a package that are imported when they are asked for
 """
 
 from __future__ import annotations
@@ -36,9 +47,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.long_float import LongFloat as LongFloat
     from geartrain.numerics.quantity import Figure as Figure
     from geartrain.numerics.quantity import Quantity as Quantity
-    from geartrain.numerics.work.execution import Execution as Execution
     from geartrain.numerics.work.executors import open_executor as open_executor
     from geartrain.numerics.work.journal import Journal as Journal
+    from geartrain.numerics.work.task_runner import Execution as Execution
     from geartrain.numerics.work.task_runner import run as run
 
 __all__ = ["Execution", "Figure", "Journal", "LabelledArray", "LongFloat", "Quantity", "open_executor", "run"]
@@ -46,7 +57,7 @@ __all__ = ["Execution", "Figure", "Journal", "LabelledArray", "LongFloat", "Quan
 __getattr__ = lazy_names(
     __name__,
     {
-        "Execution": "work.execution",
+        "Execution": "work.task_runner",
         "Figure": "quantity",
         "Journal": "work.journal",
         "LabelledArray": "labelled_array",

@@ -106,6 +106,10 @@ class ItemwiseMapping(Mapping[K, V]):
     def __len__(self) -> int:
         return len(self._keys)
 
+    def __reduce__(self) -> tuple[type[dict[K, V]], tuple[dict[K, V]]]:
+        """Pickled as a dictionary of all values: what makes them may be a local function."""
+        return dict, (dict(self),)
+
 
 class FrozenFields:
     """A frozen dataclass whose plain dictionaries are frozen too."""

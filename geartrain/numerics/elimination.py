@@ -10,7 +10,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
-from typing import Any
+from operator import itemgetter
+from typing import Any, Protocol, TypeVar
+
+T = TypeVar("T")
 
 PRIME = (1 << 61) - 1
 """A Mersenne prime: rank modulo it is a lower bound that is exact but for accidents of probability 1e-18."""
@@ -75,15 +78,81 @@ def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None
 
 
 def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None, modulus: int = 0) -> Echelon:
-    """Sparse Gaussian elimination over the rationals (or modulo a prime): shortest row first, rarest column in it.
+    """Sparse Gaussian elimination over the rationals (or modulo a prime); see `eliminate_units`.
 
     rows      linear forms that vanish; columns < 0 are symbols
     budget    the most operations allowed, long numbers counting more; `TooDenseError` past it
     modulus   0 for exact rationals, else a prime; coefficients must then be integers
-
-    Rows of one or two unknowns are plain substitutions, so chains, trees and cascades cost linear time;
-    fill appears only where circuits are truly coupled.
     """
+    field = Residues(modulus) if modulus else RATIONALS
+    pivots, left = eliminate_units(rows, field, budget)
+    conditions = tuple(row for _, row in left if row)
+    return Echelon(tuple(pivots), conditions, tuple(index for index, row in left if not row))
+
+
+class Ring(Protocol[T]):
+    """Coefficients of linear forms.
+
+    modulus   what products are reduced by; 0 if they are not
+    """
+
+    @property
+    def modulus(self) -> int: ...
+
+    def inverse(self, entry: T) -> T | None:
+        """1 over a coefficient, None if it is not a unit of the ring."""
+        ...
+
+    def words(self, entry: T) -> int:
+        """Machine words that a coefficient has: the cost of one operation with it."""
+        ...
+
+
+class _Rationals:
+    """The field of rationals."""
+
+    modulus = 0
+
+    def inverse(self, entry: Fraction) -> Fraction:
+        return 1 / entry
+
+    def words(self, entry: Fraction) -> int:
+        return 1 + entry.numerator.bit_length() // 64
+
+
+RATIONALS = _Rationals()
+
+
+@dataclass(frozen=True, slots=True)
+class Residues:
+    """The field of integers modulo a prime."""
+
+    modulus: int
+
+    def inverse(self, entry: Any) -> Any:
+        """1 over a residue."""
+        return pow(int(entry), -1, self.modulus)
+
+    def words(self, entry: Any) -> int:
+        """One word, as long as the modulus has no more."""
+        return 1
+
+
+def eliminate_units(
+    rows: Iterable[Mapping[int, T]], ring: Ring[T], budget: int | None = None
+) -> tuple[list[tuple[int, dict[int, T]]], list[tuple[int, dict[int, T]]]]:
+    """Sparse Gaussian elimination over any commutative ring, by pivots that are units: shortest row first.
+
+    In the shortest row the pivot is the rarest column (Markowitz' rule in part). Rows of one or two unknowns are plain
+    substitutions, so chains, trees and cascades cost linear time; fill appears only where circuits are truly coupled.
+
+    rows     linear forms that vanish; columns < 0 are symbols, never pivots
+    budget   the most operations allowed, long coefficients counting more; `TooDenseError` past it
+
+    Returns the pivots in the order taken, (column, rest) with column = -(rest); and the rows without pivot by their
+    index: those without unknowns in the order met, then those in which no unknown has a unit.
+    """
+    modulus = ring.modulus
     active = {index: dict(row) for index, row in enumerate(rows)}
     users: dict[int, set[int]] = {}
     for index, row in active.items():
@@ -92,9 +161,8 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
                 users.setdefault(column, set()).add(index)
     queue = [(sum(column >= 0 for column in row), index) for index, row in active.items()]
     heapify(queue)
-    pivots: list[tuple[int, LinearForm]] = []
-    conditions: list[LinearForm] = []
-    redundant: list[int] = []
+    pivots: list[tuple[int, dict[int, T]]] = []
+    left: list[tuple[int, dict[int, T]]] = []
     work = 0
     while queue:
         length, index = heappop(queue)
@@ -102,45 +170,46 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
         unknowns = [column for column in row if column >= 0]
         if index not in active or len(unknowns) != length:
             continue  # an old entry of a row that changed since, and was queued again
-        del active[index]
         if not unknowns:
-            if row:
-                conditions.append(row)
-            else:
-                redundant.append(index)
+            left.append((index, active.pop(index)))
             continue
         # Markowitz' rule in part: the column that fewest rows hold fills least; ties by number, so that runs repeat
-        pivot = min(unknowns, key=lambda column: (len(users[column]), column))
-        lead = row.pop(pivot)
-        if modulus:
-            inverse = pow(int(lead), -1, modulus)
-            rest: LinearForm = {column: value * inverse % modulus for column, value in row.items()}
+        unknowns.sort(key=lambda column: (len(users[column]), column))
+        for pivot in unknowns:
+            inverse: Any = ring.inverse(row[pivot])
+            if inverse is not None:
+                break
         else:
-            rest = {column: value / lead for column, value in row.items()}
+            continue  # no unit; the row is queued again once it changes
+        del active[index]
+        cost = len(row) * ring.words(row.pop(pivot))
+        rest: dict[int, Any] = {column: value * inverse for column, value in row.items()}
+        if modulus:
+            rest = {column: value % modulus for column, value in rest.items()}
         pivots.append((pivot, rest))
-        cost = (len(rest) + 1) * (1 + lead.numerator.bit_length() // 64)
         for column in unknowns:
             users[column].discard(index)
         for other in users.pop(pivot):
             target = active[other]
-            factor = target.pop(pivot)
+            factor: Any = target.pop(pivot)
             work += cost
             for column, value in rest.items():
-                new = target.get(column, 0) - factor * value
+                known: Any = target.get(column)
+                new = -(factor * value) if known is None else known - factor * value
                 if modulus:
                     new %= modulus
                 if new:
-                    if column >= 0 and column not in target:
+                    if known is None and column >= 0:
                         users[column].add(other)
                     target[column] = new
-                elif column in target:
+                elif known is not None:
                     del target[column]
                     if column >= 0:
                         users[column].discard(other)
             heappush(queue, (sum(column >= 0 for column in target), other))
             if budget is not None and work > budget:
                 raise TooDenseError
-    return Echelon(tuple(pivots), tuple(conditions), tuple(redundant))
+    return pivots, [*left, *sorted(active.items(), key=itemgetter(0))]
 
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:

@@ -34,7 +34,7 @@ class LabelledArray(Tabular, Result):
     Examples
     --------
     >>> import geartrain
-    >>> speeds = geartrain.load("planetary-24-18-60").floats(inputs={"sun": [7.0, 14.0]}).speeds
+    >>> speeds = geartrain.load("planetary-24-18-60").kinematics.floats(inputs={"sun": [7.0, 14.0]}).speeds
     >>> speeds.axes, speeds["carrier"].round(9).tolist()
     (('link', 'case'), [2.0, 4.0])
     """

@@ -7,8 +7,8 @@ from importlib import import_module
 from typing import Any, ClassVar, Literal
 
 
-def picture_maker(room: Literal["drawing", "viewer"], name: str) -> Callable[..., Any]:
-    """A function that draws, by its name, for a method that hands itself to it.
+def picture_maker(room: Literal["drawing", "report", "viewer"], name: str) -> Callable[..., Any]:
+    """A function that draws or describes, by its name, for a method that hands itself to it.
 
     Rooms that draw stand above those that calculate. A result reaches up to them here alone, by name, and when it is
     asked to show itself: nothing that draws is imported before.

@@ -32,12 +32,12 @@ class Tabular:
         Raises
         ------
         MissingExtraError
-            Without pandas, which the extra `errors` brings.
+            Without pandas, which the extra `tables` brings.
         """
         try:
             import pandas
         except ImportError:
-            raise MissingExtraError("pandas", "errors", "a table of its kind") from None
+            raise MissingExtraError("pandas", "tables", "a table of its kind") from None
         return pandas.DataFrame(dict(self.columns))
 
     def to_records(self) -> Any:

@@ -123,7 +123,7 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
     moving = [speed for speed in train.declaration.case(answer.state).inputs.values() if speed]
     rows = []
     for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # a long train's speeds are long
-        mark = " (sum of joint speeds)" if link in train.bookkeeping else ""
+        mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
         ratio = speed / moving[0] if len(moving) == 1 else None
         rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
@@ -218,7 +218,7 @@ def _span(declared: Train, units: Fraction | float) -> str:
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
     """Wheels in doubt, and what one tooth on each of them does to the pointers."""
     for answer in answers:
-        found = list(train.sensitivity(answer)) if answer.verdict else []
+        found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
         pointers = {name for name, result in answer.outputs.items() if result.output.dial or result.targets}
         if pointers:
             found = [item for item in found if item.output in pointers]

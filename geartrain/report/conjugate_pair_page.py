@@ -7,7 +7,6 @@ from math import cos, degrees, isfinite
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
-from geartrain.teeth.rubbed_transmission import friction_words
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pair_design import DesignCosts, PairDesign
@@ -116,7 +115,7 @@ def _friction(design: PairDesign) -> Section:
     if not design.mesh.rubs:
         return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
     if not design.mesh.tells_losses:
-        return Section("Friction", (f"{friction_words(design.mesh)}.",))
+        return Section("Friction", (f"{design.mesh.friction_words}.",))
     if design.locks:
         return Section(
             "Friction",
@@ -125,7 +124,7 @@ def _friction(design: PairDesign) -> Section:
     return Section(
         "Friction",
         (
-            f"{friction_words(design.mesh)}. Efficiency, exact in friction, teeth in contact sharing the "
+            f"{design.mesh.friction_words}. Efficiency, exact in friction, teeth in contact sharing the "
             f"load equally: mean {law.efficiency_mean():.9f} at constant driver torque, "
             f"{law.efficiency_at_constant_load():.9f} at constant load torque, least {law.efficiency_least():.9f}.",
         ),

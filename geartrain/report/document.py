@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
+from geartrain.numerics.result_picture import picture_maker
 
 
 class ExactText(str):
@@ -212,6 +213,14 @@ class Document:
     lead: Sequence[str]
     sections: Sequence[Section]
     aside: PageExtras = field(default_factory=PageExtras)
+
+    def __str__(self) -> str:
+        """The document as Markdown."""
+        text: str = picture_maker("report", "to_markdown")([self])
+        return text
+
+    def _repr_markdown_(self) -> str:
+        return str(self)
 
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:

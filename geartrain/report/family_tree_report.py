@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from geartrain.report.document import Branch, SceneText, Section
 from geartrain.report.reconstruction_facts import many, share_text
-from geartrain.synthesis.reconstruction.family_tree import FamilyBranch, FamilyTrain
+from geartrain.synthesis.reconstruction.candidate_findings import FamilyBranch, FamilyTrain
 
 _MOST_BRANCHES = 60
 _MOST_TRAINS = 6

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from geartrain.kinematics.formulas.speed_formulas import OutputFormula
+from geartrain.kinematics.formulas.speed_formulas import OutputFormula, speed_formulas
 from geartrain.numerics.plain_data import Result
 from geartrain.report.document import Document, Section, Table, exact
 
@@ -90,7 +90,7 @@ def collect_formulas(
     >>> [(each.wheel, each.elasticity.text) for each in found.sensitivities]
     [('s12', 'z_r72/(z_s12 + z_r72)'), ('r72', '-z_r72/(z_s12 + z_r72)')]
     """
-    formulas = tuple(each for state in states for each in train.formulas(state, outputs))
+    formulas = tuple(each for state in states for each in _formulas(train, state, outputs))
     found = (
         RatioElasticity(each.state, each.output, share.input, wheel, share.ratio.elasticity(wheel))
         for each in formulas
@@ -98,6 +98,11 @@ def collect_formulas(
         for wheel in share.ratio.formula.wheels
     )
     return FormulaReport(train.name, train.declaration.title, formulas, tuple(found) if sensitivities else ())
+
+
+def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
+    """Those of some outputs, by default of all that the inputs determine."""
+    return speed_formulas(train.declaration, train.declaration.single_state(state), outputs)
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
@@ -135,7 +140,7 @@ def formula_section(train: GearTrain, state: str | None, explained: bool = True)
 
     explained   with the words that say how a formula is read
     """
-    told = [each for each in train.formulas(state) if any(share.ratio.formula.wheels for share in each.shares)]
+    told = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
     if told:
         lines = (text for each in told for text in _lines(each, False))
         yield Section(_title(state), ((_HEAD,) if explained else ()) + tuple(lines))

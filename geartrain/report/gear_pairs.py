@@ -72,7 +72,7 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     ]
     tables.append(_drivers(pairs, 4 if train.states else 3))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
-    lines += map(fault_text, train.faults)
+    lines += map(fault_text, train.mechanics.faults)
     return Section("Teeth", lines, tables)
 
 
@@ -94,7 +94,7 @@ def _drivers(pairs: Sequence[DrivenPair], used: int) -> Table:
 
 def _pins(train: GearTrain) -> Section:
     rows = []
-    for joint in train.pins:
+    for joint in train.mechanics.pins:
         law, coupling = joint.law, joint.coupling
         least, most = law.speed_range()
         rows.append(
@@ -115,9 +115,9 @@ def _pins(train: GearTrain) -> Section:
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
     """Real teeth of a train in every way they are driven; empty where none are declared."""
-    return tuple(DrivenPair(mesh, states) for ways in train.driven_ways.values() for mesh, states in ways)
+    return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
     """Pins of a train; empty where none has dimensions."""
-    return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.law)) for joint in train.pins)
+    return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.law)) for joint in train.mechanics.pins)

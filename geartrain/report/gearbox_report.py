@@ -124,7 +124,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     Parameters
     ----------
     found : GearSearch
-        As `GearTrain.gear_search` gives it.
+        As `geartrain.analysis.find_gears` gives it.
 
     Returns
     -------
@@ -134,7 +134,8 @@ def describe_gear_search(found: GearSearch) -> Document:
     Examples
     --------
     >>> import geartrain
-    >>> page = describe_gear_search(geartrain.load("simpson-set").gear_search())
+    >>> from geartrain.analysis import find_gears
+    >>> page = describe_gear_search(find_gears(geartrain.load("simpson-set")))
     >>> page.sections[0].tables[0].rows[0]
     ('forward, low', '2.4545', '1')
     """

@@ -82,7 +82,7 @@ def _of_doubt() -> dict[str, Schema]:
 
 def _of_spheres() -> dict[str, Schema]:
     from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.polyhedron_survey import SurveyRow
+    from geartrain.spherical.polyhedron_gears import SurveyRow
     from geartrain.spherical.tooth_count_search import ToothCountSuggestions
 
     return {
@@ -93,11 +93,11 @@ def _of_spheres() -> dict[str, Schema]:
 
 
 def _of_tooth_numbers() -> dict[str, Schema]:
-    from geartrain.report.reconstruction_report import ReconstructionReport
     from geartrain.synthesis.epicyclic.epicyclic_sets import SetFindings
     from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
     from geartrain.synthesis.orrery.orrery_result import Orrery
     from geartrain.synthesis.ratio.stage_search import StageFindings
+    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionAnswer
     from geartrain.synthesis.stern_brocot import Approximants
     from geartrain.synthesis.train.train_findings import TrainFindings
 
@@ -108,7 +108,7 @@ def _of_tooth_numbers() -> dict[str, Schema]:
         "teeth set --kind list": shape_of(dict[str, EpicyclicKind]),
         "teeth train": shape_of(TrainFindings),
         "teeth orrery": shape_of(Orrery),
-        "reconstruct": shape_of(ReconstructionReport),
+        "reconstruct": shape_of(ReconstructionAnswer),
     }
 
 

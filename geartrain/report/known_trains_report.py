@@ -6,8 +6,15 @@ from collections.abc import Iterator, Sequence
 
 from geartrain.report.document import Section, Table, figure
 from geartrain.report.reconstruction_facts import many, ranks_text, share_text, teeth_text
-from geartrain.synthesis.reconstruction.known_rank import AdmittingQuestion, KnownRank, TrainPlace
-from geartrain.synthesis.reconstruction.telling_facts import GREATEST, LEAST, TellingFact, TellingFacts
+from geartrain.synthesis.reconstruction.known_rank import (
+    GREATEST,
+    LEAST,
+    AdmittingQuestion,
+    KnownRank,
+    TellingFact,
+    TellingFacts,
+    TrainPlace,
+)
 
 _MOST_SETS = 12
 _LINE = (

@@ -25,7 +25,7 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     Parameters
     ----------
     found : MonteCarloResult
-        Trials, with courses, Sobol indices, clearances and a tolerance where these were asked for.
+        Trials, with courses, Sobol indices and clearances where these were requested.
 
     Returns
     -------
@@ -59,8 +59,6 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
     yield from map(_indices, found.indices)
     if found.cleared:
         yield _cleared(found)
-    if found.tolerance is not None:
-        yield _tolerance(found)
     yield _convergence(found)
 
 
@@ -188,24 +186,6 @@ def _cleared(found: MonteCarloResult) -> Section:
     text = "Any pair of the train, the same wheels at every clearance."
     header = ("clearance", "jam", "clash", "standstill", "disengaged")
     return Section("Clearance", (text,), (Table(header, rows),))
-
-
-def _tolerance(found: MonteCarloResult) -> Section:
-    each = found.tolerance
-    assert each is not None
-    what = f"errors of {each.kind}" if each.kind else "all errors"
-    text = (
-        f"With {what} {each.scale:.4g} times those declared, P({each.event}) is below {100 * each.chance:g} % with "
-        f"{100 * each.confidence:g} % confidence: {each.share.count} of {each.share.of} trials."
-    )
-    texts = [text]
-    if each.next is not None:
-        texts.append(f"At {each.next[0]:.4g} times it is not: {each.next[1].count} of {each.next[1].of}.")
-    if each.bound is not None:
-        texts.append(f"The bound 2 lcm Q(play/2 sigma) alone would allow {each.bound:.4g} times.")
-    rows = [(name, f"{100 * size:.4g} %") for name, size in each.sizes.items()]
-    header = ("error", "greatest size (of pitch, half angle or depth)")
-    return Section("Tolerance", texts, (Table(header, cut(rows)),))
 
 
 def _convergence(found: MonteCarloResult) -> Section:

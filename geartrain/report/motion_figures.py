@@ -209,12 +209,14 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
+    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
 
+    own = train.mechanics
     for state in train.states or (None,):
         try:
             run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
             run.go()
-            separation = train.separation_rates(state) if train.tells_separation(state) else None
+            separation = find_separation(own, state) if has_separation(own, state) else None
         except GearTrainError as error:
             yield UnfollowedMotion(train.name, state, error)
         else:
@@ -223,4 +225,4 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 
 def ripples(train: GearTrain) -> bool:
     """Whether any pair or pin has an error of its own."""
-    return bool(train.pins) or any(not mesh.rigid for mesh in train.meshes)
+    return bool(train.mechanics.pins) or any(not mesh.rigid for mesh in train.meshes)

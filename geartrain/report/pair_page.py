@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_account import PairFigures
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.triangular.contact_course import ContactCourse
-    from geartrain.teeth.triangular.triangular_account import TriangularFigures
+    from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ def _triangular_pair(
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
     from geartrain.teeth.rubbed_transmission import pair_friction
     from geartrain.teeth.triangular.contact_course import contact_course
-    from geartrain.teeth.triangular.triangular_account import triangular_figures
+    from geartrain.teeth.triangular.triangular_mesh import triangular_figures
 
     impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
     figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))

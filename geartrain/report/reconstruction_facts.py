@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from geartrain.report.document import Section, Table, cut, figure
-from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
+from geartrain.synthesis.reconstruction.dropped_facts import MISREAD, ChangedCount, LoneDial, MissingExplanation
 from geartrain.synthesis.reconstruction.explained_facts import (
     YES,
     Fact,
@@ -14,7 +14,6 @@ from geartrain.synthesis.reconstruction.explained_facts import (
     FactMarginal,
     NextFact,
 )
-from geartrain.synthesis.reconstruction.missing_explanation import MISREAD, LoneDial, MissingExplanation
 
 _MOST_ANSWERS = 4
 _MOST_ALIKE = 2

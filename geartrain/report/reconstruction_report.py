@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import astuple, dataclass, field
+from dataclasses import astuple
 
 from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, filled_table
 from geartrain.report.family_tree_report import family_section
 from geartrain.report.known_trains_report import known_sections
@@ -20,15 +19,9 @@ from geartrain.report.reconstruction_facts import (
     shared_sections,
     teeth_text,
 )
-from geartrain.synthesis.reconstruction.asked_question import AskedQuestion
-from geartrain.synthesis.reconstruction.base_link import BaseLink
-from geartrain.synthesis.reconstruction.candidate_findings import NO_FINDINGS, CandidateFindings
 from geartrain.synthesis.reconstruction.candidate_rules import counts_text, speed_text
-from geartrain.synthesis.reconstruction.expected_cost import ExpectedCost
-from geartrain.synthesis.reconstruction.joined_arbors import Joined
-from geartrain.synthesis.reconstruction.known_rank import KnownRank
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem, SearchedDial
-from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
+from geartrain.synthesis.reconstruction.reconstruction import RankedTrain, ReconstructionAnswer
+from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, SearchedDial
 
 _USE = {
     "wheels": "every surviving wheel meshes",
@@ -41,117 +34,13 @@ _NOT_COUNTED = "not counted"
 _TURNING = "A rank or an end of the family tree that is underlined shows its train turning."
 
 
-@dataclass(frozen=True, slots=True)
-class RankedTrain(Result):
-    """One of the best explanations.
-
-    Attributes
-    ----------
-    rank : int
-        Place among those that are listed, from 1 on.
-    ranks : tuple of int
-        First and last rank by weight that it may have, for some weigh the same.
-    added : int
-        Added wheels.
-    weight : float
-        Share of the weight of all explanations.
-    wheels : dict of str to int
-        Added wheels with their counts.
-    doubtful : dict of str to int
-        Surviving wheels that have a range of counts, with the one that they have here.
-    meshes : tuple of str
-        Every mesh, the driving wheel first.
-    """
-
-    KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
-
-    rank: int
-    ranks: tuple[int, int]
-    added: int
-    weight: float
-    wheels: dict[str, int]
-    doubtful: dict[str, int]
-    meshes: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class ReconstructionReport(Result):
-    """What is told of a reconstruction.
-
-    Attributes
-    ----------
-    name : str
-        Of the evidence.
-    counts : tuple of ExplanationCount
-        Explanations by number of added wheels.
-    complete : bool
-        Whether all were looked at.
-    unused : tuple of str
-        What is declared and plays no part.
-    best : tuple of RankedTrain
-        The best, as many as were asked for.
-    drawn : tuple of RankedTrain
-        Trains drawn at random, as many as were asked for; `rank` counts them.
-    original : tuple of int, optional
-        First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
-    known : tuple of KnownRank
-        What given trains cost in the question.
-    findings : CandidateFindings
-        What is told beyond counts.
-    base : BaseLink, optional
-        What bears the arbors, where that is a carrier.
-    joined : dict of str to tuple of str
-        Links that given couplings join, by the arbor that stands for them.
-    expected : ExpectedCost, optional
-        What the search was expected to cost before it began.
-    """
-
-    KEYS = (
-        "name",
-        "asked",
-        "expected",
-        "counts",
-        "complete",
-        "unused",
-        "best",
-        "drawn",
-        "original",
-        "known",
-        Key("", "findings"),
-    )
-
-    name: str
-    problem: ReconstructionProblem
-    counts: tuple[ExplanationCount, ...]
-    complete: bool
-    unused: tuple[str, ...]
-    best: tuple[RankedTrain, ...]
-    original: tuple[int, int] | None = None
-    findings: CandidateFindings = NO_FINDINGS
-    base: BaseLink | None = None
-    joined: Joined = field(default_factory=dict)
-    expected: ExpectedCost | None = None
-    drawn: tuple[RankedTrain, ...] = ()
-    known: tuple[KnownRank, ...] = ()
-
-    @property
-    def asked(self) -> AskedQuestion:
-        """What is asked."""
-        return AskedQuestion.of(self.problem)
-
-    @property
-    def total(self) -> int:
-        """Mechanisms in all."""
-        return sum(count.mechanisms for count in self.counts)
-
-
-def describe_reconstruction(found: ReconstructionReport, viewer: str = "", turning: int = 0) -> Document:
+def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turning: int = 0) -> Document:
     """The page of a reconstruction; the viewer, a whole page of HTML, shows the first so many trains turning."""
     aside = PageExtras(viewer=viewer, notes=[_TURNING] if viewer else [])
     return Document(f"Trains that explain {found.name}", list(_lead(found)), list(_sections(found, turning)), aside)
 
 
-def _lead(found: ReconstructionReport) -> Iterator[str]:
+def _lead(found: ReconstructionAnswer) -> Iterator[str]:
     problem, limits = found.problem, found.problem.additions
     where = "on any arbor" if limits.on == "any" else "on new arbors"
     arbors = "" if limits.arbors is None else f" and {many(limits.arbors, 'arbor')}"
@@ -182,7 +71,7 @@ def _lead(found: ReconstructionReport) -> Iterator[str]:
             yield f"The family tree, what trains share and the next fact are of the {listed}; shares are of theirs."
 
 
-def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
+def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
     yield from _given(found)
     findings = found.findings
     line = "Bags leave out the order of arbors on the path to a pointer, classes also which wheel on it drives which."
@@ -202,7 +91,7 @@ def _sections(found: ReconstructionReport, turning: int) -> Iterator[Section]:
     yield from assumptions_section([each.mechanisms for each in found.counts], findings.assumptions)
 
 
-def _given(found: ReconstructionReport) -> Iterator[Section]:
+def _given(found: ReconstructionAnswer) -> Iterator[Section]:
     """What was taken as known."""
     problem = found.problem
     rows = [
@@ -227,7 +116,7 @@ def _given(found: ReconstructionReport) -> Iterator[Section]:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
 
 
-def _begins(found: ReconstructionReport) -> str:
+def _begins(found: ReconstructionAnswer) -> str:
     """What drives the train, and what bears it."""
     base, source = found.base, found.problem.input.name
     if base is None or not base.is_carrier:
@@ -236,7 +125,7 @@ def _begins(found: ReconstructionReport) -> str:
     return f"Arbors turn on {base.name}, a carrier that turns at {turns}. Seen from it, {source} turns at {seen}."
 
 
-def _best(found: ReconstructionReport, turning: int) -> Section:
+def _best(found: ReconstructionAnswer, turning: int) -> Section:
     rows = []
     for one in found.best:
         shown = _rank(one)
@@ -250,7 +139,7 @@ def _best(found: ReconstructionReport, turning: int) -> Section:
     return Section("The best", more, [filled_table(header, rows, 4)])
 
 
-def _drawn(found: ReconstructionReport) -> Section:
+def _drawn(found: ReconstructionAnswer) -> Section:
     rows = [
         (
             str(one.rank),

@@ -75,7 +75,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
     if wrong:
         kind = wrong[0].verdict.kind
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
-    if train.faults:
+    if train.mechanics.faults:
         return "its teeth cannot turn", False
     failed = sum(len(answer.failures) for answer in answers)
     if failed:

@@ -43,11 +43,11 @@ class Soundness:
         yield from (f"FAIL {each}" for each in self.failures)
         if whole:
             yield from (f"note {found}" for found in train.build_findings if not found.is_error)
-            yield from (f"note {self.file}: {line}" for line in train.gridlock.lines())
-        if self.whole and train.is_placed and train.closure.kind in ("misses", "unclear"):
+            yield from (f"note {self.file}: {line}" for line in train.kinematics.gridlock.lines())
+        if self.whole and train.kinematics.is_placed and train.closure.kind in ("misses", "unclear"):
             yield f"note {self.file}: {train.closure.text}"
         if whole:
-            for remark in train.remarks:
+            for remark in train.kinematics.remarks:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             if self.whole:
                 yield from (f"note {self.file}: {line}" for line in _left_out(train))
@@ -63,7 +63,7 @@ def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))
     if whole:
-        failures += [f"{fault.place}: {fault.text}" for fault in train.faults]
+        failures += [f"{fault.place}: {fault.text}" for fault in train.mechanics.faults]
     return Soundness(train, file, answers, tuple(failures), whole)
 
 
@@ -91,9 +91,9 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 def _left_out(train: GearTrain) -> Iterator[str]:
     """What the torques of loaded states do not count; nothing of teeth that cannot turn."""
-    if train.faults:
+    if train.mechanics.faults:
         return
-    for state in train.usable_states:
+    for state in train.kinematics.usable_states:
         if train.declaration.is_loaded(state):
             where = f"state {state}: " if state is not None else ""
             yield from (f"{where}torques leave out {each}: {each.why}" for each in train.torques(state).left_out)
@@ -101,12 +101,15 @@ def _left_out(train: GearTrain) -> Iterator[str]:
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
     """States whose rate is beyond that at which teeth first part."""
-    for state in train.usable_states:
+    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+
+    own = train.mechanics
+    for state in train.kinematics.usable_states:
         rate = train.declaration.case(state).rate
-        if rate is None or rate.unit is None or train.faults or not train.tells_separation(state):
+        if rate is None or rate.unit is None or own.faults or not has_separation(own, state):
             continue
         try:
-            found = train.separation_rates(state)
+            found = find_separation(own, state)
         except GearTrainError:  # what keeps the train from moving is told elsewhere
             continue
         if found.rate is not None and found.rate < abs(rate.base):
@@ -125,14 +128,14 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     escapement = declared.escapement
     if escapement is None:
         return
-    bearer = train.tree.top[escapement.link]
+    bearer = train.kinematics.tree.top[escapement.link]
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
         second = _turns_a_second(declared, answer)
         if not answer.verdict or second is None:
             continue
         speeds = {link: Fraction(answer[link]) for link in (escapement.link, bearer)}
-        speed = abs(relative_speed(escapement.link, bearer, speeds.__getitem__, train.signs) * second)
+        speed = abs(relative_speed(escapement.link, bearer, speeds.__getitem__, train.kinematics.signs) * second)
         if abs(speed - escapement.speed) > escapement.speed / 10**9:
             state = f"state {answer.state}: " if answer.state is not None else ""
             beat = f"half a tooth of {escapement.teeth} every {escapement.beat} is {figure(escapement.speed)} turn/s"

@@ -10,7 +10,7 @@ from geartrain.report.document import Document, Section, Table, cut, figure
 
 if TYPE_CHECKING:
     from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.polyhedron_survey import SurveyRow
+    from geartrain.spherical.polyhedron_gears import SurveyRow
     from geartrain.spherical.tooth_count_search import ToothCountSuggestions
 
 
@@ -30,7 +30,7 @@ def _sections(found: GearSphere) -> Iterator[Section]:
     if found.moves:
         lines.append(f"It turns; {mobility.redundant} of its meshes repeat what the others say.")
     else:
-        lines += [f"{line[0].upper()}{line[1:]}." for line in found.train.gridlock.lines()]
+        lines += [f"{line[0].upper()}{line[1:]}." for line in found.train.kinematics.gridlock.lines()]
     yield Section("Whether it turns", lines)
     if found.graph is not None:
         yield Section("How it was fitted to its graph", [line.strip() for line in str(found.graph).splitlines()])

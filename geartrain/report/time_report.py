@@ -73,7 +73,7 @@ def collect_time_report(
     without : tuple of str
         Pairs that were left out.
     stepped : SteppedSeparation, optional
-        What its `stepped_separation` gave.
+        What `step_to_separation` gave.
 
     Returns
     -------
@@ -88,8 +88,12 @@ def collect_time_report(
     >>> found.separation.pair, found.to_dict()["lead"]
     ('d2~e', 'crank')
     """
-    separation = train.separation_rates(run.state, without) if train.tells_separation(run.state) else None
-    inertias = train.inertias(run.state, with_inputs=run.driven != "rate")
+    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+    from geartrain.dynamics.inertia.link_inertia import find_link_inertias
+
+    own, state = train.mechanics, run.state
+    separation = find_separation(own, state, without) if has_separation(own, state) else None
+    inertias = find_link_inertias(own, state, with_inputs=run.driven != "rate")
     return TimeReport(train.declaration.title, separation, inertias, run, stepped)
 
 

@@ -167,14 +167,16 @@ def collect_torque_report(
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     """Torques of one state, with the flow of power and the efficiency there and back."""
-    from geartrain.dynamics.torques.power_flow import has_torque_units, watts_per_unit
+    from geartrain.dynamics.contacts.train_separation import find_tooth_impacts
+    from geartrain.dynamics.torques.power_flow import find_power_flow, has_torque_units, watts_per_unit
+    from geartrain.dynamics.torques.train_torques import drive_both_ways
 
-    declared, state, ways = train.declaration, found.state, train.drive_both_ways(found.state)
+    declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
     return TorqueFigures(
         found,
         DrivenWays(*map(DrivenFigures, ways)) if ways else None,
         watts_per_unit(declared, declared.case(state)),
         has_torque_units(declared, state),
-        train.power_flow(found),
-        {pair: impact.power for pair, impact in train.impacts(state).items()},
+        find_power_flow(found),
+        {pair: impact.power for pair, impact in find_tooth_impacts(train.mechanics, state).items()},
     )

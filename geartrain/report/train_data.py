@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_figures import TorqueFigures
+    from geartrain.train import Train
     from geartrain.train.states import Erratum
 
 _MOST_LINKS = 500  # of a train whose adjacency is told
@@ -185,22 +186,32 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
 
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
-    doubts = ((answer, change) for answer in answers if answer.verdict for change in train.sensitivity(answer))
-    loaded = tuple(state for state in train.usable_states if whole and declared.is_loaded(state))
+    own = train.kinematics
+    doubts = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
+    loaded = tuple(state for state in own.usable_states if whole and declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
-        gridlock=train.gridlock,
-        closure=train.closure if whole and train.is_placed else None,
+        gridlock=own.gridlock,
+        closure=train.closure if whole and own.is_placed else None,
         sources={key: source.cite for key, source in declared.sources.items()},
         circuits=train.circuits,
         adjacency=AdjacencyLetters(tuple(declared.links), adjacency_labels(declared)) if small else None,
         build_findings=train.build_findings,
-        remarks=train.remarks,
+        remarks=own.remarks,
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
         teeth=driven_pairs(train) if whole else (),
         pins=driven_pins(train) if whole else (),
         torques=tuple(collect_torques(train, train.torques(state)) for state in loaded),
-        strength=tuple(train.strength(state) for state in loaded if train.tells_strength(state)),
+        strength=tuple(train.strength(state) for state in loaded if _has_strength(declared, state)),
         motion=tuple(collect_motions(train)) if whole else (),
         errata=tuple(declared.errata),
     )
+
+
+def _has_strength(declared: Train, state: str | None) -> bool:
+    """True where a state has loads in units, and some wheel declares its material."""
+    if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):
+        return False
+    from geartrain.dynamics.torques.power_flow import has_torque_units
+
+    return has_torque_units(declared, state)

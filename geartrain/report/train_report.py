@@ -105,8 +105,10 @@ def _findings(train: GearTrain) -> Iterator[Section]:
         head = "From the declaration alone. An error cannot be built as it is declared; a note is unwise, or left open."
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
         yield Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
-    if train.remarks:
-        notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
+    if train.kinematics.remarks:
+        notes = [
+            f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.kinematics.remarks
+        ]
         yield Section("Remarks", notes)
 
 
@@ -161,7 +163,7 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
     if declared.note:
         yield declared.note
-    if train.bookkeeping:
+    if train.kinematics.joint_sums:
         yield (
             "A sum of joint speeds is of a link whose axis is carried round at an angle: its speeds about all of its "
             "joints added up, no rotation about one axis."
@@ -221,8 +223,8 @@ def _mark(wheel: Wheel) -> str:
 
 
 def _joint(train: GearTrain, link: str) -> str:
-    parent = train.tree.parent.get(link)
-    return f"{train.tree.top[link]} ({parent[1]})" if parent else "the frame"
+    parent = train.kinematics.tree.parent.get(link)
+    return f"{train.kinematics.tree.top[link]} ({parent[1]})" if parent else "the frame"
 
 
 def _circuits(train: GearTrain) -> Section:
@@ -285,7 +287,7 @@ def _mobility(train: GearTrain) -> Section:
     if len(found.loops) > 12:
         lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
     lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
-    lines += [f"{line[0].upper()}{line[1:]}." for line in train.gridlock.lines()]
+    lines += [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
     if found.idle:
         lines.append(f"Never rolling: {', '.join(found.idle[:20])}.")
     if found.still and found.by_rank:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
 from geartrain.teeth.pair_verdict import friction_lock_at_speed
-from geartrain.teeth.rubbed_transmission import friction_words, pair_friction
+from geartrain.teeth.rubbed_transmission import pair_friction
 from geartrain.teeth.triangular.contact_course import contact_course
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
@@ -172,12 +172,12 @@ def _losses(mesh: TriangularMesh) -> Section:
     if not mesh.rubs:
         return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
     if not mesh.tells_losses:
-        return Section("Friction", (f"{friction_words(mesh)}.",))
+        return Section("Friction", (f"{mesh.friction_words}.",))
     if law.locks:
         what, why, _ = _lock(mesh)
         return Section("Friction", (f"{what}: {why}.",))
     lines = [
-        f"{friction_words(mesh)}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
+        f"{mesh.friction_words}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
         f"driver torque (Eq. 34), {law.efficiency_at_constant_load():.9f} at constant load torque, least "
         f"{law.efficiency_least():.6f}.",
     ]

@@ -9,6 +9,16 @@ make_scene   a `Scene`: the train in one state, its angles from exact speeds and
              docs/motion.md
 SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `ManufacturingSizes`
 
+context, construction                        what every part of a scene reads; from a train to its scene
+train_scene, elements, built_elements        the scene as plain data, and what is in it
+bodies, wheel_phases, strain_waves           links and wheels with their teeth; where two wheels meet; wave wheels
+joints, movement, error_steps, pose          pairs and pins; exact speeds with the errors of teeth; positions
+dial_scale, dial_marks, dial_pointers        scales of dials, what is engraved on them, what pointers show
+hand_outlines, stroke_letters, palette       hands, letters, colours
+count_formulas                               speeds as functions of tooth counts, for pages that change counts
+run_courses, scene_run, sky                  a simulated run as a page plays it; dates and mean motions
+layout, solids, parts                        places of axes and wheels; closed surfaces; parts to be made
+
 A wheel stands at the pitch point of its mates: equations (2), (3), (8) of docs/theory.md for parallel axes, cones and
 worms.
 """

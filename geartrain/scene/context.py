@@ -85,7 +85,7 @@ class SceneContext:
 
     def sense(self, link: str) -> int:
         """-1 where a link's axis points against the reference direction of its parallels."""
-        return self.train.signs.get(link, 1)
+        return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
         """Declared starting angle (rad)."""
@@ -94,7 +94,7 @@ class SceneContext:
 
     def declared(self, link: str) -> Vector:
         """Unit vector about which a link's declared speed is positive."""
-        return self.along(self.train.tree.axis(link))
+        return self.along(self.train.kinematics.tree.axis(link))
 
     def along(self, axis: str | None) -> Vector:
         """Direction of an axis as declared; z of the frame."""
@@ -133,7 +133,7 @@ class SceneContext:
     @cached_property
     def _built(self) -> tuple[tuple[GearMesh, ...], tuple[Problem, ...]]:
         try:
-            return self.train.meshes_in(self.answer.state), ()
+            return self.train.mechanics.meshes_in(self.answer.state), ()
         except GearTrainError as error:
             return (), error.problems
 

@@ -30,7 +30,7 @@ def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[st
             carrier=stage.body[circuit.carrier],
             ratio=str(circuit.ratio),
             form=forms.get(circuit.id, ""),
-            text=in_words(circuit, stage.train.signs),
+            text=in_words(circuit, stage.train.kinematics.signs),
             broken=circuit.id in faults,
             fault=faults.get(circuit.id, ""),
         )
@@ -60,13 +60,13 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
     faults: dict[str, str] = {}
     loops = {loop.pairs: _said(loop) for loop in verdict.loops}
     if verdict.kind != "determined" or stage.train.mobility.locked:
-        for jam in stage.train.gridlock.jams:
+        for jam in stage.train.kinematics.gridlock.jams:
             loops.setdefault(jam.loop.pairs, {**_said(jam.loop), "text": str(jam)})
     for loop in (*loops.values(), *_unfit(stage)):
         loops.setdefault(tuple(loop["pairs"]), loop)
         for pair in loop["pairs"]:
             faults.setdefault(pair, loop["text"])
-    fixes = [] if stage.train.gridlock.moves else list(stage.train.gridlock.lines())
+    fixes = [] if stage.train.kinematics.gridlock.moves else list(stage.train.kinematics.gridlock.lines())
     return {
         "kind": verdict.kind,
         "text": verdict.text,
@@ -92,7 +92,7 @@ def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
     """Brakes and clutches in the order declared, and which are closed in a state."""
     declared = stage.train.declaration
-    closed = stage.train.cases[state].engaged
+    closed = stage.train.kinematics.cases[state].engaged
     found = []
     for name, clutch in declared.clutches.items():
         links = clutch.locks or (clutch.fixes or declared.frame,)
@@ -118,7 +118,7 @@ def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoup
 
 
 def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, declared: Declared) -> SceneCoupling:
-    tree = stage.train.tree
+    tree = stage.train.kinematics.tree
     axis = stage.reference(tree.axis(declared.pin))
     pin_axis, slot_axis = (_point(stage, tree.axis(link)) for link in (declared.pin, declared.slot))
     between = across(minus(slot_axis, pin_axis), axis)
@@ -138,7 +138,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
         pin_radius=radius,
         offset=offset,
         drawn=declared.pin_radius is not None and declared.offset is not None,
-        text=in_words(circuit, stage.train.signs),
+        text=in_words(circuit, stage.train.kinematics.signs),
         slot_turn=_aside(stage, moved, circuit),
         pins_at=_around(declared, pin_axis, towards, radius, axis),
         holes_at=_around(declared, slot_axis, towards, radius, axis),
@@ -150,7 +150,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
     """The direction of the first pin: of pins in holes midway between axes that their link carries, if it does."""
     if isinstance(declared, PinsInHoles):
-        tree = stage.train.tree
+        tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
         first = next(each for each in same if each.pin == declared.pin)  # whose pins go through all discs
         between = across(minus(_point(stage, tree.axis(first.slot)), middle), axis)
@@ -220,7 +220,10 @@ def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
     if all(levels):
         near = min(((a, b) for a in levels[0] for b in levels[1]), key=lambda both: abs(both[0] - both[1]))
         return sum(near) / 2
-    return next((level[0] for level in levels if level), dot(_point(stage, stage.train.tree.axis(declared.pin)), axis))
+    return next(
+        (level[0] for level in levels if level),
+        dot(_point(stage, stage.train.kinematics.tree.axis(declared.pin)), axis),
+    )
 
 
 def _at_height(point: Vector, axis: Vector, height: float) -> Vector:

@@ -148,7 +148,7 @@ def find_movement(stage: SceneContext) -> MovementStart:
         return MovementStart(Movement("still", why, period=None), _started(stage))
     if stage.unbuilt:
         return _in_the_mean(stage, stage.unbuilt)
-    if not stage.meshes and not stage.train.pins:
+    if not stage.meshes and not stage.train.mechanics.pins:
         return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _started(stage))
     try:
         motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))

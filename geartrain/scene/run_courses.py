@@ -168,7 +168,7 @@ def _places(
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
-        yield link, ("escapement", stage.body[stage.train.tree.top[link]], _rim(own))
+        yield link, ("escapement", stage.body[stage.train.kinematics.tree.top[link]], _rim(own))
     for pair in pairs:
         yield pair.id, ("pair", pair.carrier, pitch_point(*(wheels[each] for each in pair.wheels)))
     for coupling in couplings:

@@ -42,8 +42,8 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
     declared = train.declaration
     for gear in declared.gears:
         thin = next((name for name in gear.pair if declared.wheels[name][1].flexible), None)
-        place = None if thin is None else layout.axes.get(train.tree.axis(declared.wheels[thin][0]) or "")
-        label = None if place is None else train.tree.axis(place.carrier)
+        place = None if thin is None else layout.axes.get(train.kinematics.tree.axis(declared.wheels[thin][0]) or "")
+        label = None if place is None else train.kinematics.tree.axis(place.carrier)
         if thin is None or place is None or label is None:
             continue
         own = layout.axes[label]

@@ -6,6 +6,15 @@ sizes, tooth numbers that nearly share one pitch, and the train that it is.
 
 Pitch cones obey rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i (docs/sphere.md, equation
 1), and speeds about outward axes z_i w_i = -z_j w_j. Teeth meet where the phases of every loop close (docs/closure.md).
+
+polyhedra, named_solids                      solids from vertices and by name, with their symmetries
+gear_places, polyhedron_gears                where gears may be on a solid; sets of gears on it, and a survey of solids
+circle_packing, graph_set                    sets of gears from any planar graph
+configuration                                a set: axes, meshes, kinds of gear
+gear_sphere, gear_sizes, assembly_loops      whether it turns and can be put together, and how large its gears are
+pitch_cones, pitch_theorems                  cones of a pair; sets of which one pitch is proved impossible
+tooth_count_search                           tooth numbers that nearly share one pitch
+axis_adjustment, symmetric_displacement      axes moved until all meshes have one pitch, or loops close
 """
 
 from __future__ import annotations
@@ -20,11 +29,15 @@ if TYPE_CHECKING:
     from geartrain.spherical.gear_sphere import GearSphere
     from geartrain.spherical.graph_set import GraphSet, from_graph
     from geartrain.spherical.named_solids import solid, solid_names
-    from geartrain.spherical.neighbour_windows import NeighbourRatioWindow, ratio_windows
     from geartrain.spherical.polyhedra import Polyhedron, polyhedron
-    from geartrain.spherical.polyhedron_gears import from_polyhedron
-    from geartrain.spherical.polyhedron_survey import SurveyRow, survey
-    from geartrain.spherical.tooth_count_search import ToothCountCompromise, ToothCountSuggestions, suggest_tooth_counts
+    from geartrain.spherical.polyhedron_gears import SurveyRow, from_polyhedron, survey
+    from geartrain.spherical.tooth_count_search import (
+        NeighbourRatioWindow,
+        ToothCountCompromise,
+        ToothCountSuggestions,
+        ratio_windows,
+        suggest_tooth_counts,
+    )
 
 __all__ = [
     "Configuration",
@@ -53,22 +66,22 @@ _PLACES = {
     "Configuration": "configuration",
     "GearSphere": "gear_sphere",
     "GraphSet": "graph_set",
-    "NeighbourRatioWindow": "neighbour_windows",
+    "NeighbourRatioWindow": "tooth_count_search",
     "Polyhedron": "polyhedra",
     "SphereSizing": "gear_sizes",
-    "SurveyRow": "polyhedron_survey",
+    "SurveyRow": "polyhedron_gears",
     "ToothCountCompromise": "tooth_count_search",
     "ToothCountSuggestions": "tooth_count_search",
     "from_graph": "graph_set",
     "from_polyhedron": "polyhedron_gears",
     "one_pitch": "gear_sizes",
     "polyhedron": "polyhedra",
-    "ratio_windows": "neighbour_windows",
+    "ratio_windows": "tooth_count_search",
     "size_gears": "gear_sizes",
     "solid": "named_solids",
     "solid_names": "named_solids",
     "suggest_tooth_counts": "tooth_count_search",
-    "survey": "polyhedron_survey",
+    "survey": "polyhedron_gears",
     "to_train": "configuration",
 }
 

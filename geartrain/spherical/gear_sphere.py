@@ -134,7 +134,7 @@ class GearSphere(Result):
     @property
     def gridlock(self) -> Gridlock | None:
         """What holds the set; None where it turns."""
-        return None if self.moves else self.train.gridlock
+        return None if self.moves else self.train.kinematics.gridlock
 
     @property
     def closes(self) -> bool | None:

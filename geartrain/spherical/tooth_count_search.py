@@ -1,4 +1,7 @@
-"""Tooth numbers that nearly share one pitch, by exhaustive search: loops that close and tips that clear come first."""
+"""Tooth numbers that nearly share one pitch, by exhaustive search: loops that close and tips that clear come first.
+
+And the range of tooth ratios at which equal neighbouring gears on a sphere do not overlap.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import ceil, degrees
+from math import ceil, degrees, inf, pi
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -16,7 +19,7 @@ from geartrain.numerics.plain_data import Key, Result
 from geartrain.spherical.assembly_loops import closes, divisors, loop_rules, residue
 from geartrain.spherical.configuration import Configuration, MeshKind, kinds_in_order, mesh_kinds, nearest_unmeshed
 from geartrain.spherical.gear_sizes import TIP_ROOM
-from geartrain.spherical.pitch_cones import base_pitch, operating_pitch, pitch_cone, pressure_angle
+from geartrain.spherical.pitch_cones import base_pitch, operating_pitch, overlap_limit, pitch_cone, pressure_angle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -326,3 +329,63 @@ class _Search:
             float(self.room(block)[0]),
             max((abs(float(residue(row.tolist(), rule))) for rule in inexact), default=0.0),
         )
+
+
+# ---------------------------------------------------------------------------------------------------- neighbour windows
+
+
+@dataclass(frozen=True)
+class NeighbourRatioWindow:
+    """Range of a tooth ratio in which equal neighbours do not overlap, tips not counted.
+
+    Attributes
+    ----------
+    a, b : str
+        The kinds of gear that mesh.
+    low, high : float
+        Bounds of z_a / z_b; `inf` where there is none.
+
+    See Also
+    --------
+    ratio_windows : what gives these.
+    """
+
+    a: str
+    b: str
+    low: float
+    high: float
+
+    def __str__(self) -> str:
+        return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"
+
+
+def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
+    """For each kind of mesh between unlike gears, the tooth ratios at which equal neighbours do not overlap.
+
+    With several kinds of mesh each window holds for the operating cones of its own mesh.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        The set; its teeth are not asked for.
+
+    Returns
+    -------
+    tuple of NeighbourRatioWindow
+        One a kind of mesh between unlike gears.
+
+    Examples
+    --------
+    >>> from geartrain.spherical import from_polyhedron
+    >>> print(ratio_windows(from_polyhedron("icosidodecahedron"))[0])
+    0.794654472 < z(5)/z(3) < 5.330704256
+    """
+    nearest = nearest_unmeshed(configuration)
+    found = []
+    for mesh in mesh_kinds(configuration):
+        if mesh.a == mesh.b:
+            continue
+        own, other = (nearest.get((kind, kind), pi) for kind in (mesh.a, mesh.b))
+        lift = overlap_limit(mesh.angle, own)
+        found.append(NeighbourRatioWindow(mesh.a, mesh.b, overlap_limit(mesh.angle, other), 1 / lift if lift else inf))
+    return tuple(found)

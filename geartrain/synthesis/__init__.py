@@ -40,10 +40,10 @@ if TYPE_CHECKING:
     from geartrain.synthesis.tooth_count_ranges import read_counts as read_counts
     from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes as BestToothSizes
     from geartrain.synthesis.tooth_sizes.best_sizes import find_tooth_sizes as find_tooth_sizes
-    from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit as ChanceLimit
     from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement as OutlineAgreement
     from geartrain.synthesis.tooth_sizes.size_design import SizeLimit as SizeLimit
     from geartrain.synthesis.tooth_sizes.size_design import ToothSizes as ToothSizes
+    from geartrain.synthesis.tooth_sizes.size_search import ChanceLimit as ChanceLimit
     from geartrain.synthesis.tooth_sizes.train_size_search import find_train_sizes as find_train_sizes
     from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes as BestTrainSizes
     from geartrain.synthesis.tooth_sizes.train_sizes import PairSizes as PairSizes
@@ -88,7 +88,7 @@ _PLACES = {
     "Assignment": "train.train_findings",
     "BestToothSizes": "tooth_sizes.best_sizes",
     "BestTrainSizes": "tooth_sizes.train_sizes",
-    "ChanceLimit": "tooth_sizes.chance_limit",
+    "ChanceLimit": "tooth_sizes.size_search",
     "ConstraintOptions": "constraints.constraint_options",
     "CountRuns": "tooth_count_ranges",
     "EpicyclicSet": "epicyclic.epicyclic_sets",

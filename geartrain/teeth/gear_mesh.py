@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
@@ -144,9 +144,17 @@ class GearMesh(ABC):
     def own_faults(self) -> Iterator[Problem]:
         """Everything that is wrong with these teeth, without pair and place."""
         yield from (fault.problem for fault in self.verdict.faults)
-        from geartrain.teeth.mesh_faults import friction_faults
+        yield from self.friction_faults()
 
-        yield from friction_faults(self)
+    def friction_faults(self) -> Iterator[Problem]:
+        """That friction locks these teeth, if it does."""
+        from geartrain.teeth.pair_verdict import friction_lock, friction_lock_at_speed
+
+        if self.wheels.friction_law is None:
+            if self.law.locks:
+                yield friction_lock(self.law.friction, self.law.locking_friction)
+        elif self.verdict and self.losses.locks:
+            yield friction_lock_at_speed(self.wheels.friction_law.law, self.law.locking_friction)
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
@@ -223,9 +231,45 @@ class GearMesh(ABC):
         GearTrainError
             Where no such wheel can be cut.
         """
-        from geartrain.teeth.outlines.wheel_outline import mesh_outline
+        import numpy as np
 
-        return mesh_outline(self, gear, cut)
+        from geartrain.teeth.outlines.contour import Contour
+        from geartrain.teeth.outlines.cut_wheel import WheelOutline
+        from geartrain.teeth.outlines.tooth_outline import repeated
+        from geartrain.teeth.outlines.wheel_outline import bore
+
+        size = self.own_size
+        scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
+        tooth, mate = (self.requirement(name, scale, tolerance).cut() for name in self.gear.pair[:: 3 - 2 * gear])
+        z, other = self.wheels.counts[:: 3 - 2 * gear]
+        distance = self.wheels.touching if size is None else size.distance
+        teeth = Contour.of(repeated(tooth.tooth, z)).scaled(cut.module)
+        if tooth.kind == "ring":
+            rim = 2 * cut.module if cut.rim is None else cut.rim
+            contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
+        else:
+            contours = [teeth, *bore(cut, tooth.root * cut.module)]
+        points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
+        side = points[points[:, 1] >= 0]
+        side = side[np.argsort(np.hypot(*side.T))]
+        half = float(np.interp(z / 2, np.hypot(*side.T), np.arctan2(side[:, 1], side[:, 0])))
+        return WheelOutline(
+            gear=gear,
+            z=z,
+            kind=tooth.kind,
+            contours=tuple(contours),
+            module=cut.module,
+            pitch_radius=z / 2 * cut.module,
+            tip_radius=tooth.tip * cut.module,
+            root_radius=tooth.root * cut.module,
+            thickness=half * z * cut.module,
+            fillet=0.0,
+            relief=0.0,
+            clearance=(distance - mate.tip - tooth.root) * cut.module,
+            backlash=self.verdict.play * (z if self.driven == self.gear.pair[gear - 1] else other) / 2 * cut.module,
+            centre_distance=distance * cut.module,
+            tolerance=cut.tolerance,
+        )
 
     @property
     def has_cut_sizes(self) -> bool:
@@ -299,6 +343,19 @@ class GearMesh(ABC):
         """True if something is lost between these teeth."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
+    @property
+    def friction_words(self) -> str:
+        """The friction of the pair in words, at the speed at which it runs."""
+        declared, at = self.wheels.friction_law, self.wheels.pitch_line
+        if declared is None:
+            return f"Coefficient of friction {self.law.friction:g}"
+        if at is None:
+            return f"Friction by the law '{declared.law}' of speed, and no speed is known"
+        return (
+            f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
+            f"{self.losses.friction:.6g}"
+        )
+
     def efficiency(self, driver: str) -> SlidingEfficiency:
         """What arrives of the power that one wheel puts in, over a turn.
 
@@ -348,3 +405,16 @@ class GearMesh(ABC):
     def ways(self) -> tuple[Self, ...]:
         """The mesh as it is driven; where that is not determined, both ways."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
+
+
+def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
+    """Everything wrong with one pair in the ways it is driven; what is wrong in some ways only says in which."""
+    said = [list(way.own_faults()) for way in ways]
+    found: list[Problem] = []
+    for way, faults in zip(ways, said, strict=True):
+        for fault in faults:
+            always = all(fault in other for other in said)
+            label = way.label if always else f"{way.label}, '{way.driver}' driving"
+            placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
+            found += [] if placed in found else [placed]
+    return tuple(found)

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
 
 _GAUSS = np.polynomial.legendre.leggauss(16)
@@ -188,16 +187,3 @@ def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
     """The law of friction of a pair at its speed; None where friction is a number, or no speed is known."""
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)
-
-
-def friction_words(mesh: GearMesh) -> str:
-    """The friction of a pair in words, at the speed at which it runs."""
-    declared, at = mesh.wheels.friction_law, mesh.wheels.pitch_line
-    if declared is None:
-        return f"Coefficient of friction {mesh.law.friction:g}"
-    if at is None:
-        return f"Friction by the law '{declared.law}' of speed, and no speed is known"
-    return (
-        f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
-        f"{mesh.losses.friction:.6g}"
-    )

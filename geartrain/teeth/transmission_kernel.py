@@ -134,14 +134,6 @@ def _cells(law: TransmissionTable) -> Floats:
     return found
 
 
-def chain_transmission_tables(one: TransmissionTables, other: TransmissionTables) -> TransmissionTables:
-    """The laws of two sets under the numbers of one."""
-    count = len(one.cells) // CELL
-    joined = {name: np.concatenate([getattr(one, name), getattr(other, name)]) for name in one._fields}
-    moved = {name: np.concatenate([getattr(one, name), getattr(other, name) + count]) for name in ("first", "last")}
-    return TransmissionTables(**{**joined, **moved, "cuts": np.concatenate([one.cuts, other.cuts[1:] + one.cuts[-1]])})
-
-
 @kernel
 def law_along(
     tables: TransmissionTables,
@@ -184,16 +176,3 @@ def _polynomials(cells: Floats, begin: np.uint64, u: float) -> tuple[float, floa
         at += two
         error, speed = error * x + cells[at], speed * y + cells[at + one]
     return error, speed
-
-
-@kernel
-def law_at(tables: TransmissionTables, law: int, angle: float) -> tuple[float, float]:
-    """Transmission error (rad) and speed ratio of a law at one driver's angle (rad)."""
-    periods = np.floor(angle * tables.inverse[law])
-    u = (angle - periods * tables.coarse[law]) - periods * tables.rest[law]
-    cell = int(u * tables.density[law])
-    for corner in tables.corners[tables.cuts[law] : tables.cuts[law + 1]]:
-        if u >= corner:
-            cell += 1
-    row = tables.first[law] + min(max(cell, 0), tables.last[law] - tables.first[law])
-    return _polynomials(tables.cells, np.uint64(CELL) * np.uint64(row), u)

@@ -4,29 +4,26 @@ In: plain data with the keys of the YAML format (docs/reference.md), or a file. 
 lines on which they were written, or `DeclarationError` with every problem that could be collected. Nothing is worked
 out here; `geartrain.GearTrain` does that.
 
-declaration, mechanism, outputs, dials, states, manufacturing   the models; state_case: what is prescribed in one state
-efficiencies, bearing_friction, friction_in_force        what is lost; drives: what drives a train in time
-fields, validation, references, unit_consistency         strictness, problems in words, names, units
-yaml_nodes, json_text                                    YAML with line numbers; JSON, whose lines are found when read
-declaration_files, inheritance                           shipped trains, `extends`
-periods, materials                                       the tables of periods of the sky, and of materials
+declaration                      the whole model, and what follows from it alone: friction in force, epoch
+mechanism                        links, wheels, axes, pairs; doubtful tooth counts, efficiencies, bearing friction
+outputs, dials, states, drives   what is requested and shown; clutches and cases; what drives a train in time
+manufacturing, materials, wheel_stock, reconstruction   errors of cutting, materials, blanks; what may be added
+fields, validation, references   strictness, problems in words, names and units that do not go together
+yaml_nodes, short_forms, declaration_style   YAML with line numbers; pairs in short and in long form
+declaration_files, inheritance   files, JSON and shipped trains; `extends`, and other values of a declaration
+periods, trade_words             the table of periods of the sky; words of makers and historians
 """
 
 from __future__ import annotations
 
-from geartrain.train.bearing_friction import BearingFriction
-from geartrain.train.declaration import Train
+from geartrain.train.declaration import Epoch, FrictionInForce, Train
 from geartrain.train.dials import Dial, DialName, DialNumerals, DialRing
 from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
-from geartrain.train.epoch import Epoch
-from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, Material, material_table
-from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
+from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import Expect, Output, Published, SpeedUnit, Target, View
-from geartrain.train.state_case import StateCase
-from geartrain.train.states import Clutch, State
-from geartrain.train.tooth_counts import Teeth
+from geartrain.train.states import Clutch, State, StateCase
 from geartrain.train.validation import declare
 
 __all__ = [

@@ -1,33 +1,167 @@
-"""The train as declared, all of it in one model."""
+"""The whole declaration of a train as one model.
+
+With the epoch (a date, and the turns of the input at that date) and the friction in force at a pair or coupling:
+sliding, at rest, and its uncertainty.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, PrivateAttr
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
-from geartrain.numerics.quantity import Quantity, Speed, Torque, in_unit
+from geartrain.numerics.calendar_dates import CalendarDate, julian_day, read_date
+from geartrain.numerics.quantity import Figure, Quantity, Speed, Torque, in_unit
 from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
 from geartrain.numerics.units import same_kind
+from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.dials import Dial
 from geartrain.train.drives import Drive, Escapement
-from geartrain.train.epoch import DeclaredEpoch
-from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, ExpectedVerdict, Id, Nothing
-from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
+from geartrain.train.fields import (
+    ByName,
+    Declared,
+    DeclaredFriction,
+    DeclaredToothForm,
+    ExpectedVerdict,
+    Id,
+    Nothing,
+    also,
+    short_for,
+)
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import FaceWidth, Material
 from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Source, Thickness, Wheel
 from geartrain.train.outputs import Output, SpeedUnit, View
 from geartrain.train.periods import period_table
 from geartrain.train.reconstruction import Reconstruction
-from geartrain.train.state_case import StateCase
-from geartrain.train.states import Clutch, Erratum, Remove, State
+from geartrain.train.states import Clutch, Erratum, Remove, State, StateCase
+
+if TYPE_CHECKING:
+    from geartrain.teeth.friction_law import FrictionLaw
+
+
+# ---------------------------------------------------------------------------------------------------------------- epoch
+
+
+class Epoch(Declared):
+    """A date, and the turns that the input has made by then since all pointers stood at the start of their scales.
+
+    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are of the Julian calendar, later ones of
+    the Gregorian, unless `calendar` says otherwise. A bare text is the date.
+
+    See Also
+    --------
+    Train : holds it as `epoch`
+
+    Examples
+    --------
+    >>> Epoch(date="2000-01-01").julian_day
+    Fraction(2451545, 1)
+    """
+
+    date: str = Field(
+        description="Year, month, day, such as -204-05-12 for 12 May 205 BC, with an hour or not: `2000-01-01 18:30`; "
+        "without one it is noon"
+    )
+    calendar: Literal["julian", "gregorian"] | None = Field(
+        None, description="Calendar of the date; default Julian before 1582-10-15, Gregorian from then on"
+    )
+    turns: Figure = Field(
+        Figure.parse(0),
+        description="Turns that the input has made at the date, since all pointers stood at the start of their scales",
+    )
+    source: Id | None = Field(None, description="Key of the source")
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @model_validator(mode="after")
+    def _is_a_day(self) -> Epoch:
+        try:
+            self._read()
+        except ValueError as error:
+            raise PydanticCustomError(
+                "date",
+                "{problem}",
+                {
+                    "problem": str(error),
+                    "fix": "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC",
+                },
+            ) from None
+        return self
+
+    def _read(self) -> CalendarDate:
+        return read_date(self.date, self.calendar)
+
+    @cached_property
+    def julian_day(self) -> Fraction:
+        """Julian day of the date [d]: 0 is noon of -4712-01-01 in the Julian calendar."""
+        return julian_day(self._read())
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": "string"}, handler(schema))
+
+
+DeclaredEpoch = Annotated[Epoch, short_for("date")]
+"""An epoch, or its date."""
+
+
+# ---------------------------------------------------------------------------------------------------- friction in force
+
+
+@dataclass(frozen=True, slots=True)
+class FrictionInForce:
+    """Friction in force at a gear pair or a coupling.
+
+    Attributes
+    ----------
+    sliding : float or None
+        Coefficient while surfaces slide; None where it follows a law of speed.
+    static : float
+        Coefficient at rest; that of a law is its value at speed 0.
+    deviation : float
+        Standard deviation of `sliding`; `static` keeps its ratio to it.
+    law : FrictionLaw or None
+        The law of speed, where one is declared.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load("moon-triangular").declaration
+    >>> train.friction_of(train.gears[0])
+    FrictionInForce(sliding=0.2, static=0.2, deviation=0.0, law=None)
+    """
+
+    sliding: float | None
+    static: float
+    deviation: float = 0.0
+    law: FrictionLaw | None = None
+
+    @property
+    def rubs(self) -> bool:
+        """True for a law, and for a coefficient above 0."""
+        return self.law is not None or bool(self.sliding) or self.static > 0
+
+
+def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> FrictionInForce | None:
+    """A declared friction as numbers."""
+    if declared is None:
+        return None
+    if not isinstance(declared, CoulombFriction):
+        return FrictionInForce(None, declared.at_rest, law=declared)
+    sliding = float(declared.sliding.value)
+    static = sliding if declared.static is None else float(declared.static.value)
+    return FrictionInForce(sliding, static, 0.0 if declared.deviation is None else float(declared.deviation.value))
+
+
+# ---------------------------------------------------------------------------------------------------------- declaration
 
 
 def _cited(raw: object) -> object:
@@ -261,6 +395,16 @@ class Train(Declared):
                 Problem(f"'{self.name}' has states", "speeds differ between them", f"name one of: {names}")
             )
         self.check_state(state)
+        return next(iter(self.states), None) if state is None else state
+
+    def state_or_first(self, state: str | None) -> str | None:
+        """A state that was named, else the first declared; None for a train that has none.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state, or None.
+        """
         return next(iter(self.states), None) if state is None else state
 
     @property

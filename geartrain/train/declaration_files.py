@@ -1,23 +1,101 @@
-"""From a path, a shipped name, text or plain data to a declaration, with what it inherits."""
+"""From a path, a shipped name, text or plain data to a declaration, with what it inherits.
+
+JSON files are read by `json`: the data are as YAML would give them, and places are found only when somebody reads one.
+"""
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, cached_property
 from itertools import count
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from types import MappingProxyType
 from typing import Any
 
-from geartrain.errors import DeclarationError, Problem, suggest
+from geartrain.errors import DeclarationError, Loc, Problem, suggest
 from geartrain.train.declaration import Train
 from geartrain.train.inheritance import merge_parent
-from geartrain.train.json_text import JsonMarks, parse_json
 from geartrain.train.short_forms import has_short_forms, written_out
 from geartrain.train.validation import declare
-from geartrain.train.yaml_nodes import YamlNode, as_yaml, node_from_data, parse_yaml
+from geartrain.train.yaml_nodes import MOST_DEPTH, MOST_VALUES, YamlNode, as_yaml, node_from_data, parse_yaml
+
+# ------------------------------------------------------------------------------------------------------------ json text
+
+
+# other characters are escaped, or refused, in different ways by JSON and YAML
+_PLAIN = re.compile(r"[\n\r -\[\]-~]*")
+
+
+@dataclass(frozen=True)
+class JsonMarks:
+    """The places in a JSON file, found by the YAML parser when the first one is read."""
+
+    text: str
+    name: str
+
+    def __call__(self, loc: Loc) -> str:
+        return self._node.place_of(loc)
+
+    @cached_property
+    def _node(self) -> YamlNode:
+        try:
+            return parse_yaml(self.text, self.name)
+        except DeclarationError:  # it is JSON, but for example a key is longer than YAML allows
+            return YamlNode({}, self.name)
+
+
+def parse_json(text: str) -> dict[str, Any] | None:
+    """The mapping that `text` is as JSON, scalars as the text they were; None where YAML might read it otherwise.
+
+    Keys given twice, nan, infinity, deep nesting and too many values are left to the YAML parser, which places them.
+    """
+    values = sum(map(text.count, ",:{}[]{["))  # at least as many as the parser's events
+    if values >= MOST_VALUES or not _PLAIN.fullmatch(text):
+        return None
+    try:
+        data = json.loads(
+            text, object_pairs_hook=_mapping, parse_int=str, parse_float=str, parse_constant=_refuse_constant
+        )
+    except (ValueError, RecursionError):
+        return None
+    return data if isinstance(data, dict) and _is_shallow(data) else None
+
+
+def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """The entries of an object; `ValueError` for a key that is given twice."""
+    found = {key: _BOOLEANS[value] if value is True or value is False else value for key, value in pairs}
+    if len(found) < len(pairs):
+        raise ValueError
+    return found
+
+
+_BOOLEANS = {True: "true", False: "false"}
+
+
+def _refuse_constant(name: str) -> Any:
+    raise ValueError(name)
+
+
+def _is_shallow(data: Any) -> bool:
+    """True if the data are nested no deeper than a declaration may be, and no list holds true or false."""
+    level = [data]
+    for _ in range(MOST_DEPTH):
+        level = [part for each in level for part in (each.values() if type(each) is dict else each)
+                 if type(part) in (dict, list, bool)]  # fmt: skip
+        if any(type(part) is bool for part in level):
+            return False
+        if not level:
+            return True
+    return False
+
+
+# ---------------------------------------------------------------------------------------------------- declaration files
+
 
 _MOST_BYTES = 64 * 2**20
 _MOST_PARENTS = 2000

@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
-from geartrain.errors import DeclarationError, Problem, suggest
-from geartrain.train.yaml_nodes import YamlNode, texts
+from geartrain.errors import DeclarationError, Loc, Problem, suggest
+from geartrain.train.short_forms import written_out
+from geartrain.train.validation import declare
+from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
+
+if TYPE_CHECKING:
+    from geartrain.train.declaration import Train
+
+_OWN = ("name", "title", "note", "extends", "remove")
 
 _NOT_INHERITED = ("name", "title", "note", "extends", "remove")
 _BY_NAME = ("sources", "links", "axes", "outputs", "dials", "clutches", "states")
@@ -38,6 +46,18 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
     if problems := list(_on_another_link(root, child, merged)):
         raise DeclarationError(problems)
     return merged
+
+
+def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
+    """The declaration with other values, by the rules of `extends`. What is not changed keeps its place in a file."""
+
+    def place(loc: Loc) -> str:
+        return declared.place(*loc)
+
+    merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
+    kept = {key: getattr(declared, key) for key in _OWN if key in declared.model_fields_set}
+    new = {key: value for key, value in merged.plain().items() if key != "remove"}  # it is done
+    return declare(kept | new, merged.place_of)
 
 
 def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:

@@ -1,7 +1,13 @@
-"""What the train is made of: sources, wheels, links, axes, pairs."""
+"""Parts of the mechanism as declared: sources, wheels, links, axes, pairs.
+
+With tooth counts that are in doubt (a best value and what the evidence allows), the basic efficiency of a pair by the
+wheel that drives, and the friction torque of a link's bearing, sliding and at rest.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from math import cos
 from typing import Annotated, Any, Literal
 
@@ -24,6 +30,9 @@ from geartrain.numerics.quantity import (
     Length,
     Mass,
     MeasuredLength,
+    Quantity,
+    Share,
+    Torque,
     TorsionalDamping,
     millimetres,
 )
@@ -36,8 +45,6 @@ from geartrain.numerics.quantity_bounds import (
 )
 from geartrain.numerics.vectors import Vector, unit
 from geartrain.teeth.restitution import DeclaredRestitution
-from geartrain.train.bearing_friction import DeclaredBearing
-from geartrain.train.efficiencies import DeclaredEfficiency
 from geartrain.train.fields import (
     AlsoShort,
     Boolean,
@@ -56,7 +63,226 @@ from geartrain.train.fields import (
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.materials import ArborSizes, FaceWidth
 from geartrain.train.short_forms import JOINT_SCHEMA
-from geartrain.train.tooth_counts import Teeth
+
+# ----------------------------------------------------------------------------------------------------- bearing friction
+
+
+def _not_negative(torque: Quantity) -> Quantity:
+    if torque.value < 0:
+        raise PydanticCustomError(
+            "bearing", "a friction torque is not negative", {"fix": "give its magnitude: it acts against the turning"}
+        )
+    return torque
+
+
+FrictionTorque = Annotated[Torque, AfterValidator(_not_negative)]
+
+
+class BearingFriction(Declared):
+    """Friction of a bearing, which does not depend on load or speed. A bare torque is `sliding`.
+
+    See Also
+    --------
+    Link : holds it as `bearing`
+
+    Examples
+    --------
+    >>> BearingFriction(sliding="0.5 N m").at_rest.si
+    0.5
+    """
+
+    sliding: FrictionTorque = Field(description="Friction torque while it turns, against its turning")
+    static: FrictionTorque | None = Field(
+        None, description="Torque that a start has to overcome; `sliding` or more, default `sliding`"
+    )
+
+    @model_validator(mode="after")
+    def _rests_no_easier(self) -> BearingFriction:
+        if self.static is None:
+            return self
+        if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
+            what = "sliding {sliding} and static {static} mix a plain number and a torque with a unit"
+            fix = "give both with a unit, or both without"
+        elif self.static.base < self.sliding.base:
+            what = "a static friction torque of {static} is below the sliding one of {sliding}"
+            fix = "what turns is never harder to move than what rests: give `static` as `sliding` or more"
+        else:
+            return self
+        raise PydanticCustomError(
+            "bearing", what, {"static": self.static.text, "sliding": self.sliding.text, "fix": fix}
+        )
+
+    @property
+    def at_rest(self) -> Quantity:
+        """`static`, or `sliding` where that is not given."""
+        return self.sliding if self.static is None else self.static
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": ["string", "number"]}, handler(schema))
+
+
+def _sliding(raw: object) -> object:
+    if isinstance(raw, dict | BearingFriction):
+        return raw
+    return {"sliding": _not_negative(Quantity.parse(raw, "torque", plain=True))}
+
+
+DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_sliding)]
+"""The same, or a bare torque."""
+
+
+# --------------------------------------------------------------------------------------------------------- efficiencies
+
+
+def _no_more_than_all(efficiency: Quantity) -> Quantity:
+    if efficiency.base > 1:
+        meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
+        raise PydanticCustomError(
+            "efficiency",
+            "an efficiency of {text} makes power out of nothing",
+            {"text": efficiency.text, "fix": f"an efficiency is at most 1: write for example 0.98 or {meant}"},
+        )
+    return efficiency
+
+
+Efficiency = Annotated[Share, AfterValidator(_no_more_than_all)]
+
+
+class Efficiencies(Declared):
+    """Basic efficiency of a pair, carrier held, by the wheel that drives: above 0 and at most 1, or a percentage.
+
+    A pair may lock in one direction, which 0 or less says, but not in both.
+    """
+
+    forward: Efficiency = Field(description="With the first wheel driving, at most 1; 0 or less locks")
+    backward: Efficiency = Field(description="With the second wheel driving, at most 1; 0 or less locks")
+
+    @model_validator(mode="after")
+    def _passes_power_one_way(self) -> Efficiencies:
+        if self.forward.base <= 0 and self.backward.base <= 0:
+            raise PydanticCustomError(
+                "efficiency",
+                "an efficiency of {text} lets no power through in either direction",
+                {"text": self.forward.text, "fix": "an efficiency is above 0 and at most 1, such as 0.98 or 98 %"},
+            )
+        return self
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": ["number", "string"]}, handler(schema))
+
+
+def _efficiency(raw: object) -> object:
+    return raw if isinstance(raw, dict | Efficiencies) else {"forward": raw, "backward": raw}
+
+
+DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
+"""The same, or one number for both directions."""
+
+
+# --------------------------------------------------------------------------------------------------------- tooth counts
+
+
+class Teeth(Declared):
+    """A tooth count with its doubt: a best value, and a range or choices.
+
+    See Also
+    --------
+    Wheel : an example
+    """
+
+    value: Count | None = Field(None, description="The count used")
+    range: tuple[Count, Count] | None = Field(
+        None, description="Least and greatest count the evidence allows, inclusive"
+    )
+    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="The counts the evidence allows")
+    weights: tuple[Figure, ...] | None = Field(
+        None, fail_fast=True, description="Relative weight of each count in range or choices"
+    )
+    source: str | None = Field(None, description="Key of the source")
+    search: tuple[Count, ...] | None = Field(
+        None,
+        min_length=2,
+        fail_fast=True,
+        description="The count is to be found: within two bounds, inclusive, or among three or more counts",
+    )
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @model_validator(mode="after")
+    def _makes_sense(self) -> Teeth:
+        bounds = self.range or self.search
+        if bounds and len(bounds) == 2 and bounds[0] > bounds[1]:
+            raise PydanticCustomError(
+                "teeth",
+                "the range {low} to {high} is empty",
+                {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"},
+            )
+        if self.value is None and self.search is None:
+            raise PydanticCustomError("teeth", "the tooth count has no value", {"fix": "give `value`, or `search`"})
+        counts = self.allowed
+        if self.value is not None and counts and self.value not in counts:
+            raise PydanticCustomError(
+                "teeth",
+                "the value {value} lies outside what its evidence allows",
+                {"value": self.value, "fix": "widen the range or choices, or correct the value"},
+            )
+        if self.weights is not None and len(self.weights) != len(counts):
+            raise PydanticCustomError(
+                "teeth",
+                "{given} weights for {count} counts",
+                {"given": len(self.weights), "count": len(counts), "fix": "give one weight for each count"},
+            )
+        return self
+
+    @property
+    def allowed(self) -> tuple[int, ...]:
+        """All counts the evidence allows; empty where no doubt is declared."""
+        if self.choices is not None:
+            return self.choices
+        if self.range is None or self.range[1] - self.range[0] > 10**6:
+            return ()
+        return tuple(range(self.range[0], self.range[1] + 1))
+
+    @property
+    def searched(self) -> Sequence[int]:
+        """The counts of `search`, ascending; empty without it."""
+        if self.search is None:
+            return ()
+        return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
+
+    @property
+    def chances(self) -> dict[int, Fraction]:
+        """The chance of each count before anything else is known, as its `weights` say, ascending; the sum is 1.
+
+        All counts are alike where no weights are declared, and those of `search`; counts of weight 0 are left out.
+        Empty where no doubt is declared. Not to be asked where there is a `fault_of_weights`.
+
+        Examples
+        --------
+        >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).chances
+        {63: Fraction(1, 4), 64: Fraction(3, 4)}
+        """
+        counts = self.allowed
+        if not counts:
+            counts = tuple(self.searched)
+        weights = [Fraction(1)] * len(counts) if self.weights is None else [figure.value for figure in self.weights]
+        whole, found = sum(weights), dict.fromkeys(sorted(counts), Fraction(0))
+        for count, weight in zip(counts, weights, strict=True):  # a count may be listed twice
+            found[count] += weight / whole
+        return {count: chance for count, chance in found.items() if chance}
+
+    @property
+    def fault_of_weights(self) -> str | None:
+        """Why its weights are no chances; None where they are."""
+        weights = [figure.value for figure in self.weights or ()]
+        if any(weight < 0 for weight in weights):
+            return "one is negative"
+        return "all are 0" if weights and not any(weights) else None
+
+
+# ------------------------------------------------------------------------------------------------------------ mechanism
+
 
 MOST_COPIES = 360  # more planets have room on no carrier
 

@@ -59,14 +59,14 @@ class ProbabilityEstimate(Result):
         return wilson(self.count, self.of)
 
 
-def wilson(count: float, of: float, z: float | None = None) -> tuple[float, float]:
-    """Wilson's score interval of `count` of `of`, `z` standard deviations wide (E. B. Wilson 1927); 0 to 1 of none.
+def wilson(count: float, of: float) -> tuple[float, float]:
+    """Wilson's 95 % score interval of `count` of `of` (E. B. Wilson 1927); 0 to 1 of none.
 
     Of weighted trials both are effective numbers, not whole ones.
     """
     if not of:
         return 0.0, 1.0
-    z = deviations() if z is None else z
+    z = deviations()
     # E. B. Wilson, J. Am. Stat. Assoc. 22 (1927): the p with |p' - p| <= z sqrt(p (1 - p) / n)
     p, square = count / of, z * z / of
     middle, half = p + square / 2, z * sqrt(max(p * (1 - p), 0.0) / of + square / (4 * of))

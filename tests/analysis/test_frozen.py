@@ -54,10 +54,10 @@ def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:
 def test_nothing_in_a_declaration_or_an_answer_can_be_changed(name: str) -> None:
     train = load(name)
     state = train.states[0] if train.states else None
-    held = {"declaration": train.declaration, "tree": train.tree, "circuits": train.circuits}
+    held = {"declaration": train.declaration, "tree": train.kinematics.tree, "circuits": train.circuits}
     held |= {"answer": train.solve(state), "torques": train.torques(state), "mobility": train.mobility}
     if train.solve(state).verdict:
-        held |= {"floats": train.floats(state), "sparse": train.solve(state, method="sparse")}
+        held |= {"floats": train.kinematics.floats(state), "sparse": train.solve(state, method="sparse")}
     found = [path for key, value in held.items() for path in mutable(value, key, set())]
     assert not found
 
@@ -122,13 +122,14 @@ def test_an_answer_in_floats_is_copied_pickled_and_compared_read_or_not(output: 
 def test_what_a_train_does_not_have_is_refused_with_what_it_has() -> None:
     train = load("norton-compound")
     one, other = next(iter(train.declaration.inputs)), list(train.declaration.links)[-1]
+    floats = train.kinematics.floats
     questions = {
         "there is no method 'quick'": lambda: train.solve(method="quick"),  # type: ignore[arg-type]
         "there is no link 'nowhere'": lambda: train.driven("nowhere", one),
         "there is no link 'noone'": lambda: train.driven(other, "noone"),
-        "there is no link 'here'": lambda: train.floats(condition_of=["here"]),
-        "there is no input 'nothing'": lambda: train.floats(inputs={one: [1.0], "nothing": [1.0]}),
-        "is not finite": lambda: train.floats(inputs={link: [float("nan")] for link in train.declaration.inputs}),
+        "there is no link 'here'": lambda: floats(condition_of=["here"]),
+        "there is no input 'nothing'": lambda: floats(inputs={one: [1.0], "nothing": [1.0]}),
+        "is not finite": lambda: floats(inputs={link: [float("nan")] for link in train.declaration.inputs}),
         "the tolerance is nan": lambda: train.motion(tolerance=float("nan")),
         "the tolerance is -1": lambda: train.motion(tolerance=-1),
         "has no state": lambda: train.solve("first"),
@@ -145,10 +146,10 @@ def test_every_input_needs_as_many_speeds_as_the_others() -> None:
     train = load({"extends": "bevel-differential", "states": None, "inputs": {"left": 1, "right": 2}})
     names = list(train.declaration.inputs)
     with pytest.raises(GearTrainError, match=f"input '{names[1]}' is missing"):
-        train.floats(inputs={names[0]: [1.0]})
+        train.kinematics.floats(inputs={names[0]: [1.0]})
     with pytest.raises(GearTrainError, match="unequal numbers of cases"):
-        train.floats(inputs={names[0]: [1.0], names[1]: [1.0, 2.0]})
-    right = train.floats(inputs={names[0]: [1.0, 3.0], names[1]: [2.0, 1.0]})
+        train.kinematics.floats(inputs={names[0]: [1.0], names[1]: [1.0, 2.0]})
+    right = train.kinematics.floats(inputs={names[0]: [1.0, 3.0], names[1]: [2.0, 1.0]})
     exact = train.solve()
     for link, speed in exact.speeds.items():
         assert right.speeds[link][0] == pytest.approx(float(Fraction(speed)))

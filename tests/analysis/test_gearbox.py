@@ -12,6 +12,7 @@ from shipped import train as load
 
 import geartrain
 from geartrain import GearTrain
+from geartrain.analysis import find_gears
 from geartrain.errors import GearTrainError
 from geartrain.report.gearbox_report import describe_gearbox
 from geartrain.train import State
@@ -94,7 +95,7 @@ def test_a_positive_recirculation_is_between_sets_and_not_inside_them() -> None:
 def test_a_search_finds_what_solving_every_combination_finds(name: str) -> None:
     """Held against states declared one by one, of every size: fewer leave it free, more hold it or say no more."""
     train = load(name)
-    found = train.gear_search()
+    found = find_gears(train)
     elements = list(train.declaration.clutches)
     wanted = {}
     others: dict[str, list[tuple[str, ...]]] = {"free": [], "locked": []}
@@ -120,7 +121,7 @@ def test_a_search_finds_what_solving_every_combination_finds(name: str) -> None:
 def test_series_are_counted_and_chosen_as_by_trying_all(name: str, single: bool) -> None:
     number, window = len(PUBLISHED[name][0]), (Fraction("1.08"), Fraction("1.9"))
     train = load(name)
-    found = train.gear_search(gears=number, steps=(1.08, 1.9), single=single)
+    found = find_gears(train, gears=number, steps=(1.08, 1.9), single=single)
     forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
     every = []
     for chosen in combinations(forward, number):
@@ -138,7 +139,7 @@ def test_series_are_counted_and_chosen_as_by_trying_all(name: str, single: bool)
 
 def test_a_search_of_ten_gears_finds_the_published_table_and_one_other() -> None:
     train = load("ford-10r80")
-    found = train.gear_search(gears=10, steps=(1.08, 1.6), single=True)
+    found = find_gears(train, gears=10, steps=(1.08, 1.6), single=True)
     assert found.series == 2
     assert found.widest is not None
     first, *others = [gear.engaged for gear in found.widest.gears]
@@ -264,7 +265,7 @@ def test_other_gearboxes_have_the_printed_ratios(text: str, ratios: list[float],
     train = GearTrain.declare(yaml.safe_load(text))
     found = [state.ratio for state in train.gearbox().states]
     assert found == pytest.approx(ratios, abs=0.6 * 10**-digits)
-    gears = {gear.engaged for gear in train.gear_search().gears}
+    gears = {gear.engaged for gear in find_gears(train).gears}
     assert gears >= {tuple(state.engaged) for state in train.declaration.states.values()}
 
 

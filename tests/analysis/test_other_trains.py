@@ -25,23 +25,23 @@ def test_other_counts_are_those_of_a_declaration_that_says_so() -> None:
 
 def test_other_inputs_are_read_like_declared_ones() -> None:
     train = load("planetary-24-18-60")
-    assert train.with_inputs(carrier="2/7").solve()["sun"] == 1
-    assert train.with_inputs({"sun": "70 rpm"}).solve()["carrier"] == 20
+    assert train.with_changes(inputs={"carrier": "2/7"}).solve()["sun"] == 1
+    assert train.with_changes(inputs={"sun": "70 rpm"}).solve()["carrier"] == 20
     with pytest.raises(GearTrainError, match="no link 'son'"):
-        train.with_inputs(son=1)
+        train.with_changes(inputs={"son": 1})
     with pytest.raises(GearTrainError, match="inputs"):
-        train.with_inputs(sun="fast")
+        train.with_changes(inputs={"sun": "fast"})
 
 
 def test_another_tooth_form_is_that_of_all_pairs_or_of_one() -> None:
     train = load("longcase-clock")
-    assert {mesh.form for mesh in train.with_tooth_form("involute").meshes} == {"involute"}
-    one = train.with_tooth_form({"form": "cycloidal"}, pair="c60~t8")
+    assert {mesh.form for mesh in train.with_changes(tooth_form="involute").meshes} == {"involute"}
+    one = train.with_changes(gears=[{"pair": ["c60", "t8"], "tooth_form": {"form": "cycloidal"}}])
     assert [mesh.name for mesh in one.meshes] == ["c60~t8"]
-    with pytest.raises(GearTrainError, match="no pair 'c60~t9'"):
-        train.with_tooth_form("involute", pair="c60~t9")
+    with pytest.raises(GearTrainError, match="no wheel 't9'"):
+        train.with_changes(gears=[{"pair": ["c60", "t9"], "tooth_form": "involute"}])
     with pytest.raises(GearTrainError, match="tooth_form"):
-        train.with_tooth_form("involut")
+        train.with_changes(tooth_form="involut")
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_a_table_is_a_data_frame_and_says_what_it_lacks() -> None:
 def test_a_train_says_its_name_its_size_and_its_verdict() -> None:
     assert repr(load("planetary-24-18-60")) == "<GearTrain planetary-24-18-60: 4 links, 3 wheels; determined>"
     assert repr(load("zf-8hp70")) == "<GearTrain zf-8hp70: 13 links, 12 wheels, 9 states; determined>"
-    assert repr(load("planetary-24-18-60").with_inputs({})).endswith("; free>")
+    assert repr(load("planetary-24-18-60").with_changes(inputs={})).endswith("; free>")
 
 
 FRICTIONS = (0, 0.02, 0.1)

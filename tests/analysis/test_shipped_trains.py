@@ -30,7 +30,7 @@ def test_a_shipped_train_holds_all_it_expects_and_names_its_sources(name: str) -
 def test_floats_agree_with_exact_speeds_within_their_estimate(name: str) -> None:
     train = load(name)
     for answer in train.answers():
-        floats = train.floats(answer.state)
+        floats = train.kinematics.floats(answer.state)
         for link, speed in answer.speeds.items():
             assert abs(Fraction(floats[link]) - Fraction(speed)) <= Fraction(float(floats.estimate[link][0]))
 

@@ -291,7 +291,7 @@ def test_each_gear_pair_lights_up_its_circuit_carrier_and_equation(draw: Opening
     drawn = draw("circuits")
     drawn.choose(title, among="Train")
     train = geartrain.load(name)
-    rows = train.equations(train.state_or_first(None)).text()
+    rows = train.equations(train.declaration.state_or_first(None)).text()
     joined = {frozenset(joint.pair) for joint in train.declaration.revolutes}
     for circuit in train.circuits:
         drawn.page.get_by_role("button", name=f"Gear pair {circuit.id}", exact=True).focus()

@@ -55,7 +55,7 @@ def contrast(one: str, other: str) -> float:
 
 
 # buttons that stay pressed, in the moment in which they are: [what, its colour, that behind it]
-PRESSED = """() => [...document.querySelectorAll('.group button, .wheels button')].map((button) => {
+PRESSED = """() => [...document.querySelectorAll('[data-look], .wheels button')].map((button) => {
   button.click();
   const { color, backgroundColor } = getComputedStyle(button);
   return [button.outerHTML.slice(0, 90), button.getAttribute('aria-pressed'), color, backgroundColor];

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from clusters import PATIENCE, next_line
 from playwright.sync_api import Browser, Page
 
 pytest.importorskip("tornado", reason="the extra 'watch' is not installed")
@@ -50,14 +51,18 @@ def file(tmp_path: Path, parent: Path) -> Path:
 @pytest.fixture
 def served(file: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     command = [sys.executable, "-m", "geartrain", "watch", str(file)]
-    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**os.environ, "COLUMNS": "200"})
-    assert running.stderr is not None
-    address = re.search(r"http://127\.0\.0\.1:\d+/", running.stderr.readline())
-    assert address is not None
-    yield address[0], running
-    running.send_signal(signal.SIGINT)
-    running.communicate(timeout=20)
-    assert running.returncode == 0
+    environment = {**os.environ, "COLUMNS": "200"}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as running:
+        try:
+            assert running.stderr is not None
+            address = re.search(r"http://127\.0\.0\.1:\d+/", next_line(running.stderr))
+            assert address is not None
+            yield address[0], running
+            running.send_signal(signal.SIGINT)
+            running.communicate(timeout=PATIENCE)
+            assert running.returncode == 0
+        finally:
+            running.kill()  # it would serve for ever
 
 
 def follow(page: Page, version: int) -> None:
@@ -137,6 +142,7 @@ def test_it_answers_this_machine_alone(served: tuple[str, subprocess.Popen[str]]
         capture_output=True,
         text=True,
         check=False,
+        timeout=PATIENCE,
     )
     assert taken.returncode == 2
     assert "there is no file" in taken.stderr

@@ -145,12 +145,12 @@ def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_clo
 def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from geartrain.dynamics.time import parting_places
+    from geartrain.dynamics.time import stepped_separation
 
     path = tmp_path / "slack.yaml"
     path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")
     words = ("--rate", "1", "--turns", "0.5", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate", "--json")
-    finer, calls = parting_places.PartingSearch.finer, []
+    finer, calls = stepped_separation.PartingSearch.finer, []
 
     def stopping(self: object, *given: object) -> object:
         calls.append(given)
@@ -158,7 +158,7 @@ def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
             os.kill(os.getpid(), signal.SIGINT)
         return finer(self, *given)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(parting_places.PartingSearch, "finer", stopping)
+    monkeypatch.setattr(stepped_separation.PartingSearch, "finer", stopping)
     done = call("dynamics", path, *words)
     assert done.exit_code == 130
     assert "stopped before" in done.stderr

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -16,8 +17,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from clusters import next_line
 from commands import verbs
-from places import ROOT
+from places import ROOT, TESTS
 from test_output_files import ASKED, DOUBT
 
 from geartrain.cli import app, main
@@ -124,7 +126,7 @@ def test_a_fault_deep_inside_is_one_too(
         raise RuntimeError("deep")
 
     monkeypatch.setattr("geartrain.analysis.gear_train.GearTrain.solve", fail)
-    monkeypatch.setattr("geartrain.analysis.loader.load", fail)
+    monkeypatch.setattr("geartrain.analysis.gear_train.load", fail)
     for verb in ("solve", "report", "check", "compare", "torques", "equations", "graph"):
         assert run(verb, "worm")[0] == 3, verb
 
@@ -142,24 +144,34 @@ def test_an_interrupt_while_python_evaluates_a_string_is_exit_130(tmp_path: Path
     ending = "sys.exit(guarded(lambda: exec('raise KeyboardInterrupt')))"
     (tmp_path / "interrupted.py").write_text("\n".join((*lines, ending)))
     paths = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
-    assert subprocess.run([sys.executable, "-m", "interrupted"], env=paths, check=False).returncode == 130
+    assert subprocess.run([sys.executable, "-m", "interrupted"], env=paths, check=False, timeout=120).returncode == 130
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")
 def test_ctrl_c_in_the_middle_is_exit_130() -> None:
     command = [sys.executable, "-m", "geartrain", "motion", "moon-triangular", "--samples", "9000000", "--csv"]
-    # a shell has its background jobs ignore the signal, and those who start the tests so hand that down
-    heard = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heard
-    ) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
-        process.stdout.readline()
+        next_line(process.stdout)
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=120)
     assert process.returncode == 130, err
     assert "Traceback" not in err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")
+def test_tests_can_interrupt_commands_though_the_shell_that_starts_them_ignores_interrupts() -> None:
+    """As a shell does for its background jobs, and `nohup`; conftest.py sets the handler that commands inherit."""
+    code = (
+        "import conftest, signal, subprocess, sys;"
+        "child = subprocess.Popen([sys.executable, '-c', 'print(1, flush=True); input()'], stdin=-1, stdout=-1);"
+        "child.stdout.readline(); child.send_signal(signal.SIGINT); print(child.wait(60))"
+    )
+    shell = f"trap '' INT; exec {shlex.quote(sys.executable)} -W ignore -c {shlex.quote(code)}"
+    paths = {**os.environ, "PYTHONPATH": os.pathsep.join([str(TESTS), str(ROOT)])}
+    done = subprocess.run(["sh", "-c", shell], env=paths, capture_output=True, text=True, check=False, timeout=120)
+    assert done.stdout == f"{-signal.SIGINT}\n", done.stderr
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes close otherwise")

@@ -112,7 +112,7 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (("motion", "{pair}", "--samples", "40"), ("turns", "seed", "phases", "tabulated", "output")),
     (("motion", "{pair}", "--samples", "40", "--turns", "3", "--spectrum", "--estimates"), ("turns", "tabulated")),
     (("motion", "{pair}", "--turns", "3"), ("samples:few",)),
-    (("montecarlo", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "tolerance", "jam", "workers:few")),
+    (("montecarlo", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "workers:few")),
     (("montecarlo", "{pair}"), ("trials:few",)),
     (("budget", "{pair}", "--samples", "40", "--trials", "4"), ("turns", "span", "seed", "output", "cutting", "body")),
     (("budget", "{pair}", "--turns", "3"), ("samples:few",)),

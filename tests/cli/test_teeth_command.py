@@ -9,12 +9,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from fractions import Fraction
 from math import prod
 from pathlib import Path
 
 import pytest
+from clusters import PATIENCE, until
 from commands import call
 
 from geartrain import load
@@ -232,11 +232,13 @@ def start(folder: Path, *more: str) -> subprocess.Popen[str]:
 
 
 def wait_for_work(running: subprocess.Popen[str], folder: Path) -> None:
-    """Until a task is in the journal below its head, however long that takes, or all is done."""
-    while running.poll() is None:
-        if any(path.read_bytes().count(b"\n") > 1 for path in folder.glob("*.partial.jsonl")):
-            return
-        time.sleep(0.05)
+    """Until a task is in the journal below its head, or all is done."""
+
+    def begun() -> bool:
+        lines = (path.read_bytes().count(b"\n") for path in folder.glob("*.partial.jsonl"))
+        return running.poll() is not None or max(lines, default=0) > 1
+
+    until(begun, "a finished task")
 
 
 @pytest.fixture(scope="module")
@@ -244,7 +246,7 @@ def uncut(tmp_path_factory: pytest.TempPathFactory) -> str:
     """What a search says that nobody cuts."""
     folder = tmp_path_factory.mktemp("whole")
     running = start(folder, "--workers", "1")
-    said, _ = running.communicate()
+    said, _ = running.communicate(timeout=5 * PATIENCE)
     assert running.returncode == 0
     assert not list(folder.glob("*.partial.jsonl"))
     return said
@@ -255,15 +257,15 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
     running = start(tmp_path, "--workers", "1")
     wait_for_work(running, tmp_path)
     os.killpg(running.pid, cut)
-    out, err = running.communicate()
-    if running.returncode == 0:
+    out, err = running.communicate(timeout=5 * PATIENCE)
+    if running.returncode == 0 or not list(tmp_path.glob("*.partial.jsonl")):
         pytest.skip("it ended before it was cut")
     if cut == signal.SIGINT:
         assert running.returncode == 130
         assert "--resume" in err
         assert json.loads(out)["complete"] is False
     again = start(tmp_path, "--resume", "--workers", "2")
-    said, _ = again.communicate()
+    said, _ = again.communicate(timeout=5 * PATIENCE)
     assert again.returncode == 0
     assert said == uncut
     assert not list(tmp_path.rglob("*.partial.jsonl"))

@@ -158,7 +158,7 @@ def test_trials_of_friction_have_the_spread_that_the_closed_form_tells(pin: Path
 def test_trials_are_the_same_whoever_works(pin: Path) -> None:
     pin.write_text(SPREAD, encoding="utf-8")
     words = ("torques", pin, "--turns", "1", "--samples", "20", "--trials", "12", "--json")
-    alone, together = (json.loads(call(*words, *more).output)["friction_trials"] for more in ((), ("--workers", "2")))
+    alone, together = (json.loads(call(*words, *more).stdout)["friction_trials"] for more in ((), ("--workers", "2")))
     assert alone == together
 
 

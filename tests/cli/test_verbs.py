@@ -1,4 +1,4 @@
-"""A verb is imported when it is asked for, brings only the rooms it needs, and answers to its old name."""
+"""A verb is imported when it is called, with no rooms but those it needs."""
 
 from __future__ import annotations
 
@@ -77,14 +77,3 @@ def test_help_lists_every_verb_with_what_it_does() -> None:
         if " " not in name:
             assert f" {name} " in said
             assert " ".join(str(function.__doc__).split()[:3]) in said, name
-
-
-@pytest.mark.parametrize(("old", "new"), [("errors", "montecarlo"), ("sweep", "posterior")])
-def test_an_old_name_works_and_tells_the_new_one_once(old: str, new: str) -> None:
-    asked = ("pennestri-2002", "--no-such-option") if old == "sweep" else ("pennestri-2002", "--trials", "x")
-    said, now = call(old, *asked), call(new, *asked)
-    note = f"note: `geartrain {old}` is called `geartrain {new}` now"
-    assert said.exit_code == now.exit_code == 2
-    assert said.stderr.count(note) == 1, said.stderr
-    assert "note:" not in now.stderr
-    assert f"│ {old} " not in call("--help").stdout

@@ -31,7 +31,7 @@ from geartrain.synthesis.reconstruction.known_rank import find_place
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_wheels
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Additions, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
+from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
 from geartrain.train.declaration_files import read_declaration, shipped
 
 
@@ -60,14 +60,6 @@ def test_of_a_mechanism_with_pins_and_carriers_each_part_is_taken() -> None:
     assert set(first.pointers) == {"e_pipe", "metonic", "games", "callippic", "apsides", "saros", "exeligmos"}
     assert set(trees["freeth-2008", "on e_table, from e_pipe"].driven) == {"k1", "e_inner"}
     assert set(trees["freeth-2008", "from e_inner"].driven) == {"moon"}
-
-
-def test_a_part_says_how_it_is_searched() -> None:
-    found = {(tree.train, tree.part): tree.slower for tree in tree_records(["freeth-2006", "price-1974"]).trees}
-    assert found["freeth-2006", ""] == []
-    assert found["price-1974", ""] == ["idlers"]
-    assert found["price-1974", "from turntable"] == []
-    assert tree_records(["clock-10000-years-exact"]).trees[0].slower == ["7 dials", "idlers"]
 
 
 def test_what_is_not_left_out_says_why() -> None:
@@ -208,11 +200,11 @@ def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
         ),
         LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB", "from y"),
     ]
-    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96], ["idlers"])
+    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96])
     cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
     worm = NotAskedRecord("worm", "it has worm wheels")
     text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))
-    assert "| clock, from y | 3 | 8 | 1 | paths: idlers | 6 | 2 | 2 | 2 | 1 | 1 | 1 | 0 | 7 |" in text
+    assert "| clock, from y | 3 | 8 | 1 | 6 | 2 | 2 | 2 | 1 | 1 | 1 | 0 | 7 |" in text
     assert "| a | 3 with 1 | 4 with 2 | 2 | listed | 4 | 7 | open | 250 ms |" in text
     assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | open | 1.5 s |" in text
     assert "| c | none with 1 | ? with 3 | - | followed | 1 | open | 1 to 3 | not within 60 s |" in text

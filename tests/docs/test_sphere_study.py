@@ -16,9 +16,8 @@ from studies.planar_graphs import hull, trapezohedron, zonohedron
 from studies.sphere_records import TARGET, ClosureRecord, PackRecord, SphereRecords, growth
 from studies.sphere_study import sphere
 
-from geartrain.spherical.circle_packing import SpherePacking, pack_circles
-from geartrain.spherical.planar_map import checked_graph, regions_of, with_region_circles
-from geartrain.spherical.planar_packing import PlanarPacking
+from geartrain.spherical.circle_packing import PlanarPacking, SpherePacking, pack_circles
+from geartrain.spherical.graph_set import checked_graph, regions_of, with_region_circles
 
 
 @pytest.fixture(scope="module")

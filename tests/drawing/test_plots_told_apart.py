@@ -36,7 +36,7 @@ from geartrain.drawing.jam_map import jam_map_figure
 from geartrain.drawing.parameter_sweep_plot import parameter_label
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
 from geartrain.drawing.theme_colours import themed
-from geartrain.dynamics import MotionRun
+from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.scene.palette import THEMES, ThemeName
 from geartrain.synthesis import ToothSizes, find_tooth_sizes, find_train_sizes
 from geartrain.teeth import Cycloidal, Involute
@@ -225,7 +225,7 @@ def test_outputs_without_error_that_are_left_out_are_told() -> None:
 
 def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
     train = load("norton-compound")
-    (axes,) = power_figure(train.power_flow(train.torques()), train.name).axes
+    (axes,) = power_figure(find_power_flow(train.torques()), train.name).axes
     turned = [patch for patch in axes.patches if patch.get_zorder() == 1.0]
     assert turned
     for text in axes.texts:

@@ -39,7 +39,7 @@ from geartrain.uncertainty import (
     run_trials,
 )
 from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndex
-from geartrain.uncertainty.posterior.pairwise_posterior import joint_posterior, most_informative_wheels
+from geartrain.uncertainty.posterior.inference import joint_posterior, most_informative_wheels
 
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)
@@ -335,7 +335,7 @@ def test_the_command_draws_what_it_is_asked_for(tmp_path: Path) -> None:
     train = tmp_path / "pair.yaml"
     train.write_text(PAIR, encoding="utf-8")
     plot = tmp_path / "map.svg"
-    asked = ("errors", train, "--trials", 20, "--clearance", "0.2:0.8:2", "--picture", "map", "--plot", plot)
+    asked = ("montecarlo", train, "--trials", 20, "--clearance", "0.2:0.8:2", "--picture", "map", "--plot", plot)
     done = call(*asked)
     assert done.exit_code == 0, done.output
     assert "probability of a jam" in plot.read_text(encoding="utf-8")
@@ -346,7 +346,7 @@ def test_the_command_draws_what_it_is_asked_for(tmp_path: Path) -> None:
 def test_the_command_draws_counts_in_doubt(tmp_path: Path) -> None:
     train, plot = tmp_path / "doubtful.yaml", tmp_path / "corner.svg"
     train.write_text(DOUBTFUL, encoding="utf-8")
-    done = call("sweep", train, "--free", "r=12", "--plot", plot, "--json")
+    done = call("posterior", train, "--free", "r=12", "--plot", plot, "--json")
     assert done.exit_code == 0, done.output
     drawn = plot.read_text(encoding="utf-8")
     assert all(f'id="{wheel}"' in drawn for wheel in "pqs")

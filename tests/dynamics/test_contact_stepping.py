@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.dynamics.contacts.contact_system import ContactSystem
 from geartrain.dynamics.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
-from geartrain.dynamics.contacts.slack_pin import SlackPin
+from geartrain.dynamics.contacts.train_model import SlackPin
 from geartrain.dynamics.steps import simulation
 from geartrain.dynamics.steps.contact_solution import StepRules
 from geartrain.dynamics.steps.run_record import (

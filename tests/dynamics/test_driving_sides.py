@@ -148,7 +148,7 @@ def test_the_driver_is_he_whose_power_overcomes_what_resists(seeds: range) -> No
             continue
         loaded = GearTrain.declare({**train.data, "outputs": {f"out {link}": {"of": link} for link in outputs}})
         wheels = {frozenset(circuit.wheels): circuit.id for circuit in loaded.circuits}
-        drivers = loaded.drivers()
+        drivers = loaded.mechanics.drivers()
         for names, ways in flows(train, outputs).items():
             driver = drivers[wheels[names]]
             if len(ways) == 1:
@@ -213,7 +213,9 @@ def test_no_order_of_declaration_changes_who_drives_nor_what_is_lost(name: str) 
     for seed in range(3):
         other = shuffled(train, Random(seed))
         for state in train.states or (None,):
-            assert dict(sorted(other.drivers(state).items())) == dict(sorted(train.drivers(state).items()))
+            assert dict(sorted(other.mechanics.drivers(state).items())) == dict(
+                sorted(train.mechanics.drivers(state).items())
+            )
             mine, yours = (each.torques(state) for each in (train, other))
             assert mine.verdict.kind == yours.verdict.kind
             assert float(yours.efficiency or 0) == pytest.approx(float(mine.efficiency or 0), rel=1e-12)
@@ -231,7 +233,7 @@ def test_no_order_of_declaration_changes_who_drives_in_random_trains(seeds: rang
     for seed in seeds[:: max(1, len(seeds) // SAMPLE)]:
         train, outputs = asked(seed)
         plain = GearTrain.declare({**train.data, "outputs": {f"out {link}": {"of": link} for link in outputs}})
-        assert dict(shuffled(plain, Random(seed)).drivers()) == dict(plain.drivers()), seed
+        assert dict(shuffled(plain, Random(seed)).mechanics.drivers()) == dict(plain.mechanics.drivers()), seed
 
 
 # --------------------------------------------------------------------------------------------- what is found on demand
@@ -246,7 +248,7 @@ def test_pairs_that_no_load_reaches_carry_nothing_whatever_pairs_lose(seeds: ran
             link.pop("bearing", None)
         data["loads"] = dict(list(data.get("loads", {}).items())[: 1 + seed % 2])
         train = GearTrain.declare(data)
-        setting = train._setting(None)
+        setting = train.mechanics.load_case(None)
         assert setting is not None
         torques = train.torques()
         names = find_idle_pairs(setting)
@@ -268,14 +270,16 @@ def test_drivers_found_one_by_one_follow_the_torques_under_all_efficiencies() ->
             flows = {each.id: each.driver for each in torques.pairs.values() if each.driver and not each.loose}
             flows = flows if torques.verdict else {}
             # the last first: no order of reading has a part in it
-            drivers = {pair: train.drivers(state)[pair] for pair in reversed(list(train.drivers(state)))}
+            drivers = {
+                pair: train.mechanics.drivers(state)[pair] for pair in reversed(list(train.mechanics.drivers(state)))
+            }
             said = {pair: who.wheel for pair, who in drivers.items() if who.why.startswith("power flows so under the")}
             declared = {pair for pair, who in drivers.items() if who.why == "declared"}
             assert said == {pair: flows[pair] for pair in flows if pair in drivers and pair not in declared}, (
                 name,
                 state,
             )
-            assert drivers == dict(shipped.train(name).drivers(state))
+            assert drivers == dict(shipped.train(name).mechanics.drivers(state))
             found += len(said)
     assert found > 13
 
@@ -402,7 +406,7 @@ def test_where_power_leaves_it_open_both_ways_are_given(train_file: Callable[[st
 
 
 def test_each_state_has_its_own_driver() -> None:
-    ways = shipped.train("bevel-differential-involute").driven_ways["pinion~c41"]
+    ways = shipped.train("bevel-differential-involute").mechanics.driven_ways["pinion~c41"]
     assert {mesh.driver for mesh, _ in ways} == {"pinion", "c41"}
     assert sorted(state for _, states in ways for state in states).count("one wheel held") == 1
 
@@ -411,6 +415,6 @@ def test_the_trials_of_a_looped_train_run_without_a_warning() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         arguments = ("--trials", 64, "--set", "placement=0.1 deg", "--output", "moon", "--output", "17", "--json")
-        found = call("errors", "pennestri-2002-teeth", *arguments)
+        found = call("montecarlo", "pennestri-2002-teeth", *arguments)
     assert found.exit_code in (0, 1)
     assert json.loads(found.stdout)["outputs"]

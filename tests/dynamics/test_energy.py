@@ -21,11 +21,12 @@ from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turn
 from reference_solver import find_carrier as carrier_of
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics import Torques
+from geartrain.dynamics import Torques, find_power_flow
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
+from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.teeth import TransmissionFunction
-from geartrain.train.efficiencies import Efficiencies
+from geartrain.train.mechanism import Efficiencies
 
 Data = dict[str, Any]
 
@@ -34,7 +35,7 @@ SAMPLE = 170 if settings().derandomize else 400  # random trains a law; `--slow`
 
 def speeds_along(train: GearTrain, found: Torques) -> dict[str, Fraction]:
     """Speeds about the direction of the parallels."""
-    return {link: train.signs.get(link, 1) * Fraction(speed) for link, speed in found.speeds.items()}
+    return {link: train.kinematics.signs.get(link, 1) * Fraction(speed) for link, speed in found.speeds.items()}
 
 
 def bearings_of(train: GearTrain, found: Torques) -> dict[str, list[tuple[str, Fraction]]]:
@@ -43,10 +44,10 @@ def bearings_of(train: GearTrain, found: Torques) -> dict[str, list[tuple[str, F
     for link, part in train.declaration.links.items():
         if part.bearing is None or not found.bearing_loss or link == train.declaration.frame:
             continue
-        carrier = train.tree.parent[link][0]
+        carrier = train.kinematics.tree.parent[link][0]
         relative = along[link] - along[carrier]
         torque = -part.bearing.sliding.base * ((relative > 0) - (relative < 0))
-        own, other = train.signs.get(link, 1), train.signs.get(carrier, 1)
+        own, other = train.kinematics.signs.get(link, 1), train.kinematics.signs.get(carrier, 1)
         taken[link] = [(link, own * torque), (carrier, -other * torque)]
     return taken
 
@@ -86,7 +87,7 @@ def require_no_energy(train: GearTrain, found: Torques) -> None:
         assert sum(found.powers.values()) == lost
     if found.efficiency is not None:
         assert 0 <= found.efficiency <= 1
-    assert all(loss > 0 for loss in train.power_flow(found).losses.values())
+    assert all(loss > 0 for loss in find_power_flow(found).losses.values())
 
 
 def states(train: GearTrain) -> tuple[str | None, ...]:
@@ -97,7 +98,7 @@ def asked(train: GearTrain) -> Iterator[Torques]:
     """Under the declared loads, and driven from each end to the other."""
     for state in states(train):
         yield train.torques(state)
-        yield from (way for way, _, _ in train.drive_both_ways(state))
+        yield from (way for way, _, _ in drive_both_ways(train.mechanics, state))
 
 
 # ------------------------------------------------------------------------------------------------------- shipped trains

@@ -7,9 +7,9 @@ from turning_chains import random_chain
 
 from geartrain import GearTrain, load
 from geartrain.dynamics.turn.friction_study import FrictionStudy, drivers_are_certain
-from geartrain.train.friction_in_force import FrictionInForce
-from geartrain.uncertainty.monte_carlo.friction_plan import draw_friction, find_friction_plan
-from geartrain.uncertainty.monte_carlo.friction_trials import work_frictions
+from geartrain.dynamics.turn.train_turn import study_friction
+from geartrain.train.declaration import FrictionInForce
+from geartrain.uncertainty.monte_carlo.friction_trials import draw_friction, find_friction_plan, work_frictions
 
 ROW = "extends: moon-triangular\nloads: {moon: -1 N mm}\nfriction: {sliding: 0.2, static: 0.3, deviation: 0.1}\n"
 PIN = """
@@ -40,7 +40,7 @@ links: {turntable: {bearing: 1 N mm}}
 
 
 def study(train: GearTrain, turns: float = 0.3) -> FrictionStudy:
-    found = train.friction_study(turns, samples=50)
+    found = study_friction(train.mechanics, turns, samples=50)
     assert found is not None
     return found
 
@@ -102,14 +102,14 @@ def test_a_trial_that_locks_is_asked_of_a_train_of_its_own() -> None:
 def test_sides_that_are_certain_stay_the_same_with_any_friction(seed: int) -> None:
     data = random_chain(seed).data
     train = GearTrain.declare(data)
-    found = train.friction_study(1, samples=20)
+    found = study_friction(train.mechanics, 1, samples=20)
     if found is None or not drivers_are_certain(found.run.train):
         return
-    sides = {name: each.wheel for name, each in train.drivers().items()}
+    sides = {name: each.wheel for name, each in train.mechanics.drivers().items()}
     for friction in (0.01, 0.4):
         other = {**data, "gears": [_rubbed(each, friction) for each in data["gears"]]}
         other["couplings"] = [_rubbed(each, friction) for each in data.get("couplings", [])]
-        assert {name: each.wheel for name, each in GearTrain.declare(other).drivers().items()} == sides
+        assert {name: each.wheel for name, each in GearTrain.declare(other).mechanics.drivers().items()} == sides
 
 
 def _rubbed(part: dict[str, object], friction: float) -> dict[str, object]:
@@ -117,5 +117,5 @@ def _rubbed(part: dict[str, object], friction: float) -> dict[str, object]:
 
 
 def test_friction_that_goes_by_a_law_of_speed_has_no_study() -> None:
-    assert load(SPEED.replace("FRICTION", "0.2")).friction_study(1, samples=20) is not None
-    assert load(SPEED.replace("FRICTION", STRIBECK)).friction_study(1, samples=20) is None
+    assert study_friction(load(SPEED.replace("FRICTION", "0.2")).mechanics, 1, samples=20) is not None
+    assert study_friction(load(SPEED.replace("FRICTION", STRIBECK)).mechanics, 1, samples=20) is None

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from geartrain import load
+from geartrain.dynamics import find_link_inertias, find_separation
 from geartrain.teeth.outlines.contour import Contour
 
 
@@ -56,7 +57,7 @@ inputs: {{a: 1}}
 
 
 def test_a_wheel_is_a_disc_between_its_root_and_its_tip() -> None:
-    (found,) = load(WHEELS.format(link="", rest="thickness: 2 mm")).inertias()
+    (found,) = find_link_inertias(load(WHEELS.format(link="", rest="thickness: 2 mm")).mechanics)
     assert (found.source, found.missing) == ("outlines", ())
     low, high = (8700 * 0.002 * pi / 2 * (radius * 1e-3) ** 4 for radius in (30 - 1.25, 30 + 1))
     assert low < found.value < high
@@ -64,12 +65,17 @@ def test_a_wheel_is_a_disc_between_its_root_and_its_tip() -> None:
 
 
 def test_what_is_declared_stands_before_outlines_and_what_is_not_known_is_said() -> None:
-    (declared,) = load(WHEELS.format(link=", inertia: 2e-5 kg m2", rest="thickness: 2 mm")).inertias()
+    (declared,) = find_link_inertias(
+        load(WHEELS.format(link=", inertia: 2e-5 kg m2", rest="thickness: 2 mm")).mechanics
+    )
     assert (declared.source, declared.value) == ("declared", 2e-5)
-    (unknown,) = load(WHEELS.format(link="", rest="")).inertias()
+    (unknown,) = find_link_inertias(load(WHEELS.format(link="", rest="")).mechanics)
     assert (unknown.source, unknown.value) == ("unknown", 0)
     assert unknown.missing == ("wheel 'w' has no thickness",)
-    assert load("moon-triangular").inertias()[0].missing[0] == "wheel 'b1' has no density, no thickness, no module"
+    assert (
+        find_link_inertias(load("moon-triangular").mechanics)[0].missing[0]
+        == "wheel 'b1' has no density, no thickness, no module"
+    )
 
 
 PLANETS = """
@@ -81,20 +87,22 @@ links: {{sun: {{wheels: {{s: {{teeth: 24, module: 2 mm}}}}}}, carrier: {{inertia
 
 def test_a_planet_goes_round_with_its_carrier() -> None:
     """Its axis is (24 + 18) modules / 2 from the middle: 42 mm."""
-    found = {each.link: each for each in load(PLANETS.format(planet="mass: 30 g", rest="")).inertias()}
+    found = {
+        each.link: each for each in find_link_inertias(load(PLANETS.format(planet="mass: 30 g", rest="")).mechanics)
+    }
     assert found["carrier"].carried == pytest.approx(0.03 * 0.042**2, rel=1e-14)
     assert found["carrier"].value == pytest.approx(1e-5 + 0.03 * 0.042**2, rel=1e-14)
-    plates = load(PLANETS.format(planet="", rest="density: 1 g/cm3\nthickness: 5 mm")).inertias()
+    plates = find_link_inertias(load(PLANETS.format(planet="", rest="density: 1 g/cm3\nthickness: 5 mm")).mechanics)
     carried = {each.link: each.carried for each in plates}["carrier"]
     assert carried == pytest.approx(1000 * 0.005 * pi * 0.018**2 * 0.042**2, rel=0.05)
-    nothing = {each.link: each for each in load(PLANETS.format(planet="", rest="")).inertias()}
+    nothing = {each.link: each for each in find_link_inertias(load(PLANETS.format(planet="", rest="")).mechanics)}
     assert nothing["carrier"].missing == ("the mass of 'planet', which it takes round, is not known",)
 
 
 def test_teeth_part_by_the_inertia_of_their_outlines() -> None:
     rest = "thickness: 2 mm\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}"
     train = load(WHEELS.format(link=", bearing: 1 N mm", rest=rest))
-    (found,) = train.inertias()
+    (found,) = find_link_inertias(train.mechanics)
     assert found.source == "outlines"
     declared = load(WHEELS.format(link=f", bearing: 1 N mm, inertia: {found.value!r} kg m2", rest=rest))
-    assert train.separation_rates().rate == pytest.approx(declared.separation_rates().rate, rel=1e-12)
+    assert find_separation(train.mechanics).rate == pytest.approx(find_separation(declared.mechanics).rate, rel=1e-12)

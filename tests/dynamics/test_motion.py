@@ -14,7 +14,7 @@ from places import DOCS
 from scipy.optimize import brentq, fsolve
 
 from geartrain import GearTrainError, load
-from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
+from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics, find_tooth_impacts
 from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.pair_impacts import collision_energies
@@ -229,7 +229,7 @@ def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
 
 def test_a_pin_alone_moves_its_slot_by_its_law() -> None:
     train = load("freeth-2008")
-    (joint,) = train.pins
+    (joint,) = train.mechanics.pins
     assert isinstance(joint.law, PinToSlotTransmission)
     source = train.motion(outputs=["moon"]).ahead.sources
     assert [each.id for each in source] == [joint.coupling.name]
@@ -380,7 +380,9 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
         case = train.declaration.case(state)
         lead = case.inputs[motion.train.lead]
         changed = solve(
-            SolvedPart(tuple(train.declaration.links), train.declaration.frame, circuits, ()), case, train.signs
+            SolvedPart(tuple(train.declaration.links), train.declaration.frame, circuits, ()),
+            case,
+            train.kinematics.signs,
         )
         link = (circuit.i, circuit.j)[driven]
         relative = motion.train.relative(link, circuit.carrier)
@@ -487,7 +489,7 @@ BLOWS = PAIR.replace("b: {wheels", "b: {inertia: 3 g cm2, wheels").replace("c: {
 
 def test_a_blow_strikes_the_inertia_of_all_that_turns_with_the_driven_wheel() -> None:
     train = load(BLOWS + "rate: 2 turn/s\n")
-    first, second = train.impacts().values()
+    first, second = find_tooth_impacts(train.mechanics).values()
     ratio = 20 / 30
     assert first.inertia == pytest.approx((3 + 5 * ratio**2) * 1e-7, rel=1e-12)
     assert second.inertia == pytest.approx(5e-7, rel=1e-12)
@@ -495,8 +497,8 @@ def test_a_blow_strikes_the_inertia_of_all_that_turns_with_the_driven_wheel() ->
     _, dissipated, _ = collision_energies(law.speed_leaps(), (3 + 5 * ratio**2) * 1e-7, 4 * pi)
     assert first.power == pytest.approx(dissipated * 2 * 24, rel=1e-12)
     assert second.rate == pytest.approx(2 * 24 / 36 * 20, rel=1e-12)
-    assert load(PAIR).impacts() == {}
-    assert load(BLOWS).impacts() == {}
+    assert find_tooth_impacts(load(PAIR).mechanics) == {}
+    assert find_tooth_impacts(load(BLOWS).mechanics) == {}
 
 
 def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
@@ -505,7 +507,7 @@ def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
     text = DIFFERENTIAL.replace("inputs: {left: 1, arm: 1/3}", "inputs: {left: 1, arm: 1/3}\nrate: 1 turn/s")
     for link, inertia in inertias.items():
         text = text.replace(f"  {link}: {{", f"  {link}: {{inertia: {inertia * 1e7:.12g} g cm2, ")
-    found = load(text).impacts()
+    found = find_tooth_impacts(load(text).mechanics)
     # l~p: the planet jumps by 1, and right with it by -18/44; both inputs keep their speed
     assert found["l~p"].inertia == pytest.approx(2e-7 + 7e-7 * (18 / 44) ** 2, rel=1e-12)
     assert found["q~r"].inertia == pytest.approx(7e-7, rel=1e-12)
@@ -615,7 +617,9 @@ def test_every_law_holds_at_the_angle_where_its_driver_stands(name: str) -> None
         angle[link] = angle[link] + 2 * pi * float(motion.train.ratio(link)) * turns
     meshes = {mesh.name: mesh for mesh in train.meshes}
     for circuit in train.circuits:
-        i, j, k = (train.signs.get(link, 1) * angle[link] for link in (circuit.i, circuit.j, circuit.carrier))
+        i, j, k = (
+            train.kinematics.signs.get(link, 1) * angle[link] for link in (circuit.i, circuit.j, circuit.carrier)
+        )
         mesh = meshes.get(circuit.id)
         if mesh is None:
             continue

@@ -21,10 +21,11 @@ from hypothesis import strategies as st
 from places import ROOT
 
 from geartrain import GearTrain, GearTrainError, load, shipped
-from geartrain.dynamics import PowerFlow, PowerNode, Torques
+from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.dynamics.torques.load_case import input_and_output
 from geartrain.dynamics.torques.power_flow import watts_per_unit
+from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 from geartrain.report import Document, collect_torque_report, describe_torques, to_markdown
 from geartrain.report.torque_figures import collect_torques
@@ -94,9 +95,9 @@ def flows(train: GearTrain) -> list[tuple[Torques, PowerFlow]]:
 
 def _flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
     for state in states(train):
-        for found in (train.torques(state), *(way for way, _, _ in train.drive_both_ways(state))):
+        for found in (train.torques(state), *(way for way, _, _ in drive_both_ways(train.mechanics, state))):
             if found.verdict and not any(pair.loose for pair in found.pairs.values()):
-                yield found, train.power_flow(found)
+                yield found, find_power_flow(found)
 
 
 def require_balance(found: Torques, flow: PowerFlow) -> None:
@@ -206,7 +207,7 @@ def test_two_planetaries_in_any_arrangement_balance(z: list[int], eta: list[int]
     )
     found = train.torques()
     if found.verdict:
-        require_balance(found, train.power_flow(found))
+        require_balance(found, find_power_flow(found))
 
 
 # -------------------------------------------------------------------------------------------------------- known answers
@@ -220,7 +221,7 @@ def power(flow: PowerFlow, source: tuple[str, str], target: tuple[str, str]) -> 
 def test_half_the_power_of_this_planetary_goes_by_the_planet() -> None:
     """Sun at 7, arm at 2, planet at -14/3: torques 24, -42 and 18 to one another, so powers 168, -84 and -84."""
     train = load("planetary-24-18-60")
-    flow = train.power_flow(train.driven("carrier", "sun"))
+    flow = find_power_flow(train.driven("carrier", "sun"))
     assert power(flow, ("shaft", "sun"), ("pair", "s~p")) == 1
     assert power(flow, ("pair", "s~p"), ("shaft", "planet")) == Fraction(1, 2)
     assert power(flow, ("pair", "s~p"), ("shaft", "carrier")) == Fraction(1, 2)
@@ -231,7 +232,7 @@ def test_half_the_power_of_this_planetary_goes_by_the_planet() -> None:
 def test_power_circulates_in_the_compound_train_of_norton() -> None:
     train = load("norton-compound")
     found = train.torques()
-    flow = train.power_flow(found)
+    flow = find_power_flow(found)
     assert found.efficiency == Fraction(1250, 17117)
     (loop,) = flow.loops
     assert set(loop.pairs) == {"a82~b84", "c86~d82", "e82~f84"}
@@ -244,7 +245,7 @@ def test_power_circulates_in_the_compound_train_of_norton() -> None:
 
 def test_links_that_turn_together_are_one_shaft() -> None:
     train = load("extends: planetary\nloads: {carrier: -1}\n")
-    flow = train.power_flow(train.torques("direct drive"))
+    flow = find_power_flow(train.torques("direct drive"))
     shaft = PowerNode("shaft", "sun + carrier")
     assert [(stream.source, stream.target) for stream in flow.streams] == [
         (PowerNode("in", "sun"), shaft),
@@ -254,7 +255,7 @@ def test_links_that_turn_together_are_one_shaft() -> None:
 
 def test_a_bearing_on_a_carrier_takes_from_both() -> None:
     train = load(RUBBING_PLANET)
-    flow = train.power_flow(train.torques())
+    flow = find_power_flow(train.torques())
     bearing = PowerNode("bearing", "planet")
     taken = {stream.source.name: stream.power for stream in flow.streams if stream.target == bearing}
     # planet at -2/3, carrier at 2/7, rubbing with 1/2
@@ -285,7 +286,7 @@ def test_two_loops_that_share_no_shaft_are_told_apart() -> None:
         }
     )  # fmt: skip
     found = train.torques()
-    flow = train.power_flow(found)
+    flow = find_power_flow(found)
     require_balance(found, flow)
     assert {loop.pairs for loop in flow.loops} == {("a~b", "c~d", "e~f"), ("ax~bx", "cx~dx", "ex~fx")}
     assert flow.loops[0].power >= flow.loops[1].power
@@ -295,7 +296,7 @@ def test_what_is_shared_in_no_certain_way_has_no_flow() -> None:
     train = load(SHARED)
     found = train.torques()
     assert found.verdict.kind == "indeterminate"
-    assert train.power_flow(found).streams == ()
+    assert find_power_flow(found).streams == ()
 
 
 # -------------------------------------------------------------------------------------------------------------- amounts
@@ -315,7 +316,7 @@ def test_a_bearing_that_turns_at_no_certain_speed_takes_no_part_in_the_flow() ->
         loads: {b: 10 N mm}
         """
     )
-    flow = train.power_flow(train.torques())
+    flow = find_power_flow(train.torques())
     # b turns at -1/2 and puts 5e-3 in against its load; a tenth is lost in the teeth, 1e-3 in the bearing
     assert flow.losses == {PowerNode("pair", "x~y"): Fraction(1, 1800), PowerNode("bearing", "a"): Fraction(1, 1000)}
 
@@ -511,7 +512,7 @@ def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     from geartrain.drawing import power_figure
 
     train = load(TRAINS[name])
-    flow = train.power_flow(train.torques(state))
+    flow = find_power_flow(train.torques(state))
     return flow, power_figure(flow, f"{name}: how its power flows")
 
 
@@ -559,7 +560,7 @@ def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state
     from geartrain.drawing.sankey import lay_out_sankey
 
     train = load(TRAINS[name])
-    flow = train.power_flow(train.torques(state))
+    flow = find_power_flow(train.torques(state))
     placed = lay_out_sankey(flow, lambda node, power: 0.5, lambda node, power: 0.4, 9.0)
     assert placed.width >= 9.0 - 1e-9
     pieces = [piece for band in placed.bands for piece in band] + [turn.piece for turn in placed.turns]

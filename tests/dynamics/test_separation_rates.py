@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics import SeparationRates
+from geartrain.dynamics import SeparationRates, find_link_inertias, find_separation
 from geartrain.dynamics.contacts.rubbing_arms import separate_rubbing
 from geartrain.dynamics.inertia.inertial_contacts import InertialContacts, YieldingPairs, least_rate
 from geartrain.dynamics.inertia.inertial_loads import find_inertial_loads
+from geartrain.dynamics.motion.motion_problem import find_motion_problem
 
 PIN = """
 links: {{frame: {{}}, a: {{}}, b: {{inertia: 1e-5 kg m2, {drag}}}}}
@@ -23,7 +24,7 @@ inputs: {{a: 1}}
 
 
 def pin(offset: int, drag: str = "bearing: 1 N mm", rest: str = "") -> SeparationRates:
-    return load(PIN.format(offset=offset, drag=drag, rest=rest)).separation_rates()
+    return find_separation(load(PIN.format(offset=offset, drag=drag, rest=rest)).mechanics)
 
 
 def steepest(r: float, e: float) -> tuple[float, float]:
@@ -71,7 +72,7 @@ def test_a_load_holds_as_friction_does_and_nothing_holds_at_any_rate() -> None:
 
 def test_teeth_of_one_ratio_never_part() -> None:
     train = load("extends: planetary-24-18-60\nlinks: {carrier: {inertia: 1 kg m2, bearing: 1 N m}}")
-    found = train.separation_rates()
+    found = find_separation(train.mechanics)
     assert (found.rate, found.pair, found.first) == (None, None, None)
     assert {each.rate for each in found.pairs} == {None}
     assert found.unknown == ("planet",)
@@ -126,7 +127,7 @@ def by_hand(x: np.ndarray, rubs: bool = False) -> np.ndarray:
 
 def test_the_moons_train_parts_first_at_its_last_pair() -> None:
     """Figures of `by_hand` on a grid of 1e-5 turns; teeth part first just after a corner, at a lesser rate."""
-    found = load(MOON + "friction: 0\n").separation_rates()
+    found = find_separation(load(MOON + "friction: 0\n").mechanics)
     printed = {"d2~e": 0.4821, "c2~d1": 0.5149, "b2~c1": 0.5321, "a~b1": 0.5406}
     assert [each.pair for each in found.pairs] == list(printed)
     for each in found.pairs:
@@ -147,7 +148,7 @@ def test_the_moons_train_parts_first_at_its_last_pair() -> None:
 @pytest.mark.parametrize("rubs", [False, True])
 def test_at_any_position_the_moons_pairs_carry_what_a_chain_does(rubs: bool) -> None:
     train = load(MOON)
-    moving = train._moving(train._case(None), ())
+    moving = find_motion_problem(train.mechanics)
     rubbing, uncounted = separate_rubbing(moving)
     assert list(rubbing) == ["a~b1", "b2~c1", "c2~d1", "d2~e"]
     assert uncounted == ()
@@ -186,8 +187,10 @@ loads: {last: 2 N mm}
 
 def contacts_of(train: GearTrain) -> InertialContacts:
     case = train.declaration.case(None)
-    moving = train._moving(case, ())
-    acting = find_inertial_loads(train.declaration, case, train.tree, train.inertias(), moving.speeds)
+    moving = find_motion_problem(train.mechanics)
+    acting = find_inertial_loads(
+        train.declaration, case, train.kinematics.tree, find_link_inertias(train.mechanics), moving.speeds
+    )
     return InertialContacts(moving, acting)
 
 
@@ -208,7 +211,7 @@ def balanced(train: GearTrain, turns: float, rate: float) -> dict[str, float]:
     column = {link: at for at, link in enumerate(others)}
     outside = np.zeros(len(others))
     for link in others:
-        part, bearer = train.declaration.links[link], train.tree.parent[link][0]
+        part, bearer = train.declaration.links[link], train.kinematics.tree.parent[link][0]
         relative = omega[link] - omega[bearer]
         torque = 0.0 if part.bearing is None else -part.bearing.sliding.si * np.sign(relative)
         torque -= 0.0 if part.drag is None else part.drag.si * relative
@@ -228,7 +231,7 @@ def balanced(train: GearTrain, turns: float, rate: float) -> dict[str, float]:
     torques = {}
     for at, circuit in enumerate(train.circuits):
         # the first link of a coupling is its slot, which is driven
-        drives = circuit.kind == "gear" and train.drivers()[circuit.id].wheel == circuit.wheels[0]
+        drives = circuit.kind == "gear" and train.mechanics.drivers()[circuit.id].wheel == circuit.wheels[0]
         driven = circuit.j if drives else circuit.i
         ratio = (omega[circuit.j] - omega[circuit.carrier]) / (omega[circuit.i] - omega[circuit.carrier])
         on_driven = solved[at] if drives else -ratio * solved[at]
@@ -249,8 +252,8 @@ def test_planets_and_pins_carry_what_the_balance_of_each_body_asks() -> None:
 def test_a_train_that_turns_the_other_way_parts_alike() -> None:
     one = load(PLANETS)
     mirrored = load(PLANETS.replace("arm: 1}", "arm: -1}").replace("last: 2 N mm", "last: -2 N mm"))
-    assert [(each.pair, each.rate) for each in mirrored.separation_rates(turns=2).pairs] == [
-        (each.pair, pytest.approx(each.rate)) for each in one.separation_rates(turns=2).pairs
+    assert [(each.pair, each.rate) for each in find_separation(mirrored.mechanics, turns=2).pairs] == [
+        (each.pair, pytest.approx(each.rate)) for each in find_separation(one.mechanics, turns=2).pairs
     ]
 
 
@@ -284,7 +287,7 @@ inputs: {{a: 1}}
 
 def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
     """Beyond 1.031256 the driven wheel stands still for a while in each pitch: it would have to be stopped."""
-    still, running = (load(TEETH.format(clearance)).separation_rates().first for clearance in ("1.035", "1.03"))
+    still, running = (find_separation(load(TEETH.format(clearance)).mechanics).first for clearance in ("1.035", "1.03"))
     assert still is not None
     assert (still.rate, still.leap) == (0, True)
     assert running is not None
@@ -295,7 +298,7 @@ def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
 
 
 def test_a_notebook_shows_from_which_rate_each_pair_parts() -> None:
-    page = load("moon-triangular-inertia").separation_rates(turns=37)._repr_html_()
+    page = find_separation(load("moon-triangular-inertia").mechanics, turns=37)._repr_html_()
     # 0.482 turn/s, docs/dynamics.md
     assert "<td>d2~e</td><td>0.48188</td><td>16.9213</td>" in page
     assert page.count("<tr>") == 5
@@ -303,9 +306,9 @@ def test_a_notebook_shows_from_which_rate_each_pair_parts() -> None:
 
 def test_what_cannot_be_asked_is_said() -> None:
     with pytest.raises(GearTrainError, match="no link of 'moon-triangular' has a moment of inertia"):
-        load("moon-triangular").separation_rates()
+        find_separation(load("moon-triangular").mechanics)
     with pytest.raises(GearTrainError, match="has no unit"):
-        load(PIN.format(offset=2, drag="bearing: 1", rest="")).separation_rates()
+        find_separation(load(PIN.format(offset=2, drag="bearing: 1", rest="")).mechanics)
 
 
 @pytest.mark.parametrize("way", [1, -1])
@@ -323,7 +326,7 @@ drive: {{torque: 0.02 N m}}
     rho2 = r * r + e * e - 2 * r * e * np.cos(S)
     ratio, slope = r * (r - e * np.cos(S)) / rho2, -r * e * (r * r - e * e) * np.sin(S) / rho2**2
     rate = sqrt(0.02 / (1e-4 * float((-slope / ratio**3).max()))) / tau
-    assert train.separation_rates().rate == pytest.approx(rate, rel=1e-8)
+    assert find_separation(train.mechanics).rate == pytest.approx(rate, rel=1e-8)
 
 
 @pytest.mark.parametrize("way", [1, -1])
@@ -345,7 +348,7 @@ crank: c
     rho2 = r * r + e * e - 2 * r * e * np.cos(S)
     ratio, slope = r * (r - e * np.cos(S)) / rho2, -r * e * (r * r - e * e) * np.sin(S) / rho2**2
     squared = (0.5e-3 + 1e-3 * ratio) / (1e-5 * -slope * ratio)
-    rates = {each.pair: each.rate for each in train.separation_rates().pairs}
+    rates = {each.pair: each.rate for each in find_separation(train.mechanics).pairs}
     assert rates["c20~a30"] == pytest.approx(sqrt(float(squared.min())) / tau, rel=1e-8)
     assert rates["a~b"] == pytest.approx(2.76880500 / tau, rel=1e-8)
 
@@ -356,7 +359,7 @@ def test_friction_that_is_not_counted_is_named() -> None:
         turning = [{"pair": ["frame", link], "axis": link.upper()} for link in "ab"]
         gears = [{"pair": ["w", "v"], **more}]
         train = GearTrain.declare({"links": links, "revolutes": turning, "gears": gears, "inputs": {"a": 1}})
-        return train.separation_rates().uncounted
+        return find_separation(train.mechanics).uncounted
 
     assert named() == ()
     assert named(efficiency=0.9) == ("w~v",)

@@ -460,7 +460,7 @@ def test_the_losses_of_a_bevel_differential_are_those_of_arcs_on_the_sphere_and_
 
 def test_the_balance_of_a_bevel_differential_with_one_wheel_held_is_exact_in_friction() -> None:
     train = load("bevel-differential-involute")
-    laws: dict[str, GearMesh] = {mesh.name: mesh for mesh in train.meshes_in("one wheel held")}
+    laws: dict[str, GearMesh] = {mesh.name: mesh for mesh in train.mechanics.meshes_in("one wheel held")}
     drive = laws["pinion~c41"].law.efficiency_at_constant_load()
     # in the crown's frame power goes from the held wheel to the loaded one
     eta0 = laws["l16~p10"].law.efficiency_at_constant_load() * laws["r16~p10"].law.efficiency_at_constant_load()

@@ -141,14 +141,45 @@ def test_a_bearing_behind_a_retrograde_pointer_takes_twice_what_its_mean_speed_t
     assert least == pytest.approx(0, abs=1e-9)
 
 
-def test_what_goes_in_comes_out_or_is_lost_at_every_position() -> None:
-    train = load("extends: moon-triangular\nloads: {moon: -1 N mm}\nlinks: {d: {bearing: 1 N mm}}\n")
-    found = cycle(train, 2, 500)
+_TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\nfriction: {sliding: 0.2, static: 0.25}\n"
+CONSERVING = {
+    "four pairs in a row": "extends: moon-triangular\nloads: {moon: -1 N mm}\nlinks: {d: {bearing: 1 N mm}}\n",
+    "bearings of planets, and rest in the play": f"""
+extends: freeth-2021
+{_TEETH}links:
+  moon: {{bearing: 1 N mm}}
+  mars: {{bearing: 1 N mm}}
+  saturn: {{bearing: {{sliding: 1 N mm, static: 2 N mm}}}}
+""",
+    "three pairs that depend on each other": f"extends: price-1974\n{_TEETH}links: {{moon: {{bearing: 1 N mm}}}}\n",
+    "a pair that moves its own driver": f"extends: prague-orloj\n{_TEETH}links: {{zodiac: {{bearing: 1 N mm}}}}\n",
+    "equal planets on opposite axes": """
+extends: bevel-differential
+remove: {states: [straight, turn, one wheel held, crown held]}
+axes: {far: {direction: [1, 0, 0]}}
+links: {crown: {bearing: 1 N mm}, right: {bearing: 1 N mm}, spider: {bearing: 1 N mm}, hand: {}}
+revolutes: {far: [case, hand]}
+couplings: [{kind: pin_and_slot, pin: right, slot: hand, pin_radius: 10 mm, offset: 2 mm}]
+inputs: {shaft: 41}
+fixed: [left]
+outputs: {hand: {}}
+loads: {hand: -1 N m}
+""",
+}
+
+
+@pytest.mark.parametrize("name", CONSERVING)
+def test_what_goes_in_comes_out_or_is_lost_at_every_position(name: str) -> None:
+    found = load(CONSERVING[name]).torques(turns=2 if name == "four pairs in a row" else 0.02, samples=500)
     assert found.powers is not None
     assert found.losses is not None
     lost = found.losses.values.sum(axis=0)
-    assert np.abs(found.powers.values.sum(axis=0) - lost).max() < 1e-14
-    assert found.losses.values.min() > -1e-17
+    greatest = np.abs(found.powers.values).max()
+    assert greatest > 0
+    assert np.abs(found.powers.values.sum(axis=0) - lost).max() < 1e-11 * greatest
+    assert lost.min() > 0
+    if found.verdict.kind == "determined":  # where a link rests in its play single pairs may seem to give power
+        assert found.losses.values.min() > -1e-12 * greatest
 
 
 @pytest.mark.slow

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrain, load
-from geartrain.dynamics import TimeRun
+from geartrain.dynamics import TimeRun, find_separation, step_to_separation
 from geartrain.dynamics.steps.simulation import StepPlan, simulate
+from geartrain.dynamics.time.train_in_time import model_in_time
 from geartrain.errors import QuestionError
 from geartrain.report import to_markdown
 from geartrain.report.time_report import collect_time_report, describe_time_run
@@ -122,7 +123,7 @@ def test_a_train_declared_to_turn_backwards_is_the_mirror_image_of_itself(name: 
     assert mirror.energy.to_dict() == pytest.approx(forth.energy.to_dict(), abs=1e-12)
     assert mirror.impacts.total == forth.impacts.total > 0
     if name != "slack":
-        assert back.separation_rates().rate == ahead.separation_rates().rate
+        assert find_separation(back.mechanics).rate == find_separation(ahead.mechanics).rate
 
 
 @pytest.mark.parametrize("way", [1, -1])
@@ -286,7 +287,7 @@ def test_a_planetary_set_speeds_up_as_its_reduced_inertia_says() -> None:
 def test_below_the_rate_of_separation_blows_that_come_together_part_no_flanks() -> None:
     # after 5.1275 turns corners of two pairs pass within two steps, and the second is moved on by the blow at the first
     train, rate = load("moon-triangular-inertia"), 0.95 * 0.4808275
-    model = train._in_time(train._case(None), (), tau * rate, 0.0, False).model
+    model = model_in_time(train.mechanics, None, (), tau * rate, 0.0).model
     slow = simulate(model, StepPlan(1 / rate / 200, 0, 1025, 1))
     for steps in range(12_000, 24_000, 900):
         run = simulate(model.elsewhere(1.0, slow.angles[-1]), StepPlan(1 / rate / steps, 0, round(0.004 * steps), 1))
@@ -409,12 +410,12 @@ links: {moon: {inertia: 1e-8 kg m2}, d: {inertia: 3e-5 kg m2}}
     ],
 )
 def test_stepping_finds_the_rate_of_separation_of_the_condition(text: str, turns: float, steps: int | None) -> None:
-    found = load(text).stepped_separation(turns=turns, steps=steps)
+    found = step_to_separation(load(text).mechanics, turns=turns, steps=steps)
     assert found.rate is not None
     assert found.error is not None
     assert found.error < 1e-4 * found.rate
     assert found.rate == pytest.approx(found.predicted, abs=2 * found.error)
-    closed = load(text).separation_rates(turns=turns)
+    closed = find_separation(load(text).mechanics, turns=turns)
     assert found.pair == closed.pair
     assert found.at == pytest.approx(closed.first.at, abs=1e-4)  # type: ignore[union-attr]
 

@@ -14,10 +14,11 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from geartrain import GearTrain
+from geartrain.dynamics import find_vibration_modes
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
 from geartrain.dynamics.contacts.law_tables import tabled_angle
-from geartrain.dynamics.contacts.slack_pin import SlackPin
 from geartrain.dynamics.contacts.tooth_yield import ToothYield, damping_ratio
+from geartrain.dynamics.contacts.train_model import SlackPin
 from geartrain.dynamics.steps.run_record import GAP, TIME_APART
 from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.errors import QuestionError
@@ -218,7 +219,7 @@ def disc_chain(count: int, **more: Any) -> GearTrain:
 
 def test_a_chain_of_discs_swings_at_the_frequencies_of_its_closed_form() -> None:
     for count in (1, 2, 7):
-        found = disc_chain(count).vibration_modes()
+        found = find_vibration_modes(disc_chain(count).mechanics)
         # fixed at one end, free at the other
         closed = [2 * sqrt(20 / 1e-6) * sin((2 * m - 1) * pi / (4 * count + 2)) / tau for m in range(1, count + 1)]
         assert found.frequencies == pytest.approx(closed, rel=1e-10)
@@ -232,12 +233,12 @@ def test_teeth_of_a_form_swing_as_stiffly_as_it_says_and_their_pairs_own_stand_b
     chain = disc_chain(2, tooth_form=form)
     k, J = 45.0, 1e-6
     closed = [2 * sqrt(k / J) * sin((2 * m - 1) * pi / 10) for m in (1, 2)]
-    found = chain.vibration_modes()
+    found = find_vibration_modes(chain.mechanics)
     assert found.frequencies == pytest.approx(np.array(closed) / tau, rel=1e-10)
     # C = (c/k) K: the damping of a mode is c w/(2 k)
     assert found.damping == pytest.approx(1e-4 * np.array(closed) / 2 / k, rel=1e-9)
     pairs = [{"pair": ["wd0", "wd1"], "stiffness": "20 N m/rad"}]
-    one = disc_chain(1, tooth_form=form, gears=pairs).vibration_modes()
+    one = find_vibration_modes(disc_chain(1, tooth_form=form, gears=pairs).mechanics)
     assert one.frequencies == pytest.approx([sqrt(20 / J) / tau], rel=1e-10)
 
 
@@ -258,7 +259,7 @@ def test_two_discs_on_teeth_turn_together_and_swing_against_each_other() -> None
         wheels["links"]["a" if wheel == "p" else "b"]["wheels"] = {  # type: ignore[index]
             wheel: {"teeth": 20 if wheel == "p" else 60, "module": "0.5 mm"}
         }
-    found = GearTrain.declare(wheels).vibration_modes()
+    found = find_vibration_modes(GearTrain.declare(wheels).mechanics)
     k, ease = 2e6 * 0.015**2, 1 / 5e-5 + 1 / 9 / 3e-6  # of the driven wheel's radius, half of 60 times 0.5 mm
     assert found.frequencies == pytest.approx([0, sqrt(k * ease) / tau], rel=1e-9)
     assert found.damping == pytest.approx([0, 30 * 0.015**2 * sqrt(ease / k) / 2], rel=1e-9)
@@ -273,7 +274,7 @@ def test_modes_need_no_rate(drive: dict[str, Any]) -> None:
     first = 1e-6 + (0.02 * 0.01**2 if "weight" in drive else 0.0)
     closed = [0, sqrt(20 * (1 / first + 1 / 1e-6)) / tau]
     for rate in ({}, {"rate": "3 turn/s"}):
-        found = disc_chain(1, drive=drive, **rate).vibration_modes()
+        found = find_vibration_modes(disc_chain(1, drive=drive, **rate).mechanics)
         assert found.frequencies == pytest.approx(closed, rel=1e-9, abs=1e-6)
 
 
@@ -317,9 +318,9 @@ def test_what_cannot_be_known_of_teeth_is_asked_for() -> None:
     with pytest.raises(QuestionError, match="how stiff the teeth of a~b1"):
         train.dynamics(rate="1 turn/s", turns=1, model="compliant")
     with pytest.raises(QuestionError, match="one along the line of action"):
-        disc_chain(1, stiffness="2 N/um").vibration_modes()
+        find_vibration_modes(disc_chain(1, stiffness="2 N/um").mechanics)
     with pytest.raises(QuestionError, match="nothing that can swing"):
-        disc_chain(1, stiffness=None).vibration_modes()
+        find_vibration_modes(disc_chain(1, stiffness=None).mechanics)
 
 
 def test_the_stiffness_of_involute_teeth_of_known_metal_is_estimated() -> None:
@@ -333,7 +334,7 @@ def test_the_stiffness_of_involute_teeth_of_known_metal_is_estimated() -> None:
         train = disc_chain(
             1, links=links, stiffness=None, tooth_form={"form": "involute"}, thickness="5 mm", density=density
         )
-        found = train.vibration_modes()
+        found = find_vibration_modes(train.mechanics)
         # 14 N/(mm um) of 5 mm at the base radius
         assert found.stiffness["wd0~wd1"] == pytest.approx(share * 14e9 * 5e-3 * (0.015 * cos(pi / 9)) ** 2)
         assert any("ISO 6336-1" in note for note in found.assumed)

@@ -16,7 +16,10 @@ import svgelements
 import trimesh
 from commands import call
 from shapely.affinity import rotate, translate
+from shipped import train
 from studies.assembled_folder import AssembledPart, MeasuredFit, find_fits, find_overlaps, read_parts
+
+from geartrain.scene import ManufacturingSizes, SolidModel
 
 TRAINS = ("watch-going-train", "planetary-24-18-60")
 CHORD = 0.005  # mm: corners of a round hole stand outside its circle
@@ -103,10 +106,17 @@ def test_two_parts_that_are_pushed_into_each_other_are_seen() -> None:
 
 
 @pytest.mark.parametrize("name", TRAINS)
-def test_the_stl_holds_the_same_parts_as_the_glb(name: str) -> None:
+def test_the_stl_holds_the_parts_that_the_glb_names(name: str) -> None:
+    """In one order, whose bounds are those of the solids."""
     whole = trimesh.load(folder(name) / "assembly.stl")
     assert whole.volume == pytest.approx(sum(part.mesh.volume for part in parts(name)), rel=1e-6)
     assert len(whole.split(only_watertight=True)) >= len(parts(name))
+    work = SolidModel(train(name), ManufacturingSizes())
+    assert len(work.parts) == len(parts(name))
+    for part, read in zip(work.parts, parts(name), strict=True):
+        assert (read.name, read.body) == (part.name, work.scene.bodies[part.body].id)
+        ends = part.placed.vertices.min(axis=0), part.placed.vertices.max(axis=0)
+        assert read.mesh.bounds == pytest.approx(np.array(ends), abs=1e-4)
 
 
 # ------------------------------------------------------------------------------------------------------------- fits

@@ -18,7 +18,6 @@ from geartrain import GearTrain, GearTrainError
 from geartrain.export import export_files, notices
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.parts.arbor_columns import AxisBearing, ColumnProblem, FramePlaces
-from geartrain.scene.parts.fits import clearance, limits
 from geartrain.scene.parts.processes import PROCESSES, process_named
 from geartrain.scene.parts.stack_discs import StackDisc
 from geartrain.scene.parts.turned_parts import Band, revolved
@@ -52,21 +51,7 @@ def overlaps(work: SolidModel) -> Iterator[tuple[str, str, float]]:
                 yield one, other, shared
 
 
-# ---------------------------------------------------------------------------------------------------------------- fits
-
-
-def test_fits_of_three_millimetres_are_those_of_the_standard() -> None:
-    assert clearance(3.0, "H7/g6") == (2, 18)
-    assert clearance(3.0, "H7/p6") == (-12, 4)
-    assert [clearance(d, "H7/s6") for d in (2, 5, 8)] == [(-20, -4), (-27, -7), (-32, -8)]
-    assert [clearance(d, "H7/f7") for d in (2, 5, 8)] == [(6, 26), (10, 34), (13, 43)]
-    assert limits(15, "H7") == (0, 18)
-
-
-def test_a_zone_or_a_diameter_that_the_table_does_not_hold_is_refused() -> None:
-    for ask in (lambda: limits(3, "z9"), lambda: limits(0.5, "H7"), lambda: limits(80, "H7")):
-        with pytest.raises(GearTrainError):
-            ask()
+def test_a_process_that_is_not_known_is_refused() -> None:
     with pytest.raises(GearTrainError, match="no process 'lazer'"):
         ManufacturingSizes(process="lazer")
 

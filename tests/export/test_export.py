@@ -20,7 +20,7 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.export import export_files, notices, train_file, wheel_file
-from geartrain.export.wheel_sheets import file_names
+from geartrain.export.cut_sheets import file_names
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bearing_plates import around
 

@@ -202,6 +202,10 @@ def test_the_thread_of_a_worm_winds_as_its_hand_says_one_axial_pitch_a_start(han
 # ----------------------------------------------------------------------------------------------------------------- GLB
 
 
+COMPONENTS = {5120: "<i1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+STEPS = 65534  # along the largest extent of a part
+
+
 class Glb:
     """The chunks of a binary glTF file, by its specification: a header, JSON, bytes."""
 
@@ -217,12 +221,24 @@ class Glb:
         self.nodes = {node["name"]: at for at, node in reversed(list(enumerate(self.json["nodes"])))}
 
     def values(self, accessor: int) -> np.ndarray:
+        """Elements of an accessor as floats, those that are normalised as the specification has them."""
         found = self.json["accessors"][accessor]
         width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[found["type"]]
-        assert found["componentType"] == 5126
+        kind = np.dtype(COMPONENTS[found["componentType"]])
         view = self.json["bufferViews"][found["bufferView"]]
-        raw = np.frombuffer(self.bytes, "<f4", found["count"] * width, view.get("byteOffset", 0))
-        return raw.reshape(-1, width).astype(float)
+        start, stride = view["byteOffset"] + found["byteOffset"], view.get("byteStride", width * kind.itemsize)
+        raw = np.ndarray((found["count"], width), kind, self.bytes, start, (stride, kind.itemsize)).astype(float)
+        return np.maximum(raw / np.iinfo(kind).max, -1) if found.get("normalized") else raw
+
+    def mesh(self, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Positions and normals of a node's vertices, in its own coordinates, and its triangles (m, 3)."""
+        (primitive,) = self.json["meshes"][self.json["nodes"][node]["mesh"]]["primitives"]
+        position, normal = primitive["attributes"]["POSITION"], primitive["attributes"]["NORMAL"]
+        indices = self.values(primitive["indices"]).astype(int).reshape(-1, 3)
+        return self.values(position), self.values(normal), indices
+
+    def matrix(self, node: int) -> np.ndarray:
+        return np.array(self.json["nodes"][node]["matrix"]).reshape(4, 4).T
 
     def channels(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Moments and quaternions by the name of the node they turn."""
@@ -260,24 +276,138 @@ def test_a_wheel_of_more_teeth_than_are_cut_is_its_pitch_circle(internal: str) -
 
 def test_trimesh_reads_the_bodies_of_a_glb_in_metres() -> None:
     trimesh = pytest.importorskip("trimesh")
-    pytest.importorskip("pygltflib")
     work = workpiece("planetary-24-18-60")
     scene = trimesh.load(io.BytesIO(train_file(work, "glb")), file_type="glb")
     assert {"frame", "sun", "planet", "carrier", "s", "p", "ring"} <= set(scene.graph.nodes)
     parts = {part.name: part for part in work.parts}
-    for name, mesh in scene.geometry.items():
+    assert set(scene.graph.nodes_geometry) == set(parts)
+    for node in scene.graph.nodes_geometry:
+        matrix, name = scene.graph[node]
+        mesh = scene.geometry[name].copy()
+        mesh.apply_transform(matrix)
         mesh.merge_vertices(merge_norm=True)
         assert mesh.is_watertight
-        assert mesh.volume == pytest.approx(volume(parts[name].solid), rel=1e-3)
-    module = work.layout.wheels["ring"].module
-    assert max(scene.geometry["ring"].extents) == pytest.approx((60 + 2.5 + 4) * module, rel=2e-2)
+        assert 1e9 * mesh.volume == pytest.approx(volume(parts[node].solid), rel=1e-3)
+        assert 1000 * mesh.bounds == pytest.approx(np.array(box(parts[node].placed)), abs=1e-3)
     top = scene.graph.transforms.parents["frame"]
     assert abs(np.linalg.det(scene.graph.get(top)[0][:3, :3])) == pytest.approx(1e-9), "mm become metres"
 
 
+def box(solid: Solid) -> tuple[np.ndarray, np.ndarray]:
+    return solid.vertices.min(axis=0), solid.vertices.max(axis=0)
+
+
+@pytest.mark.parametrize(("train", "state"), [("three-planets", None), ("humpage", None), ("worm", None)])
+def test_a_glb_shows_the_solids_within_half_a_step_of_quantisation(train: str, state: str | None) -> None:
+    """A step is the largest extent of a part over 65534; its node turns and moves it to its place on its body."""
+    work = workpiece(train, state)
+    glb = Glb(train_file(work, "glb"))
+    for part in work.parts:
+        node = glb.nodes[part.name]
+        low, high = box(part.solid)
+        step = float((high - low).max()) / STEPS
+        matrix = glb.matrix(node)
+        assert matrix[:3, :3] == pytest.approx(step * part.turn, rel=1e-12)
+        positions, normals, triangles = glb.mesh(node)
+        body = work.scene.bodies[part.body]
+        assert node in glb.json["nodes"][glb.nodes[body.id]]["children"]
+        shown = positions @ matrix[:3, :3].T + matrix[:3, 3] + np.array(body.point)
+        exact = part.placed.vertices[part.placed.faces]
+        away = (shown[triangles] - exact) @ part.turn
+        assert np.abs(away).max() <= step / 2 * (1 + 1e-6)
+        assert np.abs(positions).max() == 32767
+        a, b, c = (exact[:, k] for k in range(3))
+        across = np.cross(b - a, c - a)
+        length = np.linalg.norm(across, axis=1)
+        clear = length > 1e-9  # mm2: a thinner triangle has no direction
+        true = (across[clear] / length[clear, None]) @ part.turn
+        assert np.abs(normals[triangles][clear] - true[:, None]).max() < 0.5 / 127 + 1e-6
+        assert len(np.unique(np.hstack([positions, normals]), axis=0)) == len(positions), "no vertex is there twice"
+
+
+@pytest.mark.parametrize("train", ["three-planets", "freeth-2008"])
+def test_a_glb_keeps_the_rules_of_glTF_for_accessors(train: str) -> None:
+    """Alignment to 4 bytes, ends that are those of the values, indices in range: glTF 2.0, sections 3.6.2 and 3.7.2."""
+    glb = Glb(train_file(workpiece(train), "glb"))
+    content, size = glb.json, len(glb.bytes)
+    assert content["buffers"] == [{"byteLength": size}]
+    assert content["extensionsRequired"] == content["extensionsUsed"] == ["KHR_mesh_quantization"]
+    ends = [(view["byteOffset"], view["byteOffset"] + view["byteLength"]) for view in content["bufferViews"]]
+    assert [low for low, _ in ends] == [0, *(high for _, high in ends[:-1])]
+    assert ends[-1][1] == size
+    vertices, indices, keys = content["bufferViews"]
+    assert (vertices["target"], vertices["byteStride"] % 4, indices["target"]) == (34962, 0, 34963)
+    assert not {"target", "byteStride"} & (indices.keys() - {"target"} | keys.keys())
+    for at, each in enumerate(content["accessors"]):
+        view = content["bufferViews"][each["bufferView"]]
+        assert (view["byteOffset"] + each["byteOffset"]) % 4 == 0
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[each["type"]] * np.dtype(COMPONENTS[each["componentType"]]).itemsize
+        stride = view.get("byteStride", width)
+        assert each["byteOffset"] + stride * (each["count"] - 1) + width <= view["byteLength"]
+        if "min" in each:
+            values = glb.values(at)
+            assert (values.min(axis=0).tolist(), values.max(axis=0).tolist()) == (each["min"], each["max"])
+    for mesh in content["meshes"]:
+        (primitive,) = mesh["primitives"]
+        position, normal = (content["accessors"][primitive["attributes"][name]] for name in ("POSITION", "NORMAL"))
+        assert (position["componentType"], position.get("normalized"), normal["componentType"]) == (5122, None, 5120)
+        assert normal["normalized"] is True
+        assert {"min", "max"} <= position.keys()
+        used = glb.values(primitive["indices"])
+        assert (used.min(), used.max()) == (0, position["count"] - 1), "every vertex is used, and no other one"
+        assert position["count"] == normal["count"] <= 65535, "the largest index of 16 bits restarts a primitive"
+    for sampler in content["animations"][0]["samplers"]:
+        clock = content["accessors"][sampler["input"]]
+        assert clock["min"][0] == 0
+        assert clock["count"] == content["accessors"][sampler["output"]]["count"]
+    assert all(node["children"] for node in content["nodes"] if "children" in node), "no list is empty"
+
+
+def test_equal_parts_share_one_mesh_and_equal_shapes_their_vertices() -> None:
+    glb = Glb(train_file(workpiece("three-planets"), "glb"))
+    meshes = {name: glb.json["nodes"][at].get("mesh") for name, at in glb.nodes.items()}
+    for names in (["p1", "p2", "p3"], [f"pillar {k}" for k in (1, 2, 3, 4)], ["one stud", "two stud", "three stud"]):
+        assert len({meshes[name] for name in names}) == 1, names
+    assert len({meshes[name] for name in ("s30", "r78", "p1", "one stud", "pillar 1")}) == 5
+
+
+def test_wheels_of_equal_shape_and_different_status_share_vertices_but_no_mesh() -> None:
+    glb = Glb(
+        train_file(
+            inline("""
+        links: {frame: {}, a: {wheels: {p: {teeth: 20, status: surviving}}},
+          b: {wheels: {w: 30}}, c: {wheels: {q: {teeth: 20, status: hypothetical}}}}
+        revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
+        gears: [p ~ w, w ~ q]
+        inputs: {a: 1}
+    """),
+            "glb",
+        )
+    )
+    found = [glb.json["meshes"][glb.json["nodes"][glb.nodes[name]]["mesh"]] for name in ("p", "q")]
+    (one,), (other,) = (mesh["primitives"] for mesh in found)
+    assert one["attributes"] == other["attributes"]
+    assert one["indices"] == other["indices"]
+    names = [glb.json["materials"][each["material"]]["name"] for each in (one, other)]
+    assert names == ["surviving", "hypothetical"]
+
+
+def test_a_glb_takes_at_most_26_bytes_for_a_triangle_of_a_wheel() -> None:
+    """Floats at corners of their own took 72. The rest of the file is keys, and 600 bytes of JSON a part."""
+    work = workpiece("three-planets")
+    data = train_file(work, "glb")
+    glb = Glb(data)
+    for wheel in work.scene.wheels:
+        positions, _, triangles = glb.mesh(glb.nodes[wheel.id])
+        assert 12 * len(positions) + 2 * triangles.size <= 26 * len(triangles)
+    vertices, indices, keys = (view["byteLength"] for view in glb.json["bufferViews"])
+    shown = sum(len(glb.mesh(glb.nodes[mesh["name"]])[2]) for mesh in glb.json["meshes"])
+    assert vertices + indices <= 26 * shown
+    assert len(data) <= vertices + indices + keys + 600 * len(work.parts)
+
+
 def test_key_frames_are_the_exact_angles_of_a_planetary_and_close() -> None:
     """Willis by hand: ring of 60 held, sun of 24 turned: the carrier 2/7, the planet of 18 over the carrier -20/21."""
-    pytest.importorskip("pygltflib")
     work = workpiece("planetary-24-18-60")
     glb = Glb(train_file(work, "glb"))
     channels = glb.channels()
@@ -298,7 +428,6 @@ def test_key_frames_are_the_exact_angles_of_a_planetary_and_close() -> None:
 
 def test_key_frames_of_real_teeth_follow_the_motion() -> None:
     """At its key frames the driven wheel of triangular teeth stands where the motion has it, and not in the mean."""
-    pytest.importorskip("pygltflib")
     work = workpiece("moon-triangular")
     turns = Fraction(1, 2)
     channels = Glb(train_file(work, "glb", turns)).channels()
@@ -309,7 +438,7 @@ def test_key_frames_of_real_teeth_follow_the_motion() -> None:
     for link, (moments, quaternions) in channels.items():
         at = links.index(link)
         error = motion.at(float(turns) * moments / moments[-1]).error[at]
-        parent = train.tree.parent[link][0]
+        parent = train.kinematics.tree.parent[link][0]
         if parent != train.declaration.frame:
             continue
         speed = work.scene.bodies[at].speed
@@ -324,21 +453,18 @@ def test_key_frames_of_real_teeth_follow_the_motion() -> None:
 
 
 def test_a_train_that_cannot_turn_is_a_model_without_animation() -> None:
-    pytest.importorskip("pygltflib")
     glb = Glb(train_file(inline(LOCKED), "glb"))
     assert "animations" not in glb.json or not glb.json["animations"]
     assert glb.json["meshes"]
 
 
 def test_more_turns_than_key_frames_can_show_are_refused() -> None:
-    pytest.importorskip("pygltflib")
     for turns in (Fraction(0), Fraction(-1), Fraction(10**9)):
         with pytest.raises(GearTrainError, match="no animation"):
             train_file(workpiece("planetary-24-18-60"), "glb", turns)
 
 
 def test_the_same_train_is_the_same_file() -> None:
-    pytest.importorskip("pygltflib")
     first, second = (train_file(workpiece("planetary-24-18-60"), "glb") for _ in range(2))
     assert first == second
 

@@ -15,7 +15,7 @@ from shipped import train as load
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError
 from geartrain.export import wheel_file
-from geartrain.export.kerf import compensated
+from geartrain.export.cut_sheets import compensated
 from geartrain.export.parts_list import parts_list
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.flat_drawing import FlatDrawing
@@ -88,7 +88,6 @@ def test_arms_take_the_windows_out_of_the_solid_and_of_its_mass() -> None:
 
 
 def test_sheets_hold_every_flat_part_at_its_compensated_size(tmp_path: Path) -> None:
-    pytest.importorskip("rectpack")
     to = tmp_path / "set"
     asked = ("--as", "svg", "--sheet", "400x300mm", "--process", "laser", "--module", "1mm")
     done = call("export", "watch-going-train", "--to", to, *asked)

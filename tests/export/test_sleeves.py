@@ -20,7 +20,7 @@ def heights(work: SolidModel) -> dict[str, tuple[float, float]]:
 @pytest.fixture(scope="module", params=["longcase-clock-cycloidal", "freeth-2006", "price-1974"])
 def work(request: pytest.FixtureRequest) -> SolidModel:
     train = load(request.param)
-    return SolidModel(train, ManufacturingSizes(), train.state_or_first(None))
+    return SolidModel(train, ManufacturingSizes(), train.declaration.state_or_first(None))
 
 
 def test_a_spacer_goes_from_face_to_face(work: SolidModel) -> None:

@@ -38,7 +38,7 @@ inputs: {{crown: 10, left: 8}}
 def test_the_shafts_of_a_differential_turn_at_the_crown_on_average(left: int, right: int, axle: str) -> None:
     train = load(DIFFERENTIAL.format(left=left, right=right, axle=axle))
     assert train.solve()["right"] == 12  # left + right = 2 crown
-    assert train.bookkeeping == {"spider"}
+    assert train.kinematics.joint_sums == {"spider"}
 
 
 def test_bevels_that_face_the_same_way_turn_alike() -> None:
@@ -151,5 +151,5 @@ def test_the_axis_seen_from_a_carrier_is_the_last_one_on_the_way_from_it() -> No
     for train in [*trains, *random]:
         for circuit in train.circuits:
             for link in (circuit.i, circuit.j):
-                _, labels = train.tree.path(circuit.carrier, link)
-                assert train.tree.axis_seen_from(circuit.carrier, link) == labels[-1], circuit
+                _, labels = train.kinematics.tree.path(circuit.carrier, link)
+                assert train.kinematics.tree.axis_seen_from(circuit.carrier, link) == labels[-1], circuit

@@ -125,7 +125,7 @@ def _dense(train: GearTrain, state: str) -> tuple[list[str], np.ndarray]:
 def test_floats_agree_within_their_estimate_and_within_the_condition_of_each_speed(name: str, state: str) -> None:
     train = GearTrain.declare(declaration(KINEMATIC[name]))
     exact = {link: Fraction(speed) for link, speed in _state(name, state)["speeds"].items()}
-    found = train.floats(state)
+    found = train.kinematics.floats(state)
     for link, speed in exact.items():
         error = abs(Fraction(found[link]) - speed)
         assert error <= Fraction(float(found.estimate[link][0])), link

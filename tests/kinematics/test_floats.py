@@ -81,7 +81,7 @@ def test_exact_speeds_of_stiff_trains_are_the_closed_form(name: str) -> None:
 @pytest.mark.parametrize("name", STIFF)
 def test_one_refinement_step_leaves_every_speed_within_a_rounding_of_the_exact_one(name: str) -> None:
     train, link, exact = STIFF[name]
-    answer, floats = train.solve(), train.floats()
+    answer, floats = train.solve(), train.kinematics.floats()
     assert abs(Fraction(floats[link]) / exact - 1) <= EPS
     for other, speed in answer.speeds.items():
         assert abs(Fraction(floats[other]) - speed) <= EPS * abs(speed)
@@ -91,7 +91,7 @@ def test_one_refinement_step_leaves_every_speed_within_a_rounding_of_the_exact_o
 @pytest.mark.parametrize("name", STIFF)
 def test_the_estimate_is_no_more_than_a_few_roundings(name: str) -> None:
     train, link, exact = STIFF[name]
-    estimate = Fraction(float(train.floats().estimate[link][0]))
+    estimate = Fraction(float(train.kinematics.floats().estimate[link][0]))
     assert estimate <= 8 * EPS * abs(exact), "an estimate that says nothing is no estimate"
 
 
@@ -117,7 +117,7 @@ def test_without_refinement_the_error_is_within_the_condition_of_the_output(name
 def test_condition_numbers_are_those_printed(name: str, condition: float) -> None:
     train, link, _ = STIFF[name]
     digits = 5e-5 if condition in (8.0399e4, 2.4119e5) else 0.025
-    assert train.floats(condition_of=[link]).condition[link] == pytest.approx(condition, rel=digits)
+    assert train.kinematics.floats(condition_of=[link]).condition[link] == pytest.approx(condition, rel=digits)
 
 
 def dense_condition(train: GearTrain, link: str) -> Fraction:
@@ -149,7 +149,7 @@ def dense_condition(train: GearTrain, link: str) -> Fraction:
 @pytest.mark.parametrize("name", STIFF)
 def test_one_transposed_solve_gives_the_condition_of_the_full_formula(name: str) -> None:
     train, link, _ = STIFF[name]
-    found = train.floats(condition_of=[link]).condition[link]
+    found = train.kinematics.floats(condition_of=[link]).condition[link]
     assert found == pytest.approx(float(dense_condition(train, link)), rel=1e-6)
 
 
@@ -172,7 +172,7 @@ inputs: {sun: 1, ring: 0}
 
 def test_many_inputs_at_once_are_each_solved() -> None:
     suns, rings = [1.0, 0.0, 7.0, -2.5], [0.0, 1.0, -7.0, 2.5]
-    found = load(TWO_INPUTS).floats(inputs={"sun": suns, "ring": rings})
+    found = load(TWO_INPUTS).kinematics.floats(inputs={"sun": suns, "ring": rings})
     assert found.speeds.values.shape == (5, 4)
     for case, (sun, ring) in enumerate(zip(suns, rings, strict=True)):
         arm = (24 * Fraction(sun) + 60 * Fraction(ring)) / 84
@@ -182,7 +182,7 @@ def test_many_inputs_at_once_are_each_solved() -> None:
 
 
 def test_results_are_read_only_and_labelled() -> None:
-    found = load(TWO_INPUTS).floats()
+    found = load(TWO_INPUTS).kinematics.floats()
     with pytest.raises(ValueError, match="read-only"):
         found.speeds.values[0, 0] = 1
     assert found.speeds.axes == ("link", "case")
@@ -209,7 +209,7 @@ def test_one_output_is_solved_in_floats_too() -> None:
 
 def test_redundant_rows_are_left_out_and_loops_that_close_do_no_harm() -> None:
     train = load("four-gear-loop")
-    exact, floats = train.solve(), train.floats()
+    exact, floats = train.solve(), train.kinematics.floats()
     for link, speed in exact.speeds.items():
         assert abs(Fraction(floats[link]) - speed) <= EPS * abs(speed)
 
@@ -218,7 +218,7 @@ def test_redundant_rows_are_left_out_and_loops_that_close_do_no_harm() -> None:
 def test_a_train_that_is_not_determined_has_no_float_solution(inputs: str) -> None:
     train = load(TWO_INPUTS.replace("{sun: 1, ring: 0}", inputs))
     with pytest.raises(GearTrainError):
-        train.floats()
+        train.kinematics.floats()
 
 
 @pytest.mark.parametrize("inputs", ["{}", "{sun: 1}", "{sun: 1, ring: 1, arm: 2}", "{sun: 1, ring: 1, arm: 1}"])
@@ -243,7 +243,7 @@ def test_the_estimate_holds_for_a_link_that_stands_still() -> None:
         fixed: [L1]
         """
     )
-    exact, floats = train.solve(), train.floats()
+    exact, floats = train.solve(), train.kinematics.floats()
     for link, speed in exact.speeds.items():
         assert abs(Fraction(floats[link]) - speed) <= Fraction(float(floats.estimate[link][0])), link
 
@@ -323,7 +323,7 @@ def test_a_ratio_of_1e18_is_refused_in_floats_and_exact_otherwise() -> None:
     train = GearTrain.declare(amplifiers([(10**9 - 1, 10**9, 10**9 + 1, 10**9)], "x1"))
     assert train.solve()["x0"] == 10**18
     with pytest.raises(RangeError, match=r"in float64[^$]*use the exact method"):
-        train.floats()
+        train.kinematics.floats()
     with pytest.raises(RangeError, match=r"in float64[^$]*use the exact method"):
         train.solve(method="sparse")
 
@@ -334,7 +334,7 @@ def test_a_dense_train_of_which_no_digit_is_known_in_floats_is_solved_exactly(mo
             raise TooDenseError
         return solve(part, case, signs, budget)
 
-    monkeypatch.setattr("geartrain.kinematics.speed_problem.solve", too_dense)
+    monkeypatch.setattr("geartrain.kinematics.train_kinematics.solve", too_dense)
     train = GearTrain.declare(amplifiers([(10**9 - 1, 10**9, 10**9 + 1, 10**9)], "x1"))
     answer = train.solve()
     assert answer.method == "exact"
@@ -353,7 +353,7 @@ def test_estimate_and_bound_are_valid_up_to_a_condition_of_1e24_or_the_floats_ar
         train = GearTrain.declare(amplifiers(counts, draw.choice(["x0", f"x{len(counts)}"])))
         truth = train.solve().speeds
         try:
-            floats = train.floats(condition_of=[*truth])
+            floats = train.kinematics.floats(condition_of=[*truth])
         except RangeError:
             refused += 1
             continue
@@ -446,7 +446,7 @@ GENTLE_CHAINS = {
 def chain(name: str) -> tuple[GearTrain, FloatSpeeds]:
     """A chain with its speeds, which several tests look at."""
     train = GearTrain.declare((CHAINS | GENTLE_CHAINS)[name]())
-    return train, train.floats()
+    return train, train.kinematics.floats()
 
 
 @pytest.mark.parametrize("name", all_but({"five thousand steep ones", *GENTLE_CHAINS}, (*CHAINS, *GENTLE_CHAINS)))
@@ -470,7 +470,7 @@ def test_cascades_past_the_range_are_solved_within_their_estimates(
     data: dict[str, Any], link: str, exact: Fraction
 ) -> None:
     train = GearTrain.declare(data)
-    floats = train.floats()
+    floats = train.kinematics.floats()
     for each, truth in train.solve().speeds.items():
         speed, estimate = pair_of(floats, each)
         assert abs(speed - truth) <= estimate <= abs(truth) / 10**12
@@ -479,7 +479,7 @@ def test_cascades_past_the_range_are_solved_within_their_estimates(
 
 def test_the_cascade_of_ten_thousand_is_solved_upwards_too() -> None:
     data = ten_thousand_cascade(100) | {"inputs": {"m100": 1}}
-    speed, estimate = pair_of(GearTrain.declare(data).floats(), "m0")
+    speed, estimate = pair_of(GearTrain.declare(data).kinematics.floats(), "m0")
     assert abs(speed - 10**400) <= estimate <= Fraction(10) ** 388
 
 
@@ -491,7 +491,7 @@ def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate(request: pyt
         answer = train.solve()
         if not answer.verdict:
             continue
-        floats, judged = train.floats(), judged + 1
+        floats, judged = train.kinematics.floats(), judged + 1
         for link, truth in answer.speeds.items():
             speed, estimate = pair_of(floats, link)
             assert abs(speed - truth) <= estimate, f"seed {seed}: {link}"
@@ -500,9 +500,9 @@ def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate(request: pyt
 
 
 def test_a_train_whose_sizes_take_too_long_to_find_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.kinematics.speeds.scaling._BUDGET", 1000)
+    monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds._BUDGET", 1000)
     with pytest.raises(RangeError, match="coupled too densely"):
-        GearTrain.declare(planetaries(300)).floats()
+        GearTrain.declare(planetaries(300)).kinematics.floats()
 
 
 def test_trains_of_ordinary_speeds_are_solved_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -511,7 +511,7 @@ def test_trains_of_ordinary_speeds_are_solved_as_they_are(monkeypatch: pytest.Mo
 
     monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds.find_exponents", refuse)
     for train in (*(train for train, _, _ in STIFF.values()), load("pennestri-2002"), GearTrain.declare(row((11, 10)))):
-        assert not train.floats().exponents.values.any()
+        assert not train.kinematics.floats().exponents.values.any()
 
 
 def test_a_speed_is_a_float_wherever_one_holds_it_and_is_told_in_decimal_elsewhere() -> None:
@@ -526,7 +526,7 @@ def test_a_speed_is_a_float_wherever_one_holds_it_and_is_told_in_decimal_elsewhe
 
 def test_every_case_has_exponents_of_its_own() -> None:
     train, _ = chain("two thousand steep ones")
-    floats = train.floats(inputs={"g0": [1.0, 0.0, 1e-300, 1e300]})
+    floats = train.kinematics.floats(inputs={"g0": [1.0, 0.0, 1e-300, 1e300]})
     for case, driven in enumerate((1.0, 0.0, 1e-300, 1e300)):
         speed, estimate = pair_of(floats, "g2000", case)
         assert abs(speed - Fraction(driven) * 5**2000) <= estimate

@@ -174,7 +174,7 @@ def test_the_carrier_is_where_the_label_changes_on_the_path(data: Data) -> None:
     train, graph = GearTrain.declare(data), turning_graph(data)
     for circuit in train.circuits:
         assert circuit.carrier == find_carrier(graph, circuit.i, circuit.j)
-        links, labels = train.tree.path(circuit.i, circuit.j)
+        links, labels = train.kinematics.tree.path(circuit.i, circuit.j)
         assert links == nx.shortest_path(graph, circuit.i, circuit.j)
         assert labels == [graph.edges[step]["axis"] for step in itertools.pairwise(links)]
 

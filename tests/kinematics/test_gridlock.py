@@ -23,7 +23,6 @@ from test_cases import KINEMATIC, REJECT, declaration
 from geartrain import GearTrain, load
 from geartrain.kinematics import MeshRemoval
 from geartrain.kinematics.gridlock import removal_choice as choosing
-from geartrain.kinematics.gridlock.branch_and_bound import greedy_removal
 from geartrain.kinematics.gridlock.gain_graph import (
     GainGraph,
     biconnected_blocks,
@@ -32,8 +31,7 @@ from geartrain.kinematics.gridlock.gain_graph import (
     single_mesh_removals,
     walk_gain_graph,
 )
-from geartrain.kinematics.gridlock.planar_matching import planar_removal
-from geartrain.kinematics.gridlock.removal_choice import choose_removal
+from geartrain.kinematics.gridlock.removal_choice import choose_removal, greedy_removal, planar_removal
 
 Data = dict[str, Any]
 
@@ -136,7 +134,7 @@ def test_gears_on_all_faces_need_the_least_disengaging_that_is_known(
     data = ordinary([6 + 2 * len(face) for face in solid], pairs)
     train = GearTrain.declare(data)
     assert train.mobility.by_rank == (1 if drop == 0 else 0)
-    found = train.gridlock
+    found = train.kinematics.gridlock
     assert found.moves == (drop == 0)
     if found.release is not None:
         assert len(found.release.meshes) == drop
@@ -147,7 +145,7 @@ def test_gears_on_all_faces_need_the_least_disengaging_that_is_known(
 def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> None:
     solid = polyhedra.ARCHIMEDEAN["truncated icosahedron"]()
     data = ordinary([2 * len(face) for face in solid], polyhedra.neighbours(solid))
-    release = GearTrain.declare(data).gridlock.release
+    release = GearTrain.declare(data).kinematics.gridlock.release
     assert release is not None
     assert release.method == "matching"
     assert proved(release) == 30
@@ -166,7 +164,7 @@ def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> N
 @pytest.mark.parametrize("case", [KINEMATIC["K45"], REJECT["R13"]], ids=["K45", "R13"])
 def test_of_three_wheels_in_a_ring_any_one_mesh_frees(case: Data) -> None:
     data = declaration(case)
-    found = GearTrain.declare(data).gridlock
+    found = GearTrain.declare(data).kinematics.gridlock
     (jam,) = found.jams
     assert (set(jam.loop.links), jam.loop.product, jam.by) == ({"a", "b", "c"}, -1, "sign")
     assert found.release is not None
@@ -177,7 +175,7 @@ def test_of_three_wheels_in_a_ring_any_one_mesh_frees(case: Data) -> None:
 
 
 def test_of_two_parallel_meshes_of_different_ratio_either_frees() -> None:
-    found = GearTrain.declare(declaration(KINEMATIC["K46"])).gridlock
+    found = GearTrain.declare(declaration(KINEMATIC["K46"])).kinematics.gridlock
     (jam,) = found.jams
     assert jam.by == "ratio"
     assert jam.loop.product in (Fraction(20, 21), Fraction(21, 20))
@@ -189,7 +187,7 @@ def test_of_two_parallel_meshes_of_different_ratio_either_frees() -> None:
 
 @pytest.mark.parametrize("name", [name for name, case in KINEMATIC.items() if case["mobility"] > 0])
 def test_a_train_that_moves_has_nothing_to_disengage(name: str) -> None:
-    assert GearTrain.declare(declaration(KINEMATIC[name])).gridlock.moves
+    assert GearTrain.declare(declaration(KINEMATIC[name])).kinematics.gridlock.moves
 
 
 def lattice(k: int, diagonals: Iterable[tuple[int, int]] = (), seed: int = 5) -> Data:
@@ -203,9 +201,9 @@ def lattice(k: int, diagonals: Iterable[tuple[int, int]] = (), seed: int = 5) ->
 @pytest.mark.parametrize("k", [3, 10, 40, pytest.param(100, marks=pytest.mark.slow)])
 def test_a_lattice_moves_and_one_diagonal_more_is_the_one_mesh_to_take_out(k: int) -> None:
     train = GearTrain.declare(lattice(k))
-    assert train.gridlock.moves
+    assert train.kinematics.gridlock.moves
     assert train.mobility.redundant == (k - 1) ** 2
-    found = GearTrain.declare(lattice(k, [(0, 0)])).gridlock
+    found = GearTrain.declare(lattice(k, [(0, 0)])).kinematics.gridlock
     (jam,) = found.jams
     assert len(jam.loop.links) == 3
     assert f"0-{k + 1}" in jam.loop.pairs
@@ -219,7 +217,7 @@ def test_each_diagonal_of_a_lattice_costs_one_mesh(large: bool, monkeypatch: pyt
     if large:
         monkeypatch.setattr(choosing, "LARGE", 100)
     data = lattice(30, [(3, 4), (3, 20), (17, 9), (28, 28)])
-    found = GearTrain.declare(data).gridlock
+    found = GearTrain.declare(data).kinematics.gridlock
     assert found.release is not None
     assert found.release.least
     assert proved(found.release) == 4
@@ -233,7 +231,7 @@ def test_a_chain_of_tiny_ratios_moves() -> None:
         data["links"][f"g{at}"] = {"wheels": {f"b{at}": 60, f"a{at}": 20}}
         data["gears"].append({"pair": [f"a{at - 1}", f"b{at}"]})
     data["revolutes"] = [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in range(701)]
-    assert GearTrain.declare(data).gridlock.moves
+    assert GearTrain.declare(data).kinematics.gridlock.moves
 
 
 def test_a_loop_that_misses_by_eight_in_ten_million_is_a_gridlock_and_any_mesh_frees_it() -> None:
@@ -245,7 +243,9 @@ def test_a_loop_that_misses_by_eight_in_ten_million_is_a_gridlock_and_any_mesh_f
     }
     joints = [{"pair": ["frame", link], "axis": link} for link in "abc"]
     gears = [{"pair": ["a113", "b117"]}, {"pair": ["b95", "c96"]}, {"pair": ["c113", "a108"]}]
-    found = GearTrain.declare({"links": links, "revolutes": joints, "gears": gears, "inputs": {"a": 1}}).gridlock
+    found = GearTrain.declare(
+        {"links": links, "revolutes": joints, "gears": gears, "inputs": {"a": 1}}
+    ).kinematics.gridlock
     (jam,) = found.jams
     assert jam.loop.product in (Fraction(1213055, 1213056), Fraction(1213056, 1213055))
     assert jam.by == "ratio"
@@ -261,7 +261,7 @@ def test_fibonacci_ratios_that_differ_in_the_last_digit_are_a_gridlock() -> None
     }
     joints = [{"pair": ["frame", link], "axis": link} for link in "ab"]
     gears = [{"pair": ["a1", "b1"]}, {"pair": ["a2", "b2"]}]
-    found = GearTrain.declare({"links": links, "revolutes": joints, "gears": gears}).gridlock
+    found = GearTrain.declare({"links": links, "revolutes": joints, "gears": gears}).kinematics.gridlock
     (jam,) = found.jams
     assert abs(jam.loop.product - 1) == pytest.approx(Fraction(1, 63245986**2), rel=1e-6)
     assert found.release is not None
@@ -276,8 +276,10 @@ def test_a_ring_in_a_loop_of_three_lets_it_turn_and_in_a_loop_of_four_locks_it()
     one_ring = {**three, "gears": three["gears"][:2]}
     one_ring["links"]["g0"]["wheels"]["x0"] = 60
     one_ring["gears"].append({"id": "2-0", "pair": ["w2", "x0"]})
-    assert GearTrain.declare(one_ring).gridlock.moves, "internal, external, external: two reversals"
-    assert GearTrain.declare(three).gridlock.release is not None, "internal, internal, external: one reversal"
+    assert GearTrain.declare(one_ring).kinematics.gridlock.moves, "internal, external, external: two reversals"
+    assert GearTrain.declare(three).kinematics.gridlock.release is not None, (
+        "internal, internal, external: one reversal"
+    )
 
 
 PLANETARY: Data = {
@@ -307,21 +309,21 @@ PLANETARY: Data = {
 
 def test_planets_that_touch_lock_the_set_to_its_carrier_though_the_whole_turns() -> None:
     touching = {**PLANETARY, "gears": [*PLANETARY["gears"], {"id": "pq", "pair": ["p", "q"]}]}
-    assert GearTrain.declare(PLANETARY).gridlock.moves
+    assert GearTrain.declare(PLANETARY).kinematics.gridlock.moves
     train = GearTrain.declare({**touching, "inputs": {"carrier": 1}})
     assert train.solve().verdict, "as one block"
-    (jam,) = train.gridlock.jams
+    (jam,) = train.kinematics.gridlock.jams
     assert jam.carrier == "carrier"
     assert set(jam.links) == {"sun", "ring", "p", "q"}
-    assert train.gridlock.release is not None
-    assert train.gridlock.release.choices == ("pq",)
+    assert train.kinematics.gridlock.release is not None
+    assert train.kinematics.gridlock.release.choices == ("pq",)
 
 
 def test_brakes_inputs_and_locks_are_no_gridlock_and_are_never_taken_out() -> None:
     held = {**PLANETARY, "fixed": ["sun", "ring"], "locks": [["carrier", "sun"]], "inputs": {"carrier": 1}}
     train = GearTrain.declare(held)
     assert train.solve().verdict.kind == "locked"
-    assert train.gridlock.moves
+    assert train.kinematics.gridlock.moves
 
 
 def coupled(*wheels: tuple[str, int, str]) -> Data:
@@ -341,7 +343,7 @@ def test_meshes_about_two_carriers_that_hold_each_other_are_found_without_a_loop
     train = GearTrain.declare(data)
     assert train.mobility.by_rank == 0
     assert not train.mobility.locked
-    found = train.gridlock
+    found = train.kinematics.gridlock
     assert not found.moves
     assert not found.jams
     assert set(found.held) == set(data["links"]) - {"frame"}
@@ -354,7 +356,7 @@ def test_meshes_about_two_carriers_that_hold_each_other_are_found_without_a_loop
 
 
 def test_a_wheel_that_its_ratio_keeps_upright_is_not_held() -> None:
-    assert load("freeth-2021").gridlock.moves, "sun56 stands still while its mesh rolls"
+    assert load("freeth-2021").kinematics.gridlock.moves, "sun56 stands still while its mesh rolls"
 
 
 def test_a_pin_in_a_slot_is_never_taken_out() -> None:
@@ -364,7 +366,7 @@ def test_a_pin_in_a_slot_is_never_taken_out() -> None:
         "gears": [{"id": "mesh", "pair": ["p", "s"]}],
         "couplings": [{"id": "pin", "kind": "pin_and_slot", "pin": "p", "slot": "s"}],
     }
-    found = GearTrain.declare(data).gridlock
+    found = GearTrain.declare(data).kinematics.gridlock
     assert found.jams[0].meshes == 1
     assert found.release is not None
     assert found.release.choices == ("mesh",)
@@ -379,7 +381,7 @@ def test_a_follower_holds_nothing_but_itself() -> None:
     }
     train = GearTrain.declare(data)
     assert set(train.mobility.still) == {"s", "t"}
-    assert train.gridlock.moves
+    assert train.kinematics.gridlock.moves
 
 
 # against enumeration --------------------------------------------------------------------------------------------------
@@ -563,7 +565,7 @@ def _still(data: Data, relative: list[tuple[str, dict[str, Fraction]]]) -> set[s
 
 @given(trains(most=7, pairs=8))
 def test_what_is_said_of_random_trains_is_what_trying_all_sets_finds(data: Data) -> None:
-    found = GearTrain.declare(data).gridlock
+    found = GearTrain.declare(data).kinematics.gridlock
     names = [gear["id"] for gear in data["gears"]]
     sets = (some for size in range(len(names) + 1) for some in itertools.combinations(names, size))
     least = next((some for some in sets if _frees(data, some)), None)
@@ -607,8 +609,8 @@ def test_a_loop_that_locks_what_is_held_already_does_not_upset_the_mobility() ->
     train = GearTrain.declare(data)
     assert train.mobility.by_rank == 0
     assert train.mobility.shared == ()
-    assert train.gridlock.release is not None
-    assert set(train.gridlock.release.meshes) == {"ab", "fc"}
+    assert train.kinematics.gridlock.release is not None
+    assert set(train.kinematics.gridlock.release.meshes) == {"ab", "fc"}
 
 
 def test_wheels_of_a_declaration_are_read_as_the_reference_reads_them() -> None:
@@ -659,5 +661,5 @@ def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) 
 
 @pytest.mark.parametrize("source", ["'pennestri-2002'", "'freeth-2021'", repr(THREE)])
 def test_neither_a_train_that_moves_nor_a_small_gridlock_needs_networkx(source: str) -> None:
-    used = imported_by(f"import geartrain; geartrain.load({source}).gridlock")
+    used = imported_by(f"import geartrain; geartrain.load({source}).kinematics.gridlock")
     assert not used & {"networkx", "numpy", "scipy"}

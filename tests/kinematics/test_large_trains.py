@@ -72,7 +72,7 @@ def check_chain(count: int) -> None:
     assert answer.verdict.kind == "determined"
     for at in (1, count // 3, count - 1):
         assert answer[f"g{at}"] == product(meshes[:at])
-    floats = train.floats()
+    floats = train.kinematics.floats()
     for at in range(0, count, max(1, count // 50)):
         exact = answer[f"g{at}"]
         assert abs(Fraction(floats[f"g{at}"]) / exact - 1) <= count * Fraction(2.2e-16)
@@ -125,7 +125,7 @@ def check_cascade(stages: int) -> None:
     assert answer.method == "exact"
     assert all(answer[f"m{at}"] == 1 for at in range(0, stages + 1, 2))
     assert all(answer[f"m{at}"] < 1 for at in range(1, stages + 1, 2)), "every first half is a reduction"
-    floats = train.floats()
+    floats = train.kinematics.floats()
     assert abs(floats[f"m{stages - stages % 2}"] - 1) <= 1e-9
 
 
@@ -163,7 +163,7 @@ def test_stages_of_ten_thousand_multiply(stages: int) -> None:
     train = GearTrain.declare(ten_thousand_cascade(stages))
     exact = train.solve()[f"m{stages}"]
     assert exact == Fraction(1, 10 ** (4 * stages))
-    assert abs(Fraction(train.floats()[f"m{stages}"]) / exact - 1) <= Fraction(1, 10**10)
+    assert abs(Fraction(train.kinematics.floats()[f"m{stages}"]) / exact - 1) <= Fraction(1, 10**10)
 
 
 def test_a_cascade_of_ten_thousand_links_reduces_beyond_all_floats_and_stays_exact() -> None:
@@ -202,7 +202,7 @@ def check_lattice(side: int) -> None:
     assert mobility.rank == side * side - 1
     assert mobility.redundant == (side - 1) ** 2
     assert mobility.by_rank == 1
-    answer, floats = train.solve(), train.floats()
+    answer, floats = train.solve(), train.kinematics.floats()
     for at in range(0, side * side, max(1, side * side // 500)):
         exact = Fraction((-1) ** (at // side + at % side) * teeth[0], teeth[at])
         assert answer[f"g{at}"] == exact
@@ -267,7 +267,7 @@ def test_a_speed_below_the_range_of_floats_is_never_a_silent_zero(meshes: int) -
     log10 = math.log10(float(mantissa)) + int(exponent)
     assert abs(log10 + meshes * 0.4771212547196624) < 1e-6
     json.dumps(speed, allow_nan=False)
-    floats = train.floats()
+    floats = train.kinematics.floats()
     with pytest.raises(GearTrainError, match="range of float64"):
         floats[f"g{meshes}"]
     assert floats.decimal(f"g{meshes}", digits=8) == decimal(Fraction((-1) ** meshes, 3**meshes), 8)
@@ -286,7 +286,7 @@ def test_a_speed_above_the_range_of_floats_is_no_float_and_exact_otherwise() -> 
         mesh(data, f"g{at}", 60, f"g{at + 1}", 20)
     train = GearTrain.declare(data)
     assert train.solve()["g700"] == 3**700
-    floats = train.floats()
+    floats = train.kinematics.floats()
     with pytest.raises(GearTrainError, match="float64"):
         floats["g700"]
     assert floats.decimal("g700", digits=8) == decimal(Fraction(3**700), 8)

@@ -14,7 +14,7 @@ from geartrain.kinematics import Lever, find_levers
 
 def levers(of: GearTrain) -> list[Lever]:
     """The levers of a train."""
-    return find_levers(of.declaration, of.tree, of.circuits)
+    return find_levers(of.declaration, of.kinematics.tree, of.circuits)
 
 
 def test_the_abscissae_of_a_simple_set_are_its_tooth_ratios() -> None:
@@ -38,6 +38,6 @@ def test_the_speeds_of_every_set_lie_on_a_line(name: str) -> None:
     for state in declared.states or (None,):
         speeds = declared.solve(state, method="exact").speeds
         for lever in levers(declared):
-            points = [(x, speeds[link] * declared.signs.get(link, 1)) for link, x in lever.abscissae.items()]
+            points = [(x, speeds[link] * declared.kinematics.signs.get(link, 1)) for link, x in lever.abscissae.items()]
             for (a, u), (b, v), (c, w) in combinations(points, 3):
                 assert (b - a) * (w - u) == (c - a) * (v - u)

@@ -248,7 +248,7 @@ def test_the_answer_is_plain_json_with_stable_keys() -> None:
 def test_one_tooth_less_or_more_is_what_the_changed_train_shows() -> None:
     train = lunar("{period: 27.32 d}", teeth="{value: 127, range: [125, 129]}")
     answer = train.solve()
-    (row,) = train.sensitivity(answer)
+    (row,) = train.kinematics.sensitivity(answer)
     assert (row.wheel, row.teeth, row.output) == ("d127", 127, "moon")
     assert row.allowed == (125, 126, 127, 128, 129)
     for shift, teeth in ((row.less, "126"), (row.more, "128")):
@@ -258,8 +258,8 @@ def test_one_tooth_less_or_more_is_what_the_changed_train_shows() -> None:
 
 def test_a_wheel_without_doubt_has_no_sensitivity_and_an_output_it_does_not_drive_no_row() -> None:
     certain, doubtful = lunar("{period: 27.32 d}"), lunar("{period: 27.32 d}", teeth="{value: 127, range: [126, 128]}")
-    assert list(certain.sensitivity(certain.solve())) == []
-    assert {row.output for row in doubtful.sensitivity(doubtful.solve())} == {"moon"}
+    assert list(certain.kinematics.sensitivity(certain.solve())) == []
+    assert {row.output for row in doubtful.kinematics.sensitivity(doubtful.solve())} == {"moon"}
 
 
 PLANETARY = """
@@ -285,7 +285,7 @@ def test_sensitivity_holds_inside_an_epicyclic_and_for_relative_speeds(doubtful:
     ring = "{value: 60, choices: [59, 60, 61]}" if doubtful == "ring" else "60"
     train = load(PLANETARY.format(sun=doubt, ring=ring))
     answer = train.solve()
-    rows = {row.output: row for row in train.sensitivity(answer)}
+    rows = {row.output: row for row in train.kinematics.sensitivity(answer)}
     assert set(rows) == {"arm", "rel"}
     for step in (-1, 1):
         other = load(PLANETARY.format(**{**teeth, doubtful: teeth[doubtful] + step})).solve()
@@ -308,13 +308,13 @@ def test_one_tooth_in_a_closed_loop_locks_the_train_and_has_no_number() -> None:
         """
     )
     assert train.solve()["b"] == Fraction(-1, 2)
-    (row,) = train.sensitivity(train.solve())
+    (row,) = train.kinematics.sensitivity(train.solve())
     assert (row.less, row.more) == (None, None)
 
 
 def test_a_wheel_of_one_tooth_can_lose_none() -> None:
     train = lunar("{period: 27.32 d}", teeth="{value: 1, range: [1, 2]}")
-    (row,) = train.sensitivity(train.solve())
+    (row,) = train.kinematics.sensitivity(train.solve())
     assert row.less is None
     assert row.more == pytest.approx(1e6)
 

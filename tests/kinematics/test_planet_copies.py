@@ -10,6 +10,8 @@ import yaml
 from fitters import passed, rules_of
 
 import geartrain
+from geartrain.dynamics import find_link_inertias
+from geartrain.dynamics.torques.train_torques import solve
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.report.time_report import collect_time_report
@@ -54,15 +56,17 @@ def test_speeds_are_those_of_all_planets_declared(name: str) -> None:
         for link in every.declaration.links:
             first = link.partition(".")[0]
             if link != first:  # about its own axis, as its carrier sees it
-                carrier = every.tree.top[link]
-                seen = [relative_speed(each, carrier, all_.speeds.get, every.signs) for each in (first, link)]
+                carrier = every.kinematics.tree.top[link]
+                seen = [
+                    relative_speed(each, carrier, all_.speeds.get, every.kinematics.signs) for each in (first, link)
+                ]
                 assert seen[0] == seen[1], (state, link)
 
 
 def test_a_train_without_copies_is_its_own() -> None:
     train = geartrain.load("planetary-24-18-60")
     assert train.unfolded is train
-    assert train.planets_as_one is train
+    assert train.mechanics.planets_as_one is train.mechanics
 
 
 @pytest.mark.parametrize(("s", "p"), [(24, 18), (20, 15), (30, 24), (21, 39), (17, 19)])
@@ -107,7 +111,7 @@ def test_loads_on_a_planet_act_on_each() -> None:
         "carrier: -0.3 N m}", "carrier: -0.3 N m, planet: 0.01 N m}"
     )
     train = read(text)
-    every, lumped = train.torques(), train.planets_as_one.torques()
+    every, lumped = train.torques(), solve(train.mechanics.planets_as_one, None)
     assert every.external["sun"] == lumped.external["sun"]
     assert every.external["sun"] != planetary().torques().external["sun"]
 
@@ -117,7 +121,10 @@ def test_equal_planets_in_time_are_one_as_heavy_as_all() -> None:
         more=", inertia: 20 g mm2, mass: 10 g",
         rest="tooth_form: {form: involute, backlash: 0.05}\n",
     )
-    planet, carrier = (next(each for each in train.inertias() if each.link == link) for link in ("planet", "carrier"))
+    planet, carrier = (
+        next(each for each in find_link_inertias(train.mechanics) if each.link == link)
+        for link in ("planet", "carrier")
+    )
     assert isclose(planet.value, 3 * 20e-9)
     assert isclose(carrier.value, 100e-9 + 3 * 10e-3 * 21e-3**2)
 

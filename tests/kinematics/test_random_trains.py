@@ -115,7 +115,7 @@ def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
         asked = GearTrain.declare(train.data)
         reduced = SolvedPart(tuple(train.data["links"]), "frame", asked.circuits, ()).reduced
         for answer in asked.answers():
-            verdict = exact_verdict(reduced, asked.cases[answer.state], asked.signs)
+            verdict = exact_verdict(reduced, asked.kinematics.cases[answer.state], asked.kinematics.signs)
             assert verdict.kind == answer.verdict.kind, (seed, answer.state)
 
 

@@ -253,7 +253,7 @@ def test_a_state_that_makes_a_linkage_leaves_the_other_states_answered() -> None
     assert "makes a linkage" in refused.verdict.text
     assert "hold or lock a link on the way (arm, other)" in refused.verdict.text
     assert (refused.speeds, refused.outputs["planet"].speed, bool(refused)) == ({}, None, False)
-    assert train.usable_states == ("good", "twice")
+    assert train.kinematics.usable_states == ("good", "twice")
     assert train.torques("good").verdict
     with pytest.raises(GearTrainError, match="makes a linkage"):
         train.torques("bad")

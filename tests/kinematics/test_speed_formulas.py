@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 
 import pytest
@@ -14,8 +15,9 @@ from shipped import train as load
 
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.kinematics.formulas.factors import FactoredPolynomial
+from geartrain.kinematics.formulas.closed_forms import FactoredPolynomial
 from geartrain.kinematics.formulas.laurent import Laurent, product
+from geartrain.kinematics.formulas.speed_formulas import OutputFormula, speed_formulas
 
 PLANETARY = """
 name: set
@@ -97,6 +99,10 @@ def test_two_inputs_are_a_sum() -> None:
     assert train.formula("MG2", "cruising").text == "MG2 = (1 + z_s30/z_r78) · engine - z_s30/z_r78 · MG1"
 
 
+def formulas_of(train: GearTrain, state: str | None) -> Iterator[OutputFormula]:
+    return speed_formulas(train.declaration, train.declaration.single_state(state))
+
+
 @pytest.mark.parametrize("name", every_train())
 def test_every_formula_of_every_train_gives_what_solving_gives(name: str) -> None:
     train = load(name)
@@ -104,15 +110,15 @@ def test_every_formula_of_every_train_gives_what_solving_gives(name: str) -> Non
         answer = train.solve(state)
         if not answer.verdict:
             continue
-        for formula in train.formulas(state):
+        for formula in formulas_of(train, state):
             assert formula.value == answer.outputs[formula.output].speed
 
 
 @pytest.mark.parametrize("name", every_train())
 def test_every_text_read_as_arithmetic_gives_the_value(name: str) -> None:
     train = load(name)
-    state = train.state_or_first(None)
-    for formula in train.formulas(state):
+    state = train.declaration.state_or_first(None)
+    for formula in formulas_of(train, state):
         for share in formula.shares:
             wheels = {wheel: Fraction(share.ratio.counts[wheel]) for wheel in share.ratio.formula.wheels}
             assert _read(share.ratio.text, wheels) == share.ratio.value
@@ -123,7 +129,7 @@ def test_every_text_read_as_arithmetic_gives_the_value(name: str) -> None:
 @pytest.mark.parametrize("name", every_train())
 def test_every_expression_of_sympy_has_the_value(name: str) -> None:
     train = load(name)
-    for formula in train.formulas(train.state_or_first(None)):
+    for formula in formulas_of(train, train.declaration.state_or_first(None)):
         for share in formula.shares:
             expression = share.ratio.sympy()
             counts = {f"z_{wheel}": int(share.ratio.counts[wheel]) for wheel in share.ratio.formula.wheels}
@@ -153,7 +159,7 @@ def test_elasticities_are_the_derivatives_that_sympy_takes(name: str) -> None:
     import sympy
 
     train = load(name)
-    for formula in train.formulas(train.state_or_first(None)):
+    for formula in formulas_of(train, train.declaration.state_or_first(None)):
         for share in formula.shares:
             expression = share.ratio.sympy()
             for symbol in expression.free_symbols:
@@ -166,7 +172,7 @@ def test_elasticities_of_a_ratio_sum_to_nothing() -> None:
     """Twice as many teeth everywhere change no ratio (Euler's theorem)."""
     for name in ("wolfrom-175", "gm-4t60", "price-1974", "ravigneaux-set", "longcase-clock"):
         train = load(name)
-        for formula in train.formulas(train.state_or_first(None)):
+        for formula in formulas_of(train, train.declaration.state_or_first(None)):
             for share in formula.shares:
                 values = [share.ratio.elasticity(wheel).value for wheel in share.ratio.formula.wheels]
                 assert sum(value for value in values if value is not None) == 0
@@ -174,7 +180,7 @@ def test_elasticities_of_a_ratio_sum_to_nothing() -> None:
 
 def test_where_a_train_locks_is_said_in_counts() -> None:
     """The 8HP in reverse: no ratio where z_r3 z_r4 = z_s3 z_s4, since then it has none."""
-    (formula,) = load("zf-8hp70").formulas("R")
+    (formula,) = formulas_of(load("zf-8hp70"), "R")
     assert formula.poles == ("z_r4 z_r3 = z_s3 z_s4",)
 
 

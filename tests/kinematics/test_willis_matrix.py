@@ -19,7 +19,7 @@ from strategies import Data, driven_trains, overdriven_trains, trains
 
 from geartrain import GearTrain, load
 from geartrain.errors import RangeError
-from geartrain.kinematics import WillisEquation, WillisMatrix, WillisSystem, speed_problem
+from geartrain.kinematics import WillisEquation, WillisMatrix, WillisSystem, train_kinematics
 from geartrain.kinematics.speeds import padded_rows
 
 
@@ -216,7 +216,7 @@ def test_conditions_are_those_of_the_dense_inverse(seed: int) -> None:
 
 def test_speeds_in_floats_pay_for_no_condition_and_no_true_error(monkeypatch: pytest.MonkeyPatch) -> None:
     paid: list[str] = []
-    conditions, rounded = padded_rows.PaddedRows.condition, speed_problem.rounded
+    conditions, rounded = padded_rows.PaddedRows.condition, train_kinematics.rounded
 
     def condition(self: Any, *given: Any) -> dict[str, float]:
         paid.append("condition")
@@ -227,7 +227,7 @@ def test_speeds_in_floats_pay_for_no_condition_and_no_true_error(monkeypatch: py
         return rounded(value)
 
     monkeypatch.setattr(padded_rows.PaddedRows, "condition", condition)
-    monkeypatch.setattr(speed_problem, "rounded", true_error)
+    monkeypatch.setattr(train_kinematics, "rounded", true_error)
     train = shipped.train("pennestri-2002")
     answer = train.solve(method="sparse")
     assert answer["8"] == 0.25
@@ -244,7 +244,7 @@ def test_the_older_name_of_the_method_is_the_same_method() -> None:
 
 
 def test_a_frame_or_a_link_at_rest_has_an_infinite_condition() -> None:
-    found = load("two-k-h-10000").floats(condition_of=["case", "held", "output"]).condition
+    found = load("two-k-h-10000").kinematics.floats(condition_of=["case", "held", "output"]).condition
     assert found["case"] == found["held"] == np.inf
     assert round(found["output"]) == 80399
 

@@ -186,5 +186,5 @@ def test_counts_in_doubt_tell_long_numbers(tmp_path: Path) -> None:
     file = tmp_path / "near.yaml"
     file.write_text(json.dumps(NEAR), encoding="utf-8")
     for more in ((), ("--json",)):
-        result = call("sweep", file, *more)
+        result = call("posterior", file, *more)
         assert result.exit_code in (0, 1), result.exception

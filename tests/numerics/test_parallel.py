@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import multiprocessing
 import os
 import random
 import resource
@@ -22,14 +23,27 @@ from threading import Lock
 from typing import Any
 
 import pytest
-from clusters import alive, begun, deadly, failing, gated, mixed, not_plain, small_cluster, until
+from clusters import (
+    PATIENCE,
+    alive,
+    begun,
+    deadly,
+    failing,
+    gated,
+    mixed,
+    next_line,
+    not_plain,
+    slow,
+    small_cluster,
+    until,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import TESTS
 
 from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
 from geartrain.numerics import Journal, open_executor, run
-from geartrain.numerics.work import cores
+from geartrain.numerics.work import cores, executors
 from geartrain.numerics.work import task_runner as running
 from geartrain.numerics.work.journal import first_difference
 from geartrain.numerics.work.processes import ProcessPool
@@ -61,7 +75,7 @@ def cluster() -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def dask(cluster: Any) -> Iterator[Executor]:
-    with open_executor(scheduler=cluster.scheduler_address) as executor:
+    with open_executor(dask=cluster.scheduler_address) as executor:
         assert executor is not None
         yield executor
 
@@ -314,7 +328,7 @@ def test_tasks_cancelled_just_before_a_worker_dies_upset_nothing(tmp_path: Path)
         os.kill(begun(tmp_path)[0][1], signal.SIGKILL)
         for future in futures[:5]:
             with pytest.raises(BrokenExecutor):
-                future.result(timeout=60)
+                future.result(timeout=PATIENCE)
 
 
 # --- the journal ----------------------------------------------------------------------------------------------------
@@ -467,7 +481,7 @@ def test_a_process_that_writes_a_journal_keeps_others_out_on_every_system(tmp_pa
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([sys.executable, "-c", code], text=True, **pipes) as holder:
         assert holder.stdout is not None
-        assert holder.stdout.readline() == "held\n"
+        assert next_line(holder.stdout) == "held\n"
         with pytest.raises(QuestionError, match="another run is writing"):
             Journal(tmp_path / "journal", {})
         holder.kill()
@@ -539,7 +553,7 @@ def test_a_run_cut_by_a_signal_leaves_a_journal_and_nobody_behind(
         until(lambda: any(n >= 6 for n, _ in begun(tmp_path)) and lines(tmp_path) >= 7, "tasks at the gate")
         # Ctrl-C reaches all processes of a terminal; a kill meets one
         os.killpg(start.pid, cut) if cut is signal.SIGINT else os.kill(start.pid, cut)
-        out, err = start.communicate(timeout=60)
+        out, err = start.communicate(timeout=PATIENCE)
     assert (start.returncode, out) == (-cut, "")
     assert err.count("Traceback") == (cut is signal.SIGINT), f"only the run itself says a word: {err}"
     until(lambda: not any(alive(pid) for _, pid in begun(tmp_path)), "the workers to leave")
@@ -559,7 +573,7 @@ def test_an_iterator_that_is_left_keeps_what_was_finished_meanwhile(processes: E
         with closing(run(gated, [(str(tmp_path), n, 99) for n in range(9)], processes, journal)) as results:
             next(results)
             until(lambda: len(begun(tmp_path)) >= 8, "the tasks in flight")
-            until(lambda: processes.submit(abs, 1).result(), "all before this one")
+            until(lambda: processes.submit(abs, 1).result(timeout=PATIENCE), "all before this one")
         assert len(journal) >= 7
 
 
@@ -579,7 +593,61 @@ print(*sys.modules)
     assert not {"multiprocessing", "distributed"} & {name.partition(".")[0] for name in done.stdout.split()}
 
 
+def by_default(tasks: list[float]) -> tuple[list[Any], list[tuple[int, int]], set[int]]:
+    """Results, announcements and processes of a run on three cores whose tasks take so many seconds."""
+    announced: list[tuple[int, int]] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(executors, "cores", lambda: 3)
+        with open_executor(announce=lambda *numbers: announced.append(numbers)) as executor:
+            found = list(run(slow, tasks, executor))
+    return [seconds for seconds, _ in found], announced, {process for _, process in found}
+
+
+def test_work_of_less_than_a_second_stays_in_this_process() -> None:
+    tasks = [0.001] * 200
+    assert by_default(tasks) == (tasks, [], {os.getpid()})
+
+
+def test_a_long_run_is_announced_once_and_shared_by_processes() -> None:
+    tasks = [0.15] * 60
+    results, announced, processes = by_default(tasks)
+    assert results == tasks
+    (shared,) = announced
+    assert shared[1] == 3
+    assert 40 <= shared[0] < 60, "the first second of work is done here"
+    assert len(processes - {os.getpid()}) == 3
+
+
+def test_a_few_long_tasks_are_shared_by_as_many_processes() -> None:
+    """Of three tasks the first is done here, and shows that the others take long."""
+    results, announced, processes = by_default([1.1, 1.0, 0.9])
+    assert results == [1.1, 1.0, 0.9]
+    assert announced == [(2, 2)]
+    assert len(processes) == 3
+
+
+def test_a_process_that_may_not_start_others_works_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "cores", lambda: 3)
+    monkeypatch.setitem(multiprocessing.current_process()._config, "daemon", True)
+    with open_executor() as executor:
+        assert executor is None
+
+
+def test_work_that_cannot_be_sent_to_a_process_is_done_here(processes: Executor) -> None:
+    assert list(run(lambda number: [number, os.getpid()], range(3), processes)) == [[n, os.getpid()] for n in range(3)]
+
+
+def test_the_work_that_is_asked_of_some_workers_is_theirs_from_the_first_task() -> None:
+    announced: list[tuple[int, int]] = []
+    with open_executor(2, announce=lambda *numbers: announced.append(numbers)) as executor:
+        found = list(run(slow, [0.0] * 3, executor))
+        found += run(slow, [0.0] * 3, executor)
+    assert os.getpid() not in {process for _, process in found}
+    assert announced == [(3, 2)]
+
+
 def test_workers_are_as_many_as_the_cores_this_process_may_use(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "cores", cores)  # tests have one core unless they ask for more
     assert 1 <= cores() <= (os.cpu_count() or 1)
     for count in (1, 3):
         if hasattr(os, "process_cpu_count"):
@@ -591,7 +659,7 @@ def test_workers_are_as_many_as_the_cores_this_process_may_use(monkeypatch: pyte
 
 @pytest.mark.parametrize(
     ("asked", "said"),
-    [({"workers": 0}, "0 workers"), ({"workers": 2, "scheduler": "tcp://x:1"}, "both workers and a scheduler")],
+    [({"workers": 0}, "0 workers"), ({"workers": 2, "dask": "tcp://x:1"}, "both workers and a dask scheduler")],
 )
 def test_what_cannot_be_asked_is_refused(asked: dict[str, Any], said: str) -> None:
     with pytest.raises(QuestionError, match=said), open_executor(**asked):
@@ -601,7 +669,7 @@ def test_what_cannot_be_asked_is_refused(asked: dict[str, Any], said: str) -> No
 def test_a_cluster_without_the_extra_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     monkeypatch.delitem(sys.modules, "geartrain.numerics.work.cluster", raising=False)
-    with pytest.raises(MissingExtraError, match="distributed is not installed") as caught, open_executor(scheduler="x"):
+    with pytest.raises(MissingExtraError, match="distributed is not installed") as caught, open_executor(dask="x"):
         pass
     assert caught.value.problems[0].fix == "pip install 'distributed>=2024.8' # 37 MB"
 
@@ -610,49 +678,50 @@ def test_nobody_at_an_address_is_said_without_a_word_of_noise() -> None:
     pytest.importorskip("distributed")
     code = """
 from geartrain.errors import GearTrainError
-from geartrain.numerics.work.cluster import connect
+from geartrain.numerics.work.cluster import DaskPool
 for address in ("tcp://127.0.0.1:1", "nonsense://x", "tcp://", ""):
     try:
-        connect(address, answer=0.5)
+        DaskPool(address, answer=0.5)
     except GearTrainError as error:
         print(error)
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=PATIENCE)
     assert done.stderr == ""
-    assert done.stdout.count("no scheduler answers at") == done.stdout.count("  why: ") == done.stdout.count("fix: ")
-    assert done.stdout.count("no scheduler answers at") == 4
+    assert done.stdout.count("no dask scheduler answers") == done.stdout.count("  why: ") == done.stdout.count("fix: ")
+    assert done.stdout.count("no dask scheduler answers") == 4
 
 
 def test_a_cluster_of_another_version_is_refused(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     from geartrain.numerics.work import cluster as room
 
-    monkeypatch.setattr(room, "version", lambda _: "9.9")
-    with pytest.raises(GearTrainError, match=r"cannot do the work of geartrain 9\.9") as caught:
-        room.connect(cluster.scheduler_address)
-    assert "says geartrain" in caught.value.problems[0].why
+    here = os.getpid()
+    monkeypatch.setattr(room, "version", lambda _: "9.9" if os.getpid() == here else "9.8")
+    with pytest.raises(GearTrainError, match=r"runs another geartrain than 9\.9") as caught:
+        room.DaskPool(cluster.scheduler_address)
+    assert caught.value.problems[0].why == "9.8"
     assert "9.9" in caught.value.problems[0].fix
 
 
 def test_a_cluster_without_workers_is_told() -> None:
     distributed = pytest.importorskip("distributed")
-    from geartrain.numerics.work.cluster import connect
+    from geartrain.numerics.work.cluster import DaskPool
 
     with (
         distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0", silence_logs=60) as cluster,
         pytest.raises(GearTrainError, match="has no workers"),
     ):
-        connect(cluster.scheduler_address, answer=0.3)
+        DaskPool(cluster.scheduler_address, answer=0.3)
 
 
 def test_a_cluster_that_is_lost_in_the_middle_is_told_and_what_it_did_is_kept(cluster: Any, tmp_path: Path) -> None:
-    from geartrain.numerics.work.cluster import connect
+    from geartrain.numerics.work.cluster import DaskPool
 
     tasks = [(str(tmp_path), n, 2) for n in range(9)]
-    crew = connect(cluster.scheduler_address)
+    crew = DaskPool(cluster.scheduler_address)
     with Journal(tmp_path / "journal", {}) as journal, closing(run(gated, tasks, crew, journal)) as results:
         assert [next(results), next(results)] == [0, 1]
         crew._client.loop.add_callback(crew._client.scheduler_comm.comm.abort)
-        with pytest.raises(GearTrainError, match=r"the scheduler at .* is gone"):
+        with pytest.raises(GearTrainError, match="the work was cut off"):
             next(results)
     until(lambda: crew._client.status == "running", "the client to find the scheduler again: it leaves nothing open")
     crew.dismiss()
@@ -667,18 +736,12 @@ def test_a_cluster_whose_workers_do_not_come_back_is_told(cluster: Any, monkeypa
 
     now = 0.0
     monkeypatch.setattr(room, "monotonic", lambda: now)
-    crew = room.connect(cluster.scheduler_address, patience=60)
-    monkeypatch.setattr(crew, "_threads", lambda: 0)
+    crew = room.DaskPool(cluster.scheduler_address)
+    monkeypatch.setattr(crew._client, "nthreads", dict)
+    now = 60.0
     crew.check()
-    now = 50.0
-    crew.check()
-    assert crew.submit(abs, -3).result() == 3, "a sign of life"
-    now = 70.0
-    crew.check()
-    now = 130.0
-    crew.check()
-    now = 131.0
-    with pytest.raises(GearTrainError, match=r"all workers of the scheduler at .* are gone") as caught:
+    now = 61.0
+    with pytest.raises(GearTrainError, match=r"the scheduler at .* has lost all its workers") as caught:
         crew.check()
     assert "60 s" in caught.value.problems[0].why
     crew.dismiss()

@@ -76,7 +76,7 @@ def test_the_last_of_a_chain_that_drifts_is_one_product() -> None:
     train = GearTrain.declare(data)
     wanted = ratio(data, 4999)
     assert train.solve()["g4999"] == train.solve(output="g4999")["g4999"] == wanted
-    assert train.floats().speeds["g4999"][0] == pytest.approx(float(wanted), rel=1e-9)
+    assert train.kinematics.floats().speeds["g4999"][0] == pytest.approx(float(wanted), rel=1e-9)
 
 
 def peak(task: Callable[[], object]) -> int:

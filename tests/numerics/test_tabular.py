@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import geartrain
+from geartrain.analysis import find_gears
 from geartrain.errors import MissingExtraError
 from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.tabular import Tabular
@@ -23,9 +24,9 @@ def tables() -> dict[str, Tabular]:
         "gearbox": box.gearbox(),
         "variants": set_.variants({"s": range(20, 30)}),
         "cycle": loaded.torques(turns=0.01),
-        "search": box.gear_search(),
+        "search": find_gears(box),
         "strength": loaded.strength(),
-        "array": set_.floats(inputs={"sun": [7.0, 14.0]}).speeds,
+        "array": set_.kinematics.floats(inputs={"sun": [7.0, 14.0]}).speeds,
     }
 
 
@@ -55,7 +56,7 @@ def test_a_gearbox_has_a_row_a_state() -> None:
 
 
 def test_every_gear_there_is_has_a_row() -> None:
-    records = geartrain.load("zf-8hp70").gear_search().to_records()
+    records = find_gears(geartrain.load("zf-8hp70")).to_records()
     assert len(records) == 9
     assert records["exact"][0] == "108/23"
     assert set(records["states"]) == {*"12345678R"}
@@ -139,5 +140,5 @@ def test_without_pandas_it_is_said_what_brings_it(monkeypatch: pytest.MonkeyPatc
         return real(name, *args, **given)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(MissingExtraError, match="errors"):
+    with pytest.raises(MissingExtraError, match="tables"):
         geartrain.load("planetary-24-18-60").solve().to_frame()

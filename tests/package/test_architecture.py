@@ -38,7 +38,7 @@ def test_the_graph_brings_networkx_and_neither_scipy_nor_matplotlib() -> None:
 
 
 def test_floats_bring_scipy_and_no_plots() -> None:
-    used = imported_by("import geartrain; geartrain.load('pennestri-2002').floats()")
+    used = imported_by("import geartrain; geartrain.load('pennestri-2002').kinematics.floats()")
     assert "scipy" in used
     assert "matplotlib" not in used
 

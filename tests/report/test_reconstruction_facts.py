@@ -13,10 +13,9 @@ from geartrain.report.document import Branch, SceneText
 from geartrain.report.family_tree_report import family_section
 from geartrain.report.reconstruction_facts import assumptions_section, missing_sections, next_section, shared_sections
 from geartrain.report.text import to_terminal
-from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount
+from geartrain.synthesis.reconstruction.candidate_findings import FamilyBranch, FamilyTrain
+from geartrain.synthesis.reconstruction.dropped_facts import ChangedCount, LoneDial, MissingExplanation
 from geartrain.synthesis.reconstruction.explained_facts import Fact, FactAnswer, FactKind, FactMarginal, NextFact
-from geartrain.synthesis.reconstruction.family_tree import FamilyBranch, FamilyTrain
-from geartrain.synthesis.reconstruction.missing_explanation import LoneDial, MissingExplanation
 
 EVIL = "<script>alert(1)</script>"
 HALF = Fraction(1, 2)

@@ -222,7 +222,9 @@ def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
 
 def test_what_is_wider_than_paper_is_printed_in_strips_with_every_cell_once() -> None:
     page = Page(to_html([describe_train(shipped.report("freeth-2021"))]))
-    (matrix,) = (table for table in page.tables if len(table[0]) == len(shipped.train("freeth-2021").tree.parent) + 2)
+    (matrix,) = (
+        table for table in page.tables if len(table[0]) == len(shipped.train("freeth-2021").kinematics.tree.parent) + 2
+    )
     parts = [strip for strip in page.strips if len(strip) == len(matrix) and strip[1][0] == matrix[1][0]]
     widths = [sum(max(map(len, column)) + 1 for column in zip(*strip, strict=True)) for strip in parts]
     assert 90 < max(widths) <= 111

@@ -16,7 +16,7 @@ from shapely.geometry import Point
 
 import geartrain
 from geartrain.scene import Layout, WheelPlace, lay_out
-from geartrain.scene.layout.axial_slots import find_axial_slots
+from geartrain.scene.layout.parallel_groups import find_axial_slots
 
 NAMES = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
 Z = np.array([0.0, 0.0, 1.0])
@@ -129,7 +129,7 @@ def poses(train: geartrain.GearTrain, layout: Layout, count: int) -> Iterator[di
     def carried(label: str, point: np.ndarray, angles: dict[str, float]) -> np.ndarray:
         bearer = layout.axes[label].carrier
         while bearer != train.declaration.frame:
-            pivot = layout.axes[train.tree.axis(bearer) or ""]
+            pivot = layout.axes[train.kinematics.tree.axis(bearer) or ""]
             c, s = math.cos(angles[bearer]), math.sin(angles[bearer])
             x, y = point[:2] - np.array(pivot.point[:2])
             point = np.array(pivot.point[:2]) + np.array([c * x - s * y, s * x + c * y])

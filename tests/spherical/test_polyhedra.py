@@ -18,8 +18,7 @@ from scipy.optimize import brentq
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.spherical import Configuration, from_polyhedron, polyhedron, solid, solid_names, survey, to_train
-from geartrain.spherical.polyhedron_gears import regular
-from geartrain.spherical.polyhedron_survey import SURVEYED, least_drop
+from geartrain.spherical.polyhedron_gears import SURVEYED, least_drop, regular
 from geartrain.train.yaml_nodes import as_yaml
 
 PHI = (1 + sqrt(5)) / 2

@@ -10,7 +10,7 @@ from math import prod
 import pytest
 
 from geartrain.synthesis.reconstruction.added_counts import AddedCounts, Wanted
-from geartrain.synthesis.reconstruction.skeletons import AddedWheels
+from geartrain.synthesis.reconstruction.train_topology import AddedWheels
 
 LEAST, GREATEST = 5, 9
 DIALS = "pqrs"

@@ -24,7 +24,7 @@ from geartrain.synthesis import ConstraintOptions
 from geartrain.synthesis.constraints.assembly_constraints import find_constraints
 from geartrain.synthesis.constraints.constraint_options import read_constraint_options
 from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
-from geartrain.synthesis.constraints.planet_assembly import bezout
+from geartrain.synthesis.constraints.planet_constraints import bezout
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 

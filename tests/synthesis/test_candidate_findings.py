@@ -10,9 +10,9 @@ from math import log2
 import pytest
 from concrete_trees import concrete, meshes, nodes, random_problem
 
+from geartrain.synthesis.reconstruction.candidate_findings import grow_family_tree
+from geartrain.synthesis.reconstruction.candidate_names import name_train
 from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, WeighedTrains
-from geartrain.synthesis.reconstruction.family_tree import grow_family_tree
-from geartrain.synthesis.reconstruction.named_train import name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions

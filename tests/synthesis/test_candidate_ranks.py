@@ -8,11 +8,10 @@ from fractions import Fraction
 import pytest
 from concrete_trees import explanations, package_arbor, random_problem
 
-from geartrain.report.reconstruction_report import RankedTrain, ReconstructionReport, describe_reconstruction
-from geartrain.synthesis.reconstruction.candidate_prior import prior
-from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount
+from geartrain.report.reconstruction_report import describe_reconstruction
+from geartrain.synthesis.reconstruction.reconstruction import RankedTrain, ReconstructionAnswer
+from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount, mechanism, prior
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.sameness import mechanism
 
 
 @pytest.mark.parametrize("seed", range(60, 100))
@@ -35,7 +34,7 @@ def test_a_page_shows_intervals_and_what_is_not_counted() -> None:
     )
     sections = {
         each.title: each
-        for each in describe_reconstruction(ReconstructionReport("some", problem, counts, True, (), best)).sections
+        for each in describe_reconstruction(ReconstructionAnswer("some", problem, counts, True, (), best)).sections
     }
     assert sections["Counts"].tables[0].rows[1] == ("1", "999999", "not counted", "not counted")
     assert [row[0] for row in sections["The best"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]

@@ -9,9 +9,14 @@ import pytest
 from concrete_trees import exact_dial, explanations, random_problem, sure_arbor
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.reconstruction.dropped_facts import count_changed, without_each_dial, without_each_fact
+from geartrain.synthesis.reconstruction.dropped_facts import (
+    LoneDial,
+    count_changed,
+    explain_missing,
+    without_each_dial,
+    without_each_fact,
+)
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.missing_explanation import LoneDial, explain_missing
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Additions,

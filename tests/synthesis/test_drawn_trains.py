@@ -1,4 +1,4 @@
-"""Trains drawn from the sums come as often as each other, and every train of a skeleton comes."""
+"""Trains drawn from the sums come as often as each other, and every train of a topology comes."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ from random import Random
 import pytest
 from concrete_trees import Node, concrete, explanations, random_problem, with_rings
 
-from geartrain.synthesis.reconstruction.drawn_candidates import draw_candidates
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
+from geartrain.synthesis.reconstruction.reconstruction_search import draw_candidates, find_reconstructions
+from geartrain.synthesis.reconstruction.search_tasks import TopologyTrains
 from geartrain.train.declaration_files import read_evidence
 
 DRAWS = 60
@@ -19,18 +18,18 @@ DRAWS = 60
 
 
 @pytest.mark.parametrize("rings", [False, True])
-def test_each_train_of_a_skeleton_is_drawn_as_often(rings: bool) -> None:
+def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
     chance, tried = Random(1), 0
     for seed in range(300, 340):
         plain = random_problem(seed, idlers=True)
         problem = with_rings(plain, seed) if rings else plain
         grown = {tree for found in explanations(problem) for tree in found.mechanisms}
-        trains = SkeletonTrains(problem, [dial.name for dial in problem.dials])
+        trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
         everything: set[Node] = set()
-        for each in find_reconstructions(problem, listed=0).skeletons[:20]:
+        for each in find_reconstructions(problem, listed=0).topologies[:20]:
             if each.mechanisms > 12:
                 continue
-            found = Counter(concrete(trains.draw(each.skeleton, chance)) for _ in range(DRAWS * each.mechanisms))
+            found = Counter(concrete(trains.draw(each.topology, chance)) for _ in range(DRAWS * each.mechanisms))
             assert len(found) == each.mechanisms
             assert set(found) <= grown
             # eight standard deviations of a binomial

@@ -24,7 +24,7 @@ from geartrain.synthesis.join.join_plan import JoinProblem, find_join_problem
 from geartrain.synthesis.join.product_lists import Item, ItemRecipe, forecast
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 from geartrain.synthesis.train.best_assignments import AssignmentOrder, BestAssignments
-from geartrain.synthesis.train.pass_tasks import PassWork, do_task, merged
+from geartrain.synthesis.train.search_passes import PassWork, do_task, merged
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 Terms = tuple[tuple[int, tuple[int, ...]], ...]

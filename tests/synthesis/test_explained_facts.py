@@ -7,9 +7,9 @@ from math import log2
 
 import pytest
 
+from geartrain.synthesis.reconstruction.candidate_findings import grow_family_tree
+from geartrain.synthesis.reconstruction.candidate_names import NamedArbor, name_train
 from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, Fact, FactMarginal, WeighedTrains
-from geartrain.synthesis.reconstruction.family_tree import grow_family_tree
-from geartrain.synthesis.reconstruction.named_train import NamedArbor, name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     Additions,
     Arbor,

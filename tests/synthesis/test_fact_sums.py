@@ -9,14 +9,14 @@ from fractions import Fraction
 import pytest
 from concrete_trees import ADDED, concrete, explanations, meshes, nodes, package_arbor, random_problem, with_rings
 
-from geartrain.report.reconstruction_report import ReconstructionReport, describe_reconstruction
+from geartrain.report.reconstruction_report import describe_reconstruction
 from geartrain.synthesis.reconstruction import candidate_findings
-from geartrain.synthesis.reconstruction.candidate_prior import prior, skeleton_prior
+from geartrain.synthesis.reconstruction.candidate_names import name_train
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, WeighedTrains
-from geartrain.synthesis.reconstruction.fact_sums import sum_facts
-from geartrain.synthesis.reconstruction.named_train import name_train
+from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, WeighedTrains, sum_facts
+from geartrain.synthesis.reconstruction.reconstruction import ReconstructionAnswer
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import prior, topology_prior
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
@@ -29,10 +29,10 @@ def questions(first: int, rings: bool) -> list[ReconstructionProblem]:
 
 
 def by_sums(problem: ReconstructionProblem) -> Told | None:
-    skeletons = find_reconstructions(problem, listed=0).skeletons
-    weighed = ((each.skeleton, skeleton_prior(each.skeleton, problem)) for each in skeletons)
+    topologies = find_reconstructions(problem, listed=0).topologies
+    weighed = ((each.topology, topology_prior(each.topology, problem)) for each in topologies)
     tally = sum_facts(weighed, problem, [dial.name for dial in problem.dials])
-    assert tally.trains == sum(each.mechanisms for each in skeletons)
+    assert tally.trains == sum(each.mechanisms for each in topologies)
     if not tally.trains:
         return None
     found = (tally.marginal(fact) for fact in tally.facts())
@@ -108,6 +108,6 @@ def test_facts_are_told_of_all_trains_unless_they_are_too_many(
     assert findings.of_all == (told == 4)
     assert {one.trains for one in findings.marginals} == {told}
     assert (findings.listed, len(findings.family)) == (1, 1)
-    report = ReconstructionReport("back", problem, found.counts, True, (), (), findings=findings)
+    report = ReconstructionAnswer("back", problem, found.counts, True, (), (), findings=findings)
     said = "are told of all." if told == 4 else "shares are of theirs."
     assert sum(line.endswith(said) for line in describe_reconstruction(report).lead) == 1

@@ -8,11 +8,10 @@ from itertools import islice
 import numpy as np
 import pytest
 from concrete_trees import exact_dial, explanations, package_arbor, random_problem, sure_arbor, with_rings
+from studies.followed_train import is_reached
 
-from geartrain.synthesis.reconstruction.followed_train import is_reached
 from geartrain.synthesis.reconstruction.path_choice import PathChoice
-from geartrain.synthesis.reconstruction.path_growth import PathGrowth
-from geartrain.synthesis.reconstruction.path_lists import PathList
+from geartrain.synthesis.reconstruction.path_lists import PathGrowth, PathList
 from geartrain.synthesis.reconstruction.path_trees import PathTrees
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
@@ -49,7 +48,7 @@ def test_it_comes_to_a_train_that_parts_at_an_added_wheel() -> None:
 
 def test_a_search_that_loses_a_path_a_choice_or_a_tree_does_not_come_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
     losses = [
-        (PathGrowth, "may_stand", lambda *_: np.zeros(1, dtype=bool)),
+        (PathGrowth, "along", lambda growth, *_: growth.kept(np.zeros(len(growth.codes), dtype=bool))),
         (PathList, "_may_be_quotient", lambda *_: np.zeros(1, dtype=bool)),
         (PathChoice, "_closes", lambda _, __, ___, near: np.zeros(len(near.rows), dtype=bool)),
         (PathTrees, "_forest", lambda *_: iter(())),

@@ -12,7 +12,7 @@ from sampling import all_but
 from geartrain import GearTrainError, load
 from geartrain.synthesis.reconstruction.candidate_train import candidate_text
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.joined_arbors import join_arbors
+from geartrain.synthesis.reconstruction.link_roles import join_arbors
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
@@ -11,12 +10,15 @@ import pytest
 from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
 
 from geartrain import GearTrainError
-from geartrain.synthesis.reconstruction import reconstruction_search
-from geartrain.synthesis.reconstruction.admitting_question import admitting_question
-from geartrain.synthesis.reconstruction.candidate_rules import broken_rules
+from geartrain.synthesis.reconstruction.candidate_rules import admitting_question, broken_rules
 from geartrain.synthesis.reconstruction.candidate_train import TrainConstruction
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.known_rank import RankedQuestion, find_place, rank_known_train
+from geartrain.synthesis.reconstruction.known_rank import (
+    RankedQuestion,
+    find_place,
+    find_telling_facts,
+    rank_known_train,
+)
 from geartrain.synthesis.reconstruction.known_train import check_same, find_known_train
 from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
@@ -26,11 +28,9 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SearchedDial,
     SurvivingArbor,
 )
-from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions, mechanism
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.telling_facts import find_telling_facts
-from geartrain.synthesis.reconstruction.train_parts import find_spur_tree
+from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
 from geartrain.train import declare
 from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
 
@@ -106,10 +106,7 @@ def plain_prior(tree: tuple, problem: ReconstructionProblem) -> Fraction:
     return weight / factors.unused ** len(unused)
 
 
-@pytest.mark.parametrize("summed", [False, True])
-def test_a_place_is_that_among_all_trains_of_plain_growth(summed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    if summed:
-        monkeypatch.setattr(reconstruction_search, "_TOLD_APART", 0)
+def test_a_place_is_that_among_all_trains_of_plain_growth() -> None:
     placed = 0
     for seed in range(760, 800):
         problem = random_problem(seed)
@@ -129,22 +126,6 @@ def test_a_place_is_that_among_all_trains_of_plain_growth(summed: bool, monkeypa
             assert place.dearer == max(weights.values()) / weights[tree]
             placed += 1
     assert placed > 100
-
-
-def test_summed_parts_have_the_weights_of_the_listed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of a question with weights of its counts, and wheels that need not be used."""
-    problem = evidence_question(read_evidence("back-train"), 3).problem
-    (e,) = (arbor for arbor in problem.arbors if arbor.name == "E")
-    doubted = replace(e.wheels[0], counts=((222, Fraction(1, 3)), (223, Fraction(1, 2)), (224, Fraction(1, 6))))
-    changed = replace(e, wheels=(doubted, *e.wheels[1:]))
-    arbors = tuple(changed if arbor is e else arbor for arbor in problem.arbors)
-    problem = replace(problem, arbors=arbors, use="arbors")
-    listed = find_reconstructions(problem, listed=1).weights
-    monkeypatch.setattr(reconstruction_search, "_TOLD_APART", 0)
-    found = find_reconstructions(problem, listed=0)
-    assert found.weights == listed
-    assert not found.skeletons
-    assert len(Counter(one.weight for one in listed)) > 4
 
 
 # trains

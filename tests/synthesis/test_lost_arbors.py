@@ -14,8 +14,7 @@ from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_e
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree
-from geartrain.synthesis.reconstruction.train_parts import find_spur_tree, find_spur_trees
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree, find_spur_trees
 from geartrain.train.declaration_files import read_declaration
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel

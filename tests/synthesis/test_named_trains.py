@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geartrain.synthesis.reconstruction.named_train import NamedArbor, name_train
+from geartrain.synthesis.reconstruction.candidate_names import NamedArbor, name_train
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
 
 

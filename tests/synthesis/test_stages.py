@@ -21,8 +21,7 @@ from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
 from geartrain.synthesis import StageConstraints, StageFindings, TargetRatio, find_stages
 from geartrain.synthesis.ratio import search_segments as stages_work
-from geartrain.synthesis.ratio.product_windows import expand, products_of
-from geartrain.synthesis.ratio.ratio_windows import cuts, errors, rounded_up
+from geartrain.synthesis.ratio.product_windows import cuts, errors, expand, products_of, rounded_up
 from geartrain.synthesis.ratio.stage_pairs import best_pairing, suited
 from geartrain.synthesis.stern_brocot import farey_neighbours
 

@@ -18,9 +18,9 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from strategies import driven_trains, ordinary_trains
 
-import geartrain.synthesis.train.pass_tasks as merging
-import geartrain.synthesis.train.pass_tasks as tasks
+import geartrain.synthesis.train.search_passes as merging
 import geartrain.synthesis.train.search_passes as passes
+import geartrain.synthesis.train.search_passes as tasks
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import QuestionError
 from geartrain.kinematics.formulas.output_formulas import find_formulas, with_counts

@@ -11,10 +11,10 @@ from commands import call
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.dynamics import MotionRun
+from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.errors import QuestionError
 from geartrain.synthesis import BestTrainSizes, SizeLimit, find_train_sizes
-from geartrain.synthesis.tooth_sizes.declared_sizes import declared_sizes, sizeable_meshes
+from geartrain.synthesis.tooth_sizes.train_sizes import declared_sizes, sizeable_meshes
 
 NARROW = {"radii": (0.99, 1.06)}
 TWO = """
@@ -120,7 +120,7 @@ def test_pairs_that_share_a_wheel_are_given_one_half_angle(aim: str) -> None:
         if aim == "loss":
             scanned.append(1 - float(train.driven("c", "a").efficiency or 0))
         else:
-            sizes = (declared_sizes(mesh) for mesh in sizeable_meshes(train.meshes_in()).values())
+            sizes = (declared_sizes(mesh) for mesh in sizeable_meshes(train.mechanics.meshes_in()).values())
             scanned.append(-min(each.jam for each in sizes))
     assert (found.together if aim == "loss" else -found.together) <= min(scanned) + 1e-9
     declared = {gear["tooth_form"]["half_angle"] for gear in found.declaration["gears"]}
@@ -160,7 +160,7 @@ def test_the_published_train_with_both_means(radii: str, at_load: float, at_driv
     declared = GearTrain.declare({"extends": "pennestri-2002-teeth", "gears": gears})
     found = declared.driven("19", "2")
     assert float(found.efficiency or 0) == pytest.approx(at_driver, abs=5e-5)
-    (loop,) = declared.power_flow(found).loops
+    (loop,) = find_power_flow(found).loops
     assert float(loop.of_power_in) == pytest.approx(circulating, abs=5e-5)
 
 
@@ -178,7 +178,7 @@ def test_the_published_train_with_the_best_radii(aim: str, output: str, most: fl
     assert found.together <= found.apart < found.before
     assert (degrees(found.together) if aim == "error" else found.together) <= most
     better = GearTrain.declare(found.declaration | {"extends": "pennestri-2002-teeth"})
-    assert not better.faults
+    assert not better.mechanics.faults
     if aim == "error":
         run = MotionRun(better.motion(None, (output,)), 20, 20_000)
         run.go()

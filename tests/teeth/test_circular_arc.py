@@ -244,7 +244,7 @@ def clock() -> GearTrain:
 
 
 def test_a_shipped_clock_runs_with_them_and_its_hands_stray_by_little(clock: GearTrain) -> None:
-    assert not clock.faults
+    assert not clock.mechanics.faults
     assert {mesh.form for mesh in clock.meshes} == {"circular_arc"}
     said = " ".join(to_markdown([describe_train(collect_report(clock))]).split())
     assert "circular arc" in said
@@ -258,7 +258,7 @@ def test_what_is_drawn_has_the_standards_tips(clock: GearTrain) -> None:
     from geartrain.dynamics.train_teeth import find_train_teeth
 
     places = {name: type("Place", (), {"module": 1.0, "cone": 0.0})() for name in train.wheels}
-    teeth = find_train_teeth(clock, places)
+    teeth = find_train_teeth(clock.mechanics, places)
     great, leaf = teeth.wheels["g96"], teeth.wheels["c8"]
     assert not teeth.problems.keys() & {"g96", "c8"}
     assert great.tip == pytest.approx(48 + 1.488, abs=0.006)  # the table at ratios 11 and 12: 1.488, 1.491

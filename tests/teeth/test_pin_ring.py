@@ -200,7 +200,7 @@ gears: [{pair: [p, w], tooth_form: pin_ring}]
 def test_reducers_have_the_ratio_of_their_makers_formula(name: str, link: str, ratio: Fraction) -> None:
     train = geartrain.load(name)
     answer = train.solve()
-    (source,) = train.cases[None].inputs
+    (source,) = train.kinematics.cases[None].inputs
     assert Fraction(answer[source]) / Fraction(answer[link]) == ratio
     assert train.mobility.by_rank == 1
 

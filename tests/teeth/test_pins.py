@@ -95,14 +95,14 @@ def test_friction_takes_what_the_forces_on_one_pin_say(r: float, e: float) -> No
 
 
 def test_the_lunar_pin_swings_by_the_arcsine_of_its_dimensions() -> None:
-    (joint,) = load("freeth-2008").pins
+    (joint,) = load("freeth-2008").mechanics.pins
     assert joint.law.ratio == 1
     assert joint.law.amplitude == pytest.approx(asin(1.1 / 9.6), rel=1e-15)
     assert joint.law.speed_range() == pytest.approx((1 / (1 + 1.1 / 9.6), 1 / (1 - 1.1 / 9.6)), rel=1e-14)
 
 
 def test_the_amplitudes_of_the_planets_are_those_of_their_dimensions() -> None:
-    found = {joint.coupling.name: degrees(joint.law.amplitude) for joint in load("freeth-2021").pins}
+    found = {joint.coupling.name: degrees(joint.law.amplitude) for joint in load("freeth-2021").mechanics.pins}
     printed = {"mercury": 22.95, "venus": 46.04, "mars": 41.1, "jupiter": 11.08, "saturn": 5.99}
     for name, amplitude in printed.items():
         assert found[name] == pytest.approx(amplitude, abs=0.06 if name == "mars" else 0.006)
@@ -115,7 +115,7 @@ def test_the_amplitudes_of_the_planets_are_those_of_their_dimensions() -> None:
 def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, least: float, most: float) -> None:
     train = load("freeth-2021")
     answer = train.solve()
-    (joint,) = (joint for joint in train.pins if joint.coupling.name == planet)
+    (joint,) = (joint for joint in train.mechanics.pins if joint.coupling.name == planet)
     circuit = next(circuit for circuit in train.circuits if circuit.id == planet)
     carrier, pin = float(answer[circuit.carrier]), float(answer[joint.coupling.pin])
     # a pair of equal wheels brings the slot's motion back to the pointer

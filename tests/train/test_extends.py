@@ -146,7 +146,7 @@ def test_a_gear_pair_of_a_new_id_is_added(child: Child) -> None:
 
 def test_revolutes_merge_by_their_unordered_pair(child: Child) -> None:
     train = child("revolutes: [{pair: [c, frame], axis: A2}]")
-    assert train.tree.axis("c") == "A2"
+    assert train.kinematics.tree.axis("c") == "A2"
     assert len(train.declaration.revolutes) == 3
 
 
@@ -199,7 +199,7 @@ def test_a_turning_pair_is_removed_by_its_two_links(child: Child) -> None:
     train = child(
         "remove: {revolutes: [[b, frame]]}\nrevolutes: [{pair: [b, a], axis: A}]\ngears: [{id: p~w, pair: [p, y]}]"
     )
-    assert train.tree.parent["b"] == ("a", "A")
+    assert train.kinematics.tree.parent["b"] == ("a", "A")
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ from shipped import every_train
 from studies.train_families import chain
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.train import json_text, yaml_nodes
-from geartrain.train.declaration_files import read_declaration, shipped
+from geartrain.train import yaml_nodes
+from geartrain.train.declaration_files import parse_json, read_declaration, shipped
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": {"teeth": 60, "internal": True}}}},
@@ -44,8 +44,7 @@ def count_parses(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         met.append(Path(name).name)
         return take(text, name)
 
-    for module in ("declaration_files", "json_text"):
-        monkeypatch.setattr(f"geartrain.train.{module}.parse_yaml", count)
+    monkeypatch.setattr("geartrain.train.declaration_files.parse_yaml", count)
     return met
 
 
@@ -120,7 +119,7 @@ def test_nesting_is_bounded_where_the_yaml_parser_bounds_it() -> None:
     for depth in (yaml_nodes.MOST_DEPTH - 1, yaml_nodes.MOST_DEPTH):
         text = '{"a": ' + "[" * depth + "]" * depth + "}"
         fits = depth < yaml_nodes.MOST_DEPTH
-        assert (json_text.parse_json(text) is not None) == fits
+        assert (parse_json(text) is not None) == fits
         if fits:
             yaml_nodes.parse_yaml(text, "text")
         else:

@@ -47,7 +47,7 @@ def ask(train: GearTrain) -> None:
         json.dumps(torques.to_dict(), allow_nan=False)
         assert torques.verdict.text
     assert train.mobility.by_rank >= 0
-    assert all(problem.what for problem in train.remarks)
+    assert all(problem.what for problem in train.kinematics.remarks)
     assert len(train.equations(train.states[0] if train.states else None).equations) >= len(train.circuits)
     json.dumps(collect_report(train).to_dict(), allow_nan=False)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from studies.cut_pair_law import CutPairLaw
 
 import geartrain
 from geartrain.teeth import Cycloidal, Involute, Lantern
@@ -18,17 +19,15 @@ from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
 from geartrain.teeth.contact.outline_contact import TwoFlankContact, solve
 from geartrain.teeth.contact.outline_curve import OutlineCurve
 from geartrain.uncertainty import (
-    CutWheel,
-    cut_transmission_function,
     find_trial_plan,
     read_error_overrides,
     run_trials,
 )
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
 from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
-from geartrain.uncertainty.manufacturing_errors.file_strokes import file_to_fit
-from geartrain.uncertainty.manufacturing_errors.filed_cut_pair import FileableCutPair
+from geartrain.uncertainty.manufacturing_errors.file_strokes import FileableCutPair, file_to_fit
 from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
 
@@ -429,7 +428,7 @@ def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
     at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
     pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
-    law = cut_transmission_function(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
+    law = CutPairLaw.of(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
     assert law.events.play >= 0
 
 

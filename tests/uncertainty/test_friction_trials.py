@@ -10,7 +10,7 @@ from geartrain import GearTrain
 from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.train import Train
 from geartrain.uncertainty import find_friction_plan, try_frictions
-from geartrain.uncertainty.monte_carlo.friction_plan import draw_friction
+from geartrain.uncertainty.monte_carlo.friction_trials import draw_friction
 
 TRAIN = """
 extends: moon-triangular

@@ -8,14 +8,16 @@ from typing import Literal
 import numpy as np
 import pytest
 from sorge import Pair, least_play
+from studies.cut_pair_law import CutPairLaw
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 from test_hand_cut_law import equally_deep, even, with_ring
 
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.uncertainty import CutWheel, cut_transmission_function
-from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
+from geartrain.uncertainty.manufacturing_errors.least_backlash import even_tooth_pair, jamming_bound, nominal_backlash
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 
 THIRTY = radians(30)
@@ -74,7 +76,7 @@ def test_a_batch_says_of_each_what_its_own_law_says(
         done += 1
         for at in range(4):
             here = shift if np.ndim(shift) == 0 else float(shift[at])
-            events = cut_transmission_function(sizes, driver.trial(at), driven.trial(at), here).events
+            events = CutPairLaw.of(sizes, driver.trial(at), driven.trial(at), here).events
             if not (ring and found.disengaged[at]):  # where no tooth is in reach the play is that of no position
                 near = (1e-6 if cutting is PLACES else 1e-8) * sizes.p2
                 assert found.play[at] == pytest.approx(events.play, abs=near)
@@ -121,6 +123,18 @@ def test_shifted_axles_are_another_centre_distance() -> None:
     assert np.abs(found.play - true.play).max() < 1e-10 * sizes.p2
     each = batch_verdicts(sizes, driver, driven, np.full(20, apart.D - sizes.D))
     assert np.abs(each.play - true.play).max() < 1e-5 * sizes.p2
+
+
+@pytest.mark.parametrize("ring", [0, 1, 2])
+@pytest.mark.parametrize("phase", [APPROACH, RECESS])
+def test_the_derivatives_of_a_contact_are_those_of_its_angle(phase: str, ring: Literal[0, 1, 2]) -> None:
+    """Newton's method finds the least play by them."""
+    sizes = with_ring(24, 15, ring)
+    couple = even_tooth_pair(sizes.at(find_window(sizes).at(0.5)))
+    x, step = np.linspace(-0.9, 0.9, 7) * couple.reach, 1e-5
+    for function, derivative in ((couple.angle, couple.speed), (couple.speed, couple.slope)):
+        low, high = function(phase, x - step, np), function(phase, x + step, np)
+        assert derivative(phase, x, np) == pytest.approx((high - low) / (2 * step), rel=1e-6, abs=1e-8)
 
 
 # ----------------------------------------------------------------------------------------------- printed figures

@@ -1,4 +1,4 @@
-"""The law of wheels cut by hand: without errors, off centre, to first order, and against outlines that touch."""
+"""The law of one pair of cut wheels, an oracle for trials: even, off centre, to first order, and by outlines."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import Literal
 import numpy as np
 import pytest
 from polygons import Judge, Outline
+from studies.cut_pair_law import CutPairLaw
 
 from geartrain import load
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.uncertainty import CutTransmissionFunction, CutWheel, cut_transmission_function
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 
 THIRTY = radians(30)
 KINDS = ("place", "tip", "leading", "trailing")
@@ -48,31 +49,17 @@ def test_without_errors_the_law_is_that_of_even_wheels(z1: int, z2: int, excess:
     S = np.random.default_rng(1).uniform(-4 * pi, 4 * pi, 2000)
     for direction in (1, -1):
         law, cut = (
-            TriangularTransmission(sizes, 0.2, direction),
-            cut_transmission_function(sizes, *even(sizes), 0.0, 0.2, direction),
+            TriangularTransmission(sizes, 0.0, direction),
+            CutPairLaw.of(sizes, *even(sizes), direction=direction),
         )
         assert np.abs(cut.error(S) - law.error(S)).max() < 1e-14 * sizes.p2
         assert np.abs(cut.speed(S) - law.speed(S)).max() < 1e-13 * float(law.ratio)
-        still = np.isnan(law.efficiency(S))
-        assert (np.isnan(cut.efficiency(S)) == still).all()
-        assert np.abs(cut.efficiency(S) - law.efficiency(S))[~still].max() < 1e-12
-
-
-@pytest.mark.parametrize("direction", [1, -1])
-def test_without_errors_a_constant_load_costs_what_it_does_with_even_wheels(direction: int) -> None:
-    sizes = equally_deep(48, 24, 0.02)
-    law, cut = (
-        TriangularTransmission(sizes, 0.2, direction),
-        cut_transmission_function(sizes, *even(sizes), 0.0, 0.2, direction),
-    )
-    assert cut.efficiency_mean() == pytest.approx(law.efficiency_mean(), rel=1e-9)
-    assert cut.efficiency_at_constant_load() == pytest.approx(law.efficiency_at_constant_load(), rel=1e-9)
 
 
 @pytest.mark.parametrize(("z1", "z2", "excess"), [(16, 12, 0.02), (12, 60, 0.025), (24, 12, 0.09), (20, 15, 0.004)])
 def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: int, excess: float) -> None:
     sizes = equally_deep(z1, z2, excess)
-    law, cut = TriangularTransmission(sizes), cut_transmission_function(sizes, *even(sizes))
+    law, cut = TriangularTransmission(sizes), CutPairLaw.of(sizes, *even(sizes))
     kinds = {event.kind for event in cut.events.all}
     assert (law.verdict.kind in kinds) if law.verdict.kind != "runs" else not kinds
     assert cut.events.play == pytest.approx(law.verdict.play, abs=1e-12 * sizes.p2)
@@ -89,12 +76,12 @@ def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: i
 def test_the_law_is_one_of_a_mesh_of_a_train() -> None:
     mesh = load("sorge-pairs").meshes[0]
     sizes = mesh.cut_sizes
-    law = cut_transmission_function(sizes, *even(sizes))
+    law = CutPairLaw.of(sizes, *even(sizes))
     S = np.linspace(0, law.period, 500)
     assert law.period == pytest.approx(2 * pi * lcm(sizes.z1, sizes.z2) / sizes.z1, rel=1e-15)
     assert np.abs(law.error(S) - mesh.law.error(S)).max() < 1e-14 * sizes.p2 + 1e-15 * law.period
     shaped = S.reshape(5, 4, 25)
-    for what in (law.error, law.speed, law.efficiency, law.play):
+    for what in (law.error, law.speed, law.play):
         assert what(shaped).shape == shaped.shape
         assert what(shaped)[2, 3, 7] == what(float(shaped[2, 3, 7]))
 
@@ -126,7 +113,7 @@ def test_eccentric_wheels_are_even_wheels_at_the_distance_of_their_centres(which
     sizes = equally_deep(32, 20, 0.03)
     e, k = tuple(share * min(sizes.depths) for share in which), (0.4, 2.1)
     driver, driven = (wheel.eccentric(e[at], k[at]) for at, wheel in enumerate(even(sizes)))
-    law = cut_transmission_function(sizes, driver, driven)
+    law = CutPairLaw.of(sizes, driver, driven)
     S = np.random.default_rng(2).uniform(0, law.period, 25)
     far = 0.0
     for angle, q in zip(S, law.angle(S), strict=True):
@@ -179,14 +166,14 @@ def test_small_errors_act_as_first_order_says_to_second_order() -> None:
         errors[f"tip{at}"] *= R
     shift = float(rng.standard_normal()) * sizes.R1
 
-    def cut(size: float) -> CutTransmissionFunction:
+    def cut(size: float) -> CutPairLaw:
         one, two = (
             wheel.placed(size * errors[f"place{at}"])
             .grown(size * errors[f"tip{at}"])
             .widened(size * errors[f"leading{at}"], size * errors[f"trailing{at}"])
             for at, wheel in zip((1, 2), even(sizes), strict=True)
         )
-        return cut_transmission_function(sizes, one, two, size * shift)
+        return CutPairLaw.of(sizes, one, two, size * shift)
 
     corners = np.sort(np.array(law.corners()) % sizes.p1)
     S = rng.uniform(0, 2 * pi, 400)
@@ -217,9 +204,7 @@ def test_small_errors_act_as_first_order_says_to_second_order() -> None:
 # ------------------------------------------------------------------------------------------------------------ outlines
 
 
-def drawn(
-    rng: np.random.Generator, ring: Literal[0, 1, 2] = 0
-) -> tuple[TriangularSizes, CutTransmissionFunction, Judge]:
+def drawn(rng: np.random.Generator, ring: Literal[0, 1, 2] = 0) -> tuple[TriangularSizes, CutPairLaw, Judge]:
     """Two wheels with every kind of error, as the law has them and as outlines."""
     while True:
         z1, z2 = (int(z) for z in rng.integers(10, 40, 2))
@@ -248,7 +233,7 @@ def drawn(
             outlines.append(Outline(theta, r, b + less, b + more, wheel.radius < 0).about(e, towards))
         shift = 0.02 * min(sizes.depths) * rng.standard_normal()
         try:
-            law = cut_transmission_function(sizes, *wheels, shift)
+            law = CutPairLaw.of(sizes, *wheels, shift)
         except (RangeError, TypeError):
             continue
         return sizes, law, Judge(outlines[0], outlines[1], sizes.D + shift)
@@ -299,7 +284,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
     sizes = sizes.at(find_window(sizes).at(0.85))
     rng = np.random.default_rng(6)
     places = [0.03 * 2 * pi / z * rng.standard_normal(z) for z in (20, 30)]
-    law = cut_transmission_function(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+    law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
     judge = Judge(
         *(
             Outline(np.arange(w.z) * w.pitch + p, np.full(w.z, w.radius), *np.full((2, w.z), THIRTY))
@@ -333,7 +318,7 @@ def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: i
         sizes = equally_deep(16, 12, 0.0)
         sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
         places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
-        law = cut_transmission_function(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+        law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
         if not law.events or {event.kind for event in law.events.all} != {"clash"} or law.events.play < 0:
             continue
         number -= 1
@@ -364,13 +349,12 @@ def test_the_one_tooth_that_is_out_of_place_is_named() -> None:
     late = np.zeros(16)
     late[5] = 0.45 * sizes.p1
     driver, driven = even(sizes)
-    events = cut_transmission_function(sizes, driver.placed(late), driven).events
+    events = CutPairLaw.of(sizes, driver.placed(late), driven).events
     assert events.jams
     assert events.play < 0
     teeth = {tooth[0] for event in events.of("jam", "clash") for tooth in (event.pushing, event.stopping) if tooth}
     assert 5 in teeth
     assert teeth <= {3, 4, 5, 6, 7}
-    assert "driver tooth" in events.stop.text
 
 
 def test_a_jam_begins_where_the_play_is_used_up() -> None:
@@ -399,7 +383,7 @@ def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
     driver, driven = even(sizes)
     short = np.zeros(12)
     short[[4, 5]] = -0.9 * sizes.depths[0]
-    events = cut_transmission_function(sizes, driver.grown(short), driven).events
+    events = CutPairLaw.of(sizes, driver.grown(short), driven).events
     gaps = events.of("disengaged")
     assert len(gaps) >= lcm(12, 18) // 12
     assert bool(events.of("disengaged"))
@@ -418,21 +402,9 @@ def test_impossible_wheels_are_refused() -> None:
         lambda: driver.widened(-0.6),
         lambda: driver.widened(1.0),
         lambda: driver.grown(-2.0),
-        lambda: cut_transmission_function(sizes, driven, driver),
-        lambda: CutWheel.measured(driver, [0.0], [1.0], [0.5], [0.5]),
         lambda: load("longcase-clock-cycloidal").meshes[0].cut_sizes,
-        lambda: cut_transmission_function(sizes.at(0.001), driver.widened(0.5), driven.widened(0.5)),
+        lambda: CutPairLaw.of(sizes.at(0.001), driver.widened(0.5), driven.widened(0.5)),
     ):
         with pytest.raises(RangeError) as caught:
             make()
         assert all(problem.what and problem.fix for problem in caught.value.problems)
-
-
-def test_a_measured_wheel_is_the_wheel_measured() -> None:
-    sizes = equally_deep(16, 12, 0.03)
-    rng = np.random.default_rng(8)
-    driver, _ = even(sizes)
-    wheel = driver.placed(0.01 * rng.standard_normal(16)).eccentric(0.01, 1.0)
-    again = CutWheel.measured(driver, wheel.theta, wheel.r, THIRTY + wheel.leading, THIRTY + wheel.trailing)
-    for name in KINDS:
-        assert np.abs(getattr(again, name) - getattr(wheel, name)).max() < 1e-15

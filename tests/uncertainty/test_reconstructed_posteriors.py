@@ -17,25 +17,23 @@ from typing import Any
 import pytest
 from concrete_trees import random_problem
 
-from geartrain.synthesis.reconstruction.candidate_prior import skeleton_prior
-from geartrain.synthesis.reconstruction.explained_facts import Fact, FactTally
-from geartrain.synthesis.reconstruction.fact_sums import sum_facts
-from geartrain.synthesis.reconstruction.named_train import NamedArbor, NamedWheel, name_train
+from geartrain.synthesis.reconstruction.candidate_names import NamedArbor, NamedWheel, name_train
+from geartrain.synthesis.reconstruction.explained_facts import Fact, FactTally, sum_facts
 from geartrain.synthesis.reconstruction.reconstruction_problem import PriorFactors, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import topology_prior
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton
-from geartrain.synthesis.reconstruction.skeleton_trains import SkeletonTrains
+from geartrain.synthesis.reconstruction.search_tasks import CountedTopology, TopologyTrains
 from geartrain.train import Train, declare
 from geartrain.uncertainty import ToothCountPosterior, infer_counts
 
 NO_FACTORS = PriorFactors(Fraction(1), Fraction(1), Fraction(1))
 
 
-def graphs(problem: ReconstructionProblem) -> list[list[CountedSkeleton]]:
-    """The skeletons of each graph: one for each way to read the counts of its surviving wheels that fits."""
-    found: dict[str, list[CountedSkeleton]] = defaultdict(list)
-    for each in find_reconstructions(problem, listed=0).skeletons:
-        found[re.sub(r"teeth=\d+", "", repr(each.skeleton.root))].append(each)
+def graphs(problem: ReconstructionProblem) -> list[list[CountedTopology]]:
+    """The topologies of each graph: one for each way to read the counts of its surviving wheels that fits."""
+    found: dict[str, list[CountedTopology]] = defaultdict(list)
+    for each in find_reconstructions(problem, listed=0).topologies:
+        found[re.sub(r"teeth=\d+", "", repr(each.topology.root))].append(each)
     return list(found.values())
 
 
@@ -95,22 +93,22 @@ def test_both_commands_give_the_same_fractions(first: int) -> None:
         problem = replace(random_problem(seed, idlers=True), factors=NO_FACTORS)
         dials, survivors = [dial.name for dial in problem.dials], (problem.input, *problem.arbors)
         links, wheels = {arbor.name for arbor in survivors}, [wheel for arbor in survivors for wheel in arbor.wheels]
-        for skeletons in graphs(problem)[:6]:
-            some = skeletons[0]
-            drawn = SkeletonTrains(problem, dials).draw(some.skeleton, Random(seed))
+        for topologies in graphs(problem)[:6]:
+            some = topologies[0]
+            drawn = TopologyTrains(problem, dials).draw(some.topology, Random(seed))
             root = name_train(drawn, dials, links, {wheel.name for wheel in wheels})
             own = {wheel.name: wheel for arbor in root.arbors() for wheel in arbor.wheels()}
             used = [wheel for wheel in wheels if wheel.name in own]
             if all(wheel.is_sure for wheel in used) and not any(wheel.added for wheel in own.values()):
                 continue  # nothing is in doubt
             found = infer_counts(declared(problem, root), method="exact")
-            weighed = [(one.skeleton, skeleton_prior(one.skeleton, problem)) for one in skeletons]
+            weighed = [(one.topology, topology_prior(one.topology, problem)) for one in topologies]
             tally = sum_facts(weighed, problem, dials)
             orders = some.mechanisms // some.choices
-            assert (found.method, found.fits) == ("exact", sum(one.choices for one in skeletons))
+            assert (found.method, found.fits) == ("exact", sum(one.choices for one in topologies))
             assert tally.trains == orders * found.fits
             whole = prod(sum(weight for _, weight in wheel.counts) for wheel in used)
-            weights = zip(weighed, skeletons, strict=True)
+            weights = zip(weighed, topologies, strict=True)
             assert found.evidence.exact == sum(weight * one.choices for (_, weight), one in weights) / whole
             for wheel in used:
                 if not wheel.is_sure:

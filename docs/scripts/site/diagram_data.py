@@ -71,7 +71,7 @@ def circuits() -> Data:
 def _graph(name: str, title: str) -> Data:
     train = geartrain.load(name)
     places, edges = graph_layout(train)
-    texts = train.equations(train.state_or_first(None)).text().splitlines()
+    texts = train.equations(train.declaration.state_or_first(None)).text().splitlines()
     rows = dict(re.split(r"  +", line, maxsplit=1) for line in texts)
     return {
         "title": title,

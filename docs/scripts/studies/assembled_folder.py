@@ -1,11 +1,12 @@
-"""An exported folder as a stranger reads it: trimesh on assembly.glb, manifold3d for volumes, and nothing of geartrain.
+"""An exported folder as a stranger reads it: trimesh on its files, manifold3d for volumes, and nothing of geartrain.
 
-Parts stand where the file's own nodes put them. Fits are measured on sections across the axes, between the corners of
-a hole and those of what stands in it.
+Surfaces are those of assembly.stl; names and bodies are those of assembly.glb, whose positions are rounded. Fits are
+measured on sections across the axes, between the corners of a hole and those of what stands in it.
 """
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -81,17 +82,22 @@ class MeasuredOverlap:
 
 
 def read_parts(folder: Path) -> list[AssembledPart]:
-    """All parts of assembly.glb."""
-    scene = trimesh.load_scene(folder / "assembly.glb")
-    parts = []
-    for node in scene.graph.nodes_geometry:
-        matrix, name = scene.graph[node]
-        mesh = scene.geometry[name].copy()
-        mesh.apply_transform(matrix)
-        mesh.apply_scale(1000.0)
-        mesh.merge_vertices(merge_norm=True, merge_tex=True)
-        *_, body, _ = scene.graph.transforms.shortest_path(scene.graph.base_frame, node)  # type: ignore[no-untyped-call]
-        parts.append(AssembledPart(str(node), str(body), mesh))
+    """All parts of assembly.stl, which follow each other as the nodes of assembly.glb that have a mesh."""
+    whole: Any = trimesh.load(folder / "assembly.stl", process=False)
+    triangles = whole.triangles
+    data = (folder / "assembly.glb").read_bytes()
+    content = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    nodes = content["nodes"]
+    bodies = {child: node["name"] for node in nodes for child in node.get("children", ())}
+    parts, start = [], 0
+    for at, node in enumerate(nodes):
+        if "mesh" in node:
+            (shown,) = content["meshes"][node["mesh"]]["primitives"]
+            corners = content["accessors"][shown["indices"]]["count"]
+            own, start = triangles[start : start + corners // 3], start + corners // 3
+            mesh = trimesh.Trimesh(own.reshape(-1, 3), np.arange(corners).reshape(-1, 3))
+            parts.append(AssembledPart(node["name"], bodies[at], mesh))
+    assert start == len(triangles)
     return parts
 
 

@@ -15,10 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.spherical import GraphSet, from_graph, graph_set, size_gears
-from geartrain.spherical.circle_packing import SpherePacking, pack_circles
-from geartrain.spherical.graph_set import Aim
-from geartrain.spherical.planar_map import checked_graph, regions_of, with_region_circles
-from geartrain.spherical.planar_packing import PlanarPacking, angle_excess
+from geartrain.spherical.circle_packing import PlanarPacking, SpherePacking, angle_excess, pack_circles
+from geartrain.spherical.graph_set import Aim, checked_graph, regions_of, with_region_circles
 from studies.measurement import timed
 from studies.planar_graphs import graph
 from studies.reference_solutions import numbers

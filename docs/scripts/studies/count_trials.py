@@ -11,8 +11,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis.gear_train import GearTrain
-from geartrain.analysis.loader import load
+from geartrain.analysis.gear_train import GearTrain, load
 from geartrain.kinematics.formulas import with_counts
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
 from geartrain.uncertainty.posterior.monomial_columns import MonomialColumns

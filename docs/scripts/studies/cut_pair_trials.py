@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 
 from geartrain.numerics.work import open_executor, run
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.uncertainty import CutWheel, cut_transmission_function
 from geartrain.uncertainty.confidence_intervals import wilson
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 from geartrain.uncertainty.manufacturing_errors.least_backlash import nominal_backlash
 from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
+from studies.cut_pair_law import CutPairLaw
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 from studies.uncertainty_records import ErrorRecord
 
@@ -87,7 +88,7 @@ class Batch:
         return [self._single(at) for at in range(trials)]
 
     def _single(self, at: int) -> Single:
-        law = cut_transmission_function(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
+        law = CutPairLaw.of(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
         events = law.events
         return events.play, (events.stop is not None, bool(events.of("standstill")), bool(events.of("disengaged")))
 

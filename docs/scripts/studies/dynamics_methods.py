@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
 from geartrain.dynamics.contacts.law_tables import tabled_angle
-from geartrain.dynamics.contacts.slack_pin import SlackPin
 from geartrain.dynamics.contacts.tooth_yield import ToothYield, damping_ratio
+from geartrain.dynamics.contacts.train_model import SlackPin
 from geartrain.dynamics.steps.run_record import BLOW_COUNT, BLOWS, GAP, TIME_APART
 from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission

@@ -19,7 +19,6 @@ class TreeRecord:
     wheels    of all of them that mesh
     pointers  outputs whose speeds are known
     teeth     least and greatest count that is added
-    slower    why lists of paths are searched, and not whole trees, which is faster
     """
 
     train: str
@@ -29,7 +28,6 @@ class TreeRecord:
     wheels: int
     pointers: Sequence[str]
     teeth: Sequence[int]
-    slower: Sequence[str] = ()
 
     @property
     def questions(self) -> int:
@@ -210,7 +208,6 @@ _SUMMARY: dict[str, Callable[[_TreeRows], str]] = {
     "arbors": lambda one: str(len(one.tree.arbors)),
     "wheels": lambda one: str(one.tree.wheels),
     "pointers": lambda one: str(len(one.tree.pointers)),
-    "searched by": lambda one: f"paths: {', '.join(one.tree.slower)}" if one.tree.slower else "whole trees",
     "questions": lambda one: str(one.tree.questions),
     "asked to the end": lambda one: str(len(one.whole)),
     "train found": lambda one: str(sum(row.is_found for row in one.rows)),

@@ -21,9 +21,7 @@ from typing import Any
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
-from geartrain.synthesis.reconstruction.candidate_prior import prior
 from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.followed_train import is_reached
 from geartrain.synthesis.reconstruction.known_rank import find_place
 from geartrain.synthesis.reconstruction.lost_arbors import (
     is_all_listed,
@@ -33,12 +31,11 @@ from geartrain.synthesis.reconstruction.lost_arbors import (
     rank_of,
 )
 from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
+from geartrain.synthesis.reconstruction.reconstruction_result import mechanism, prior
 from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree
-from geartrain.synthesis.reconstruction.train_parts import find_spur_trees, why_not
-from geartrain.synthesis.reconstruction.whole_tree_questions import whole_tree_obstacles
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_trees, why_not
 from geartrain.train.declaration_files import read_declaration, shipped
+from studies.followed_train import is_reached
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
 from studies.measurement import gathered
 
@@ -100,7 +97,7 @@ def more_left_out(
     end = monotonic() + 60 * minutes
     waiting = [each for each in _questions(trees) if not names or each[0][0] in names]
     # the sooner the fewer wheels are lost, and where lists are short: those of exact dials
-    quick = {part: "tolerances" not in _slower(tree) for part, tree in trees.items()}
+    quick = {part: _is_exact(tree) for part, tree in trees.items()}
     waiting.sort(key=lambda each: (not quick[each[0]], lost_wheels(trees[each[0]], each[1]), len(each[1])))
     steps: list[Callable[[Rows, SpurTree, Question, float, float], None]]
     steps = [_add_new, _add_known, *(partial(_add_less, what) for what in _LESS)]
@@ -321,11 +318,12 @@ def _records(
 
 def _tree_record(name: str, part: str, tree: SpurTree) -> TreeRecord:
     counted = tree.source, list(tree.able), len(tree.counts), list(tree.pointers), list(tree.teeth)
-    return TreeRecord(name, part, *counted, _slower(tree))
+    return TreeRecord(name, part, *counted)
 
 
-def _slower(tree: SpurTree) -> list[str]:
-    return list(whole_tree_obstacles(evidence_question(lost_evidence(tree, tree.able[:1])).problem))
+def _is_exact(tree: SpurTree) -> bool:
+    """Whether no pointer has a tolerance."""
+    return all(dial.is_exact for dial in evidence_question(lost_evidence(tree, tree.able[:1])).problem.dials)
 
 
 def _cover(name: str) -> CoverRecord:

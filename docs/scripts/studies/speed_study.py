@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.analysis.gear_train import GearTrain
-from geartrain.analysis.loader import load
+from geartrain.analysis.gear_train import GearTrain, load
 from geartrain.kinematics.circuits import find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
@@ -157,7 +156,7 @@ def _exact(train: GearTrain) -> Mapping[str, Fraction]:
     """Walk, reduce, eliminate, read off: everything but the circuits themselves."""
     declared = train.declaration
     part = SolvedPart(tuple(declared.links), declared.frame, train.circuits, tuple(declared.inputs))
-    return solve(part, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
+    return solve(part, declared.case(train.states[0] if train.states else None), train.kinematics.signs, None).speeds
 
 
 def _read(speeds: Mapping[str, Fraction]) -> Mapping[str, Fraction]:

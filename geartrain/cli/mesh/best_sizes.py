@@ -16,8 +16,8 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.triangular_form import Triangular
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit
     from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes
+    from geartrain.synthesis.tooth_sizes.size_search import ChanceLimit
 
 _DESIGNS = {1: 60, 2: 500, 3: 900}
 """About so many designs are looked at for so many free parameters, for each aim."""

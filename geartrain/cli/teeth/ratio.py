@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from geartrain.cli.common import Force, Json, Out
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.teeth.search_options import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
@@ -20,7 +20,6 @@ from geartrain.cli.teeth.search_options import (
     SearchAnswer,
     Tolerance,
     Wheels,
-    Workers,
     check_number,
     read_tolerance,
 )
@@ -48,7 +47,7 @@ def run(
     different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
     most_total: Annotated[int | None, typer.Option("--most-total", min=2, help="Greatest sum of all counts.")] = None,
     workers: Workers = None,
-    scheduler: Scheduler = None,
+    dask: Dask = None,
     resume: Resume = False,
     csv: Csv = False,
     json: Json = False,
@@ -83,7 +82,7 @@ def run(
         "by": by,
         "fit": fit,
     }
-    with long_run("teeth", question, out, RunOptions(workers, scheduler, resume)) as given:
+    with long_run("teeth", question, out, RunOptions(workers, dask, resume)) as given:
         found = find_stages(
             wanted,
             stages,

@@ -36,7 +36,6 @@ Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Greatest rel
 Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many solutions to list.")]
 Pick = Annotated[int, typer.Option("--pick", min=1, help="Which solution -o writes as a declaration.")]
 Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default all cores.")]
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from geartrain.cli.common import File, Force, Json, Names, Out, StateName
-from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
-from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, Workers, read_tolerance
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
 
 Flag = bool
 
@@ -57,7 +56,7 @@ def run(
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
-    scheduler: Scheduler = None,
+    dask: Dask = None,
     resume: Resume = False,
     csv: Csv = False,
     json: Json = False,
@@ -67,56 +66,39 @@ def run(
     """Counts of the free wheels of a train that meet all its targets at once, under the rules given."""
     from geartrain.report.tooth_numbers import assignment_rows, describe_assignments
     from geartrain.synthesis.constraints.constraint_options import read_constraint_options
-    from geartrain.synthesis.train.train_search import search_train
+    from geartrain.synthesis.train.train_search import TrainSearchRequest, answer_search
     from geartrain.train.declaration_files import read_declaration
 
     answer = SearchAnswer.of(csv, json, out, force, pick)
     train = read_declaration(file)
     _check_kept(file, answer.out.path)
-    asked = {
-        "planets": planets,
-        "clearance": clearance,
-        "undercut": undercut,
-        "interference": interference,
-        "largest_radius": largest_radius,
-        "addendum": addendum,
-        "ring_addendum": ring_addendum,
-        "least": least,
-        "most_teeth": most_teeth,
-        "shift": shift,
-        "coaxial": coaxial,
-        "hunting": hunting,
-        "different": different,
-        "closure": closure,
-    }
-    options: dict[str, Any] = {name: value for name, value in asked.items() if value is not None}
-    rules = read_constraint_options(**options)
-    chosen: Any = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
-    stands = [_assignment(text) for text in where or ()]
-    most_error = read_tolerance(tolerance)
-    question = {
-        "train": train.model_dump(mode="json"),
-        "state": state,
-        "free": chosen,
-        "rules": options,
-        "tolerance": str(most_error),
-        "best": best,
-        "by": by,
-    }
-    with long_run("teeth", question, out, RunOptions(workers, scheduler, resume)) as given:
-        found = search_train(
-            train,
-            state,
-            free=chosen,
-            rules=rules,
-            tolerance=most_error,
-            best=best,
-            by=by,  # type: ignore[arg-type]
-            executor=given.executor,
-            journal=given.journal,
-            tell=given.tell,
-        )
-        found = replace(found, where=tuple(standing for teeth in stands for standing in found.standing(teeth)))
+    request = TrainSearchRequest(
+        train,
+        state,
+        free=free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(",")),
+        rules=read_constraint_options(
+            planets=planets,
+            clearance=clearance,
+            undercut=undercut,
+            interference=interference,
+            largest_radius=largest_radius,
+            addendum=addendum,
+            ring_addendum=ring_addendum,
+            least=least,
+            most_teeth=most_teeth,
+            shift=shift,
+            coaxial=coaxial,
+            hunting=hunting,
+            different=different,
+            closure=closure,
+        ),
+        tolerance=read_tolerance(tolerance),
+        best=best,
+        by=by,  # type: ignore[arg-type]
+        where=tuple(_assignment(text) for text in where or ()),
+    )
+    with long_run("teeth", request.to_dict(), out, RunOptions(workers, dask, resume)) as given:
+        found = answer_search(request, given)
         close_journal(given.journal, cut=found.ended == "interrupted")
     answer.give(
         found,

@@ -19,7 +19,6 @@ import numpy as np
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.dynamics.contacts.law_tables import TOLERANCE, TabledFunction, tabled_angle
 from geartrain.dynamics.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
-from geartrain.dynamics.contacts.slack_pin import SlackPin
 from geartrain.dynamics.contacts.time_case import TimeCase
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
@@ -28,6 +27,8 @@ from geartrain.numerics.elimination import eliminate
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from geartrain.dynamics.contacts.tooth_yield import ToothYield
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
@@ -38,7 +39,34 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import Train
 
+
 _FREE = 0.05  # of the mean ratio: a pair whose ratio stays above is followed the other way round as well
+
+
+class SlackPin(ExactRatio):
+    """The law of a pin on one side of its slot, which is wider than the pin by `clearance`, docs/dynamics.md (9).
+
+    The slot stands asin(clearance/(2 rho)) ahead of where a tight pin would have it (`side` 1), or behind (-1), rho the
+    pin's distance from the slot's axis.
+    """
+
+    def __init__(self, law: PinTransmission, clearance: float, side: int) -> None:
+        super().__init__(law.ratio, law.period)
+        self.law, self.clearance, self.side, self.friction = law, clearance, side, law.friction
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the slot) at pin angles S (rad)."""
+        return np.asarray(self.law.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S))))
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """Speed ratio at pin angles S (rad)."""
+        square, half = self._square(S), self.clearance / 2
+        turning = half * self.law.r * self.law.e * np.sin(S) / (square * np.sqrt(square - half**2))
+        return np.asarray(self.law.speed(S) - self.side * turning)
+
+    def _square(self, S: ArrayLike) -> Floats:
+        half = np.sin(np.asarray(S, dtype=float) / 2)
+        return np.asarray((self.law.r - self.law.e) ** 2 + 4 * self.law.r * self.law.e * half**2)
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
-from geartrain.dynamics.train_teeth import ToothedTrain
 from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.numerics.plain_data import Result
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.circuits import Circuit, Tree
-    from geartrain.train import StateCase
+    from geartrain.dynamics.train_mechanics import TrainMechanics
 
 _MILLIMETRES = 1e-3
 
@@ -43,7 +41,7 @@ class LinkInertia(Result):
 
     See Also
     --------
-    geartrain.GearTrain.inertias : what gives these.
+    find_link_inertias : what gives these.
     """
 
     link: str
@@ -69,24 +67,44 @@ def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: f
     return PlateMoments(scale * area * _MILLIMETRES**2, scale * polar * _MILLIMETRES**4)
 
 
-class MovingTrain(ToothedTrain, Protocol):
-    """A train whose joints are known too."""
+def find_link_inertias(
+    train: TrainMechanics, state: str | None = None, with_inputs: bool = False
+) -> tuple[LinkInertia, ...]:
+    """The moment of inertia of every link that moves and whose motion is not prescribed, and where each is from.
 
-    @property
-    def tree(self) -> Tree:
-        """The joints."""
+    Parameters
+    ----------
+    train : TrainMechanics
+        `GearTrain.mechanics`.
+    state : str, optional
+        A declared state; None only of a train that has none.
+    with_inputs : bool
+        Those of the inputs too, as where a torque or a weight drives them.
 
-    @property
-    def circuits(self) -> tuple[Circuit, ...]:
-        """The pairs with their carriers."""
+    Returns
+    -------
+    tuple of LinkInertia
+        In the order of the declaration (docs/dynamics.md, section 1).
 
+    Examples
+    --------
+    Two wheels of bronze, 2 mm thick, from the outlines of their teeth:
 
-def find_link_inertias(train: MovingTrain, case: StateCase, with_inputs: bool = False) -> tuple[LinkInertia, ...]:
-    """Of every link that moves and whose motion is not prescribed, in the order of the declaration.
-
-    with_inputs   inputs are let go, as by a weight that drives
+    >>> import geartrain
+    >>> train = geartrain.load('''
+    ... links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: {teeth: 60, module: 1 mm}}}}
+    ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    ... gears: [{pair: [p, w]}]
+    ... density: 8.7 g/cm3
+    ... thickness: 2 mm
+    ... inputs: {a: 1}
+    ... ''')
+    >>> found = find_link_inertias(train.mechanics)
+    >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in found]
+    [('b', 'outlines', 2.2e-05)]
     """
-    declared = train.declaration
+    train = train.planets_as_one
+    declared, case = train.declaration, train.kinematics.case(state)
     prescribed = {declared.frame, *case.fixed} | (set() if with_inputs else set(case.inputs))
     bodies = _Bodies(train)
     return tuple(bodies.whole(link) for link in declared.links if link not in prescribed)
@@ -95,7 +113,7 @@ def find_link_inertias(train: MovingTrain, case: StateCase, with_inputs: bool = 
 class _Bodies:
     """The links of a train as bodies."""
 
-    def __init__(self, train: MovingTrain) -> None:
+    def __init__(self, train: TrainMechanics) -> None:
         self.train, self.declared = train, train.declaration
 
     def whole(self, link: str) -> LinkInertia:

@@ -89,7 +89,7 @@ class SeparationRates(Result):
 
     See Also
     --------
-    geartrain.GearTrain.separation_rates : what gives these.
+    geartrain.dynamics.find_separation : gives these.
     """
 
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")

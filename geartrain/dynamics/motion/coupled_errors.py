@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-MOST_STEPS = 120  # halved steps count too
-SETTLED = 2e-15  # rad, over the scale of the angles added
-FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
+_MOST_STEPS = 120  # halved steps count too
+_SETTLED = 2e-15  # rad, over the scale of the angles added
+_FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
 _HALVINGS = 64  # of four pitches, or of four turns of cut wheels: to rounding
 
-NO_FIT = "no angles of theirs fit all laws at once"
-DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is driven by it"
+_NO_FIT = "no angles of theirs fit all laws at once"
+_DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is driven by it"
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def solve_coupled_errors(
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
     # 1 for ideal teeth: not positive any more means past a dead centre
     if not (_determinant(jacobian) > 0).all():
-        raise refusal(pairs.names, DEAD_CENTRE)
+        raise _refusal(pairs.names, _DEAD_CENTRE)
     rate = _solve(jacobian, slope * speed)
     return delta, rate, list(speed + pairs.gain @ rate)
 
@@ -80,12 +80,12 @@ def solve_coupled_errors(
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     """Errors, and the slopes of the laws there."""
-    tolerance = SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
+    tolerance = _SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.laws_at(base, active)
     now = delta.copy()
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
-    for _ in range(MOST_STEPS):
+    for _ in range(_MOST_STEPS):
         trial = now - length * step
         # at first the step is 0 and the size infinite: the first trial is the start itself
         error, slope = pairs.laws_at(base[:, active] + pairs.gain @ trial, active)
@@ -93,7 +93,7 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
         found = np.max(np.abs(residual), axis=0)
         better = found < size
         # where nothing lessens it any more the residual is rounding, or the last of a corner
-        done = (better & (found <= tolerance)) | (~better & (length < 1e-9) & (size <= FORGIVEN))
+        done = (better & (found <= tolerance)) | (~better & (length < 1e-9) & (size <= _FORGIVEN))
         length = np.where(better, 1.0, length / 2)
         now, size = np.where(better, trial, now), np.where(better, found, size)
         delta[:, active] = now
@@ -105,7 +105,7 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
         if not left.any():
             return delta, slopes
         active, now, step, length, size = active[left], now[:, left], step[:, left], length[left], size[left]
-    stuck = active[size > FORGIVEN]
+    stuck = active[size > _FORGIVEN]
     if stuck.size:
         delta[:, stuck], slopes[:, stuck] = _bisected(pairs, base[:, stuck], stuck)
     return delta, slopes
@@ -119,16 +119,16 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
     Where nothing touches, the error is that of the law, infinite.
     """
     if len(pairs.laws) > 1:
-        raise refusal(pairs.names, NO_FIT)
+        raise _refusal(pairs.names, _NO_FIT)
     high = np.full_like(base, 2 * float(pairs.laws[0].ratio) * pairs.laws[0].period)
     low = -high
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         error, slope = pairs.laws_at(base + pairs.gain * middle, columns)
-        if (slope * pairs.gain > 1 + FORGIVEN).any():
-            raise refusal(pairs.names, DEAD_CENTRE)
+        if (slope * pairs.gain > 1 + _FORGIVEN).any():
+            raise _refusal(pairs.names, _DEAD_CENTRE)
         low, high = np.where(middle < error, middle, low), np.where(middle < error, high, middle)
-    slope[np.abs(middle - error) > FORGIVEN] = 0.0
+    slope[np.abs(middle - error) > _FORGIVEN] = 0.0
     return np.where(np.isfinite(error), middle, error), slope
 
 
@@ -161,7 +161,7 @@ def _determinant(matrices: Floats) -> Floats:
     return np.asarray(np.linalg.det(matrices))
 
 
-def refusal(pairs: Sequence[str], why: str) -> GearTrainError:
+def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
     """The error that says which pairs cannot be followed, and why."""
     names = ", ".join(pairs)
     if len(pairs) == 1:

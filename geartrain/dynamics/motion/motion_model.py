@@ -1,27 +1,31 @@
-"""From a solved train to its motion: which pairs ripple, who drives, where they start, and how their errors spread."""
+"""From a solved train to its motion: which pairs ripple, who drives, where they start, and how their errors spread.
+
+At turn 0 every tooth and pin is where its phase says, and every pointer is set: section 3 of docs/motion.md. The angles
+of drivers are counted from turn 0, so that the errors of the pairs before a pair do not move the tooth with which it
+starts.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
 from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
-from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
-from geartrain.dynamics.motion.motion_picture import PicturedMotion
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
-from geartrain.dynamics.motion.pointer_compositions import PointerCompositions
-from geartrain.dynamics.motion.run_statistics import RunningStatistics
-from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.relative_speeds import axis_sense
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.result_picture import picture_maker
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -31,7 +35,94 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-class Motion(PicturedMotion):
+@dataclass(frozen=True)
+class PointerCompositions:
+    """The compositions of some outputs of a train, from the errors of its pairs."""
+
+    errors: PairErrors
+    outputs: tuple[SeenLink, ...]
+
+    def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
+        """The composition while the input turns that way; `besides` as of `PairErrors.sources`."""
+        play, (teeth, pins) = self.errors.play(way), self._start
+        found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
+        sources = tuple(
+            replace(
+                each,
+                phase=each.phase + found.driver_shift(each, play),
+                set_back=found.driver_shift(each, teeth + pins),
+            )
+            for each in found.sources
+        )
+        return replace(found, sources=sources, offsets=tuple(each.difference(play - teeth) for each in self.outputs))
+
+    @cached_property
+    def _start(self) -> tuple[Floats, Floats]:
+        """What teeth, and what pins add to the angle of each link at turn 0 (rad): linear, as all drivers are known."""
+        deltas = np.zeros((len(self.errors.spread.pairs), 2))
+        pins = {joint.coupling.name for joint in self.errors.train.pins}
+        for each in self.errors.sources(1):
+            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.law.error(each.phase))
+        teeth, slots = self.errors.spread.errors(deltas).T
+        return teeth, slots
+
+    @property
+    def setting(self) -> Floats:
+        """By how much each link is turned on its wheels (rad), so that its teeth do not displace it at turn 0."""
+        return -self._start[0]
+
+
+@dataclass(frozen=True)
+class TransmissionErrorCurve(Result):
+    """The transmission error of one output, position by position.
+
+    Attributes
+    ----------
+    name : str
+        The output.
+    ratio : Fraction
+        Exact mean speed over the input's.
+    error : array of float, (n,)
+        Angle less its mean motion [rad].
+    speed : array of float, (n,)
+        Speed over the input's.
+
+    See Also
+    --------
+    Motion.ripples : what gives these.
+    """
+
+    KEYS = (Key("", "tally"),)
+
+    name: str
+    ratio: Fraction
+    error: Floats
+    speed: Floats
+
+    @property
+    def mean(self) -> float:
+        """Mean speed over the input's."""
+        return mean_speed(self.name, self.ratio)
+
+    @cached_property
+    def tally(self) -> RunningStatistics:
+        """Peaks and moments."""
+        tally = RunningStatistics(self.name, self.ratio)
+        tally.add(self.error, self.speed - self.mean)
+        return tally
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Greatest less least error (rad)."""
+        return self.tally.peak_to_peak
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the error about its mean (rad)."""
+        return self.tally.rms
+
+
+class Motion:
     """A train's motion with real teeth and pins, as a function of the turns of its input.
 
     Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
@@ -347,3 +438,40 @@ class Motion(PicturedMotion):
             for at, tally in enumerate(self.tallies())
         }
         return angle, found
+
+    def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
+        """Angles, errors and speeds over turns of the input, as a figure that notebooks show.
+
+        Parameters
+        ----------
+        *outputs : str
+            Names of those to draw; all where none is given.
+        turns : float
+            Of the input, from the position where ideal teeth stand as declared [turn].
+        samples : int
+            Positions, 2 or more, both ends included.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            As `geartrain.drawing.outputs_figure` draws it.
+
+        Raises
+        ------
+        MissingExtraError
+            Without matplotlib, which the extra `plot` brings.
+        QuestionError
+            For an output that is not followed.
+
+        Examples
+        --------
+        >>> import geartrain
+        >>> motion = geartrain.load("moon-triangular").motion()
+        >>> motion.plot("moon", turns=0.1).axes[-1].get_xlabel()
+        'turns of crank'
+        """
+        for name in outputs:
+            check_choice("output", name, list(self.outputs))
+        shown = {name: self.outputs[name] for name in outputs or self.outputs}
+        motion = Motion(self.train, shown, self.tolerance, self.fast)
+        return picture_maker("drawing", "outputs_figure")(motion, turns, samples)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import permutations
 from typing import TYPE_CHECKING
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.relative_speeds import relative_speed
@@ -17,10 +18,10 @@ from geartrain.numerics.containers import ItemwiseMapping
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.circuits.joint_tree import Tree
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
-    from geartrain.train import StateCase, Train
 
 
 @dataclass(frozen=True)
@@ -101,38 +102,36 @@ class MotionProblem:
         return any(joint.coupling.name == pair for joint in self.pins) if mesh is None else not mesh.rigid
 
 
-def build_motion_problem(
-    train: Train,
-    case: StateCase,
-    circuits: Sequence[Circuit],
-    signs: Mapping[str, int],
-    speeds: Mapping[str, Fraction],
-    meshes: Mapping[str, GearMesh],
-    pins: Sequence[PinMesh],
-    drivers: Mapping[str, MeshDriver],
-    tree: Tree,
-) -> MotionProblem:
-    """A train in one case, moving along some circuits: those that are left out leave their teeth out too.
+def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
+    """A train in one state; pairs that are left out leave their teeth out too. Raises `QuestionError` if it rests.
 
-    drivers   who drives each pair and coupling
+    without   pairs left out, so that real teeth do not contradict each other around a loop
     """
-    parts = SolvedPart(tuple(train.links), train.frame, circuits, tuple(case.inputs)).reduced.components
+    own, declared, meshes, pins = train.kinematics, train.declaration, train.undriven, train.pins
+    case = own.case(state)
+    solution = own.solution(case)
+    if not solution.verdict or not any(case.inputs.values()):
+        what = f"'{declared.name}' does not move"
+        raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
+    circuits, drivers = own.circuits_without(without), train.drivers(case.state, without)
+    links = tuple(declared.links)
+    parts = SolvedPart(links, declared.frame, circuits, tuple(case.inputs)).reduced.components
     redundant = {parts.circuits[chord].id for chord in parts.closing}
-    whole = assemble_willis_system(tuple(train.links), train.frame, circuits, case, signs)
+    whole = assemble_willis_system(links, declared.frame, circuits, case, own.signs)
     kept = {circuit.id for circuit in circuits}
     return MotionProblem(
         WillisSystem(whole.links, tuple(row for row in whole.equations if row.label not in redundant)),
         circuits,
-        signs,
-        speeds,
-        train.frame,
+        own.signs,
+        solution.speeds,
+        declared.frame,
         next(link for link, speed in case.inputs.items() if speed),
         ItemwiseMapping((name for name in meshes if name in kept), lambda name: meshes[name].driven_by(drivers[name])),
         [joint for joint in pins if joint.coupling.name in kept],
         drivers,
-        {name: link.angle.si for name, link in train.links.items() if link.angle is not None},
-        {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
-        find_shared_wheels(circuits, tree) if meshes else {},
+        {name: link.angle.si for name, link in declared.links.items() if link.angle is not None},
+        {gear.name: float(gear.phase.value) for gear in declared.gears if gear.phase is not None},
+        find_shared_wheels(circuits, own.tree) if meshes else {},
         [parts.loop(chord) for chord in parts.closing] if meshes or pins else [],
     )
 

@@ -2,20 +2,79 @@
 
 Where the speed ratio tau falls at a rate s = max(-d tau / dS), the driven inertia J stays in contact at the driver's
 speed w if the load torque is at least J w^2 s; under a load T the law is void above w = sqrt(T / (J s)).
+
+In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. A pair whose driven side jumps
+by one radian a second makes every link l jump by its response g_l, so that side strikes with the inertia sum J_l g_l^2;
+an inelastic blow of a speed difference v takes half of it times v^2. In an ordinary train that is the inertia of all
+that turns with the driven wheel, seen from it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi, sqrt
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from geartrain.dynamics.motion.motion_model import Motion
     from geartrain.teeth.transmission import SpeedLeap, TransmissionFunction
+
+
+@dataclass(frozen=True)
+class ToothImpact:
+    """Collisions of the teeth of one pair, where its speed ratio leaps up: equation (7) of docs/motion.md.
+
+    Attributes
+    ----------
+    inertia : float
+        Of all that is struck, at the driven wheel [kg m^2].
+    rate : float
+        Pitches passed a second [1/s].
+    blows : tuple of float
+        Jumps of the driven wheel's speed [rad/s], those of one pitch.
+
+    See Also
+    --------
+    geartrain.GearTrain.impacts : what gives these, by pair.
+    """
+
+    inertia: float
+    rate: float
+    blows: tuple[float, ...]
+
+    @property
+    def power(self) -> float:
+        """Power dissipated (W)."""
+        return self.rate * sum(self.inertia * blow**2 / 2 for blow in self.blows)
+
+
+def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
+    """The collisions of every pair whose speed ratio leaps, the input turning at `speed` (rad/s).
+
+    inertias   of links about their own axes (kg m2); links without one count as having none
+    """
+    spread = motion.spread
+    weight = np.array([inertias.get(link, 0.0) for link in spread.links])
+    found = {}
+    for source in motion.ahead.sources:
+        law = source.law
+        leaps = law.speed_leaps()
+        if leaps is None:
+            continue
+        unit = np.zeros((len(spread.pairs), 1))
+        unit[source.pair] = 1.0
+        struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
+        driver = abs(source.mean * speed)
+        blows = tuple(leap.size * driver for leap in leaps)
+        found[source.id] = ToothImpact(struck, driver / law.period, blows)
+    return found
 
 
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:

@@ -7,6 +7,10 @@ F*, tau* there,
 
 so that gaps do not drift. Which contacts touch and which bearings stick is found by turning wrong guesses round, all at
 once and, should that not settle, least index first, from the guess of the step before.
+
+A train at rest takes steps that would all be alike at once, up to the next beat of an escapement: between two beats a
+clock stands most of the time, its stop holds, bearings stick, and torques do not change. A step that starts and ends
+without speed, and for which no guess was turned round, is followed by the same step again.
 """
 
 from __future__ import annotations
@@ -20,14 +24,16 @@ from geartrain.dynamics.contacts.contact_system import ContactSystem
 from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules, solve_guess
 from geartrain.dynamics.steps.guess_correction import AT_ONCE, correct_guess
-from geartrain.dynamics.steps.rest import find_idle_steps, is_at_rest, repeat_counts
 from geartrain.dynamics.steps.run_record import (
     BACK,
     DIVERGED,
+    IMPULSE,
     OPEN,
     PIVOTS,
     SAMPLES,
     STEPS,
+    TIME_APART,
+    TIME_COAST,
     UNSOLVED,
     ContactState,
     RunRecord,
@@ -38,11 +44,51 @@ from geartrain.numerics.kernels import kernel
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
+
 FARTHEST = 1000.0  # rad in a step: beyond, it is no motion but an error that grows
 _SHORT = 2  # steps apart after which flanks stay in contact at any restitution
 _AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
 _NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
 _JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before
+
+
+@kernel
+def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
+    """Whether nothing moves, neither before a step nor after it.
+
+    still   speed that is none (rad/s)
+    """
+    fastest = 0.0
+    for d in range(len(after)):
+        fastest = max(fastest, abs(after[d]), abs(before[d]))
+        if fastest > still:
+            break
+    return fastest <= still
+
+
+@kernel
+def find_idle_steps(system: ContactSystem, state: ContactState, rules: StepRules, most: int) -> int:
+    """How many steps, at most so many, a train at rest has before what acts on it changes."""
+    for m in range(len(system.spring_rate)):
+        if system.spring_rate[m] != 0.0:
+            return 0
+    idle = most
+    for m in range(len(system.stop_beat)):
+        beats = floor((state.clock[0] + rules.step / 2) / system.stop_beat[m])
+        # one step less, whatever rounding does to the moment of the beat
+        idle = min(idle, floor((beats + 1) * system.stop_beat[m] / rules.step - state.clock[1] - 1.5))
+    return max(idle, 0)
+
+
+@kernel
+def repeat_counts(counts: Floats, before: Floats, times: int) -> None:
+    """Count the last step so many times more, of all contacts.
+
+    before   counts before that step
+    """
+    for m in range(len(counts)):
+        for column in (TIME_APART, TIME_COAST, IMPULSE):
+            counts[m, column] += times * (counts[m, column] - before[m, column])
 
 
 @kernel

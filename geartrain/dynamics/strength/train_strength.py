@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import inf
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
@@ -21,11 +22,14 @@ from geartrain.dynamics.strength.strength_results import (
 )
 from geartrain.dynamics.strength.tooth_forces import ToothForces
 from geartrain.dynamics.strength.virtual_spurs import VirtualSpurs
+from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
+from geartrain.dynamics.torques.train_torques import solve
 from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
-from geartrain.errors import GearTrainError
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_numbers
 from geartrain.teeth.disc_mesh import DiscMesh
 from geartrain.teeth.pin_coupling import PinsInHoles
+from geartrain.teeth.strength.archard_wear import WEAR_RANGE
 from geartrain.train import Train
 from geartrain.train.wheel_stock import face_width, material_named
 
@@ -33,11 +37,13 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.torques.member_torques import PairTorque
     from geartrain.dynamics.torques.torque_results import Torques
-    from geartrain.dynamics.train_teeth import ToothedTrain, TrainTeeth
+    from geartrain.dynamics.train_mechanics import TrainMechanics
+    from geartrain.dynamics.train_teeth import TrainTeeth
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.outlines.wheel_requirement import CutTooth
     from geartrain.train import GearPair, Material, Wheel
 
+_YEAR = 365.25 * 86400  # s
 _PINS = "steel"  # what pins of couplings are made of, where the train declares no material
 
 
@@ -53,7 +59,7 @@ class StrengthQuestion:
     greatest  by pair: the greatest torque on its driven side in them [N m]
     """
 
-    train: ToothedTrain
+    train: TrainMechanics
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
@@ -341,3 +347,87 @@ class StrengthQuestion:
             for gear in loaded
             if gear.name not in told and (torques[gear.name].multiplier or torques[gear.name].loose)
         ]
+
+
+# --------------------------------------------------------------------------------------------------- loads and time
+
+
+@dataclass(frozen=True)
+class Service:
+    """How long a train runs, and what is assumed of its wear.
+
+    turns, years   of the input, or of time; None where wear is not requested, and never both
+    wear           least and greatest wear coefficient; None for those of `WEAR_RANGE`
+    """
+
+    turns: float | None = None
+    years: float | None = None
+    wear: tuple[float, float] | None = None
+
+    def checked(self) -> WearRange:
+        """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
+        check_numbers(turns=self.turns, years=self.years)
+        own = WearRange(*(self.wear or WEAR_RANGE))
+        if not 0 < own.least <= own.greatest < inf:
+            what = f"{own.least:g} to {own.greatest:g} is no range of wear coefficients"
+            raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
+        return own
+
+    def time(self, train: TrainMechanics, state: str | None) -> float | None:
+        """Turns, in all the time, of a link whose speed is 1; None where no time is given."""
+        turns, years = self.turns, self.years
+        if turns is None and years is None:
+            return None
+        if turns is not None and years is not None:
+            raise QuestionError(Problem("a time is given twice", "by turns and by years", "leave one of them out"))
+        for name, value in (("turns", turns), ("years", years)):
+            if value is not None and not 0 < value < inf:
+                raise QuestionError(Problem(f"{value:g} {name} wear nothing", "", "give a number above 0"))
+        speed, declared = _input_speed(train, state), train.declaration
+        if not speed:
+            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input turns", "drive it from an input"))
+        if turns is not None:
+            return turns / speed
+        case, unit = train.kinematics.case(state), declared.unit_speed
+        assert years is not None
+        if case.rate is not None and case.rate.unit is not None:
+            return years * _YEAR * float(case.rate.base) / speed
+        if unit is None:
+            what, why = "years tell no number of turns here", "speeds are plain numbers"
+            raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
+        return years * _YEAR * float(unit)
+
+
+def _input_speed(train: TrainMechanics, state: str | None) -> float:
+    """Speed of the input that is counted: the crank's, else that of the first that turns."""
+    case, crank = train.kinematics.case(state), train.declaration.crank
+    speeds = train.kinematics.solution(case).speeds
+    if crank is not None and speeds.get(crank):
+        return abs(float(speeds[crank]))
+    return next((abs(float(speed)) for speed in case.inputs.values() if speed), 0.0)
+
+
+def solve_strength(
+    train: TrainMechanics, state: str | None, service: Service, over: float | None = None
+) -> TrainStrength:
+    """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
+    check_numbers(over=over)
+    own, train = service.checked(), train.unfolded
+    found, loads = solve(train, state), train.load_case(state)
+    if not found.verdict or loads is None:
+        return TrainStrength(found.state, found.verdict)
+    if not has_torque_units(train.declaration, found.state):
+        what = "stresses need torques with a unit"
+        raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
+    scale = service.time(train, found.state)
+    covered = None if scale is None else scale * _input_speed(train, found.state)
+    question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
+    if over is None:
+        return question.answer()
+    from geartrain.dynamics.turn.train_turn import solve as solve_over_turns
+
+    cycle = solve_over_turns(train, state, over)
+    if not cycle.parts:
+        return TrainStrength(found.state, cycle.verdict)
+    greatest = {name: part.greatest for name, part in cycle.parts.items()}
+    return replace(question, over=over, greatest=greatest).answer()

@@ -41,18 +41,7 @@ class VibrationModes(Result):
 
     See Also
     --------
-    geartrain.GearTrain.vibration_modes : gives these.
-
-    Examples
-    --------
-    A disc of 1e-6 kg m2 that swings on teeth of 20 N m/rad, sqrt(k/J)/2 pi:
-
-    >>> import geartrain
-    >>> wheels = {"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 30},
-    ...     "inertia": "1e-6 kg m2"}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"],
-    ...     "axis": "B"}], "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "stiffness": "20 N m/rad"}
-    >>> geartrain.GearTrain.declare(wheels).vibration_modes().frequencies.round(3).tolist()
-    [711.763]
+    geartrain.dynamics.find_vibration_modes : gives these.
     """
 
     train: str

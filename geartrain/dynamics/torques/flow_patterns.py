@@ -14,14 +14,19 @@ from fractions import Fraction
 from itertools import chain, islice, product
 from typing import TYPE_CHECKING
 
-from geartrain.dynamics.torques.block_solution import Sides, eliminate_block, solve_block
 from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorques, TorqueBalance, TorqueUnknown
 from geartrain.numerics.block_triangular import Block
-from geartrain.numerics.elimination import LinearForm, feasible
+from geartrain.numerics.elimination import Echelon, LinearForm, eliminate, feasible
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
 
+
+Sides = Mapping[int, int]
+"""Column -> the side that drives in it: see `TorqueUnknown`."""
+
+KnownTorques = Mapping[int, LinearForm]
+"""Row -> the torques known there, as a form of symbols: columns below 0."""
 _MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried: 2^14 small solutions
 _MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
 _FEW = 4  # lossy torques whose patterns are not worth a trial in floats
@@ -34,6 +39,32 @@ _KNOWN = -1  # the column in which known torques stand
 
 Values = dict[int, Fraction | None]
 """Torque by column; None where nothing determines it."""
+
+
+def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
+    """The rows of a block, eliminated over the rationals: equation (3) under one pattern."""
+    rows = {row: dict(form) for row, form in known.items()}
+    for column in block.columns:
+        for row, value in columns[column].pieces[sides[column]].items():
+            if row in rows:
+                rows[row][column] = value
+    return eliminate(rows.values())
+
+
+def solve_block(
+    columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques
+) -> dict[int, LinearForm | None] | None:
+    """Every unknown of a block as a form of symbols, None where it stays open; None for all where nothing balances."""
+    if len(block.rows) == len(block.columns) == 1:
+        # an ordinary train has thousands of such blocks: one division each
+        (row,), (column,) = block.rows, block.columns
+        if coefficient := columns[column].pieces[sides[column]].get(row):
+            return {column: {symbol: -value / coefficient for symbol, value in known[row].items()}}
+    echelon = eliminate_block(columns, block, sides, known)
+    if echelon.conditions:
+        return None
+    closed = {column: form for column, form in echelon.forms().items() if all(other < 0 for other in form)}
+    return {column: closed.get(column) for column in block.columns}
 
 
 @dataclass(frozen=True)

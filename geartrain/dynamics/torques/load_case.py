@@ -9,7 +9,6 @@ from functools import cached_property
 
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.member_torques import BearingTorque
-from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Axes, Circuit, Tree
 from geartrain.kinematics.relative_speeds import relative_speed
@@ -18,6 +17,38 @@ from geartrain.numerics.elimination import LinearForm, add_into
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
+
+_ONE = Fraction(1)
+
+
+@dataclass(frozen=True)
+class MeanEfficiencies:
+    """Efficiencies of one pair with the first link driving, then with the second.
+
+    driver   where the torque of the driver is constant over a turn
+    load     where the torque of the driven side is
+    exact    as declared; False for means over teeth, which are floats to 15 digits
+    """
+
+    driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
+    load: tuple[Fraction, Fraction] = (_ONE, _ONE)
+    exact: bool = True
+
+    @property
+    def differ(self) -> bool:
+        """True if it matters which torque is constant."""
+        return self.driver != self.load
+
+    def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
+        """Forward and backward with the torque of the first link constant (1), of the second (-1), or of neither (0).
+
+        driving   for neither: the loads put power in, so that what drives is nearer to what is given
+        """
+        if side > 0:
+            return self.driver[0], self.load[1]
+        if side < 0:
+            return self.load[0], self.driver[1]
+        return self.driver if driving else self.load
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
-from geartrain.dynamics.torques.load_case import LoadCase
-from geartrain.dynamics.torques.pair_means import MeanEfficiencies
+from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency

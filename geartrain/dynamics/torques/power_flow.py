@@ -86,7 +86,7 @@ class PowerFlow(Result):
     ... extends: planetary-24-18-60
     ... loads: {carrier: -84 N m}
     ... ''')
-    >>> flow = train.power_flow(train.torques())
+    >>> flow = find_power_flow(train.torques())
     >>> [(stream.source.name, stream.target.name, int(stream.power)) for stream in flow.streams[:4]]
     [('sun', 'sun', 24), ('sun', 's~p', 24), ('s~p', 'planet', 12), ('s~p', 'carrier', 12)]
     >>> flow.power_in == 84 * train.solve()["carrier"], flow.loss, flow.loops
@@ -134,7 +134,25 @@ class PowerFlow(Result):
 
 
 def find_power_flow(found: Torques) -> PowerFlow:
-    """The streams of power under some torques; empty where none were found, or some are shared in no certain way."""
+    """The streams of power under some torques.
+
+    Parameters
+    ----------
+    found : Torques
+        As `GearTrain.torques` and `GearTrain.driven` give them.
+
+    Returns
+    -------
+    PowerFlow
+        Empty where no torques were found, or some are shared in no certain way.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> flow = find_power_flow(geartrain.load("planetary-24-18-60").driven("carrier", "sun"))
+    >>> [(stream.source.name, stream.target.name) for stream in flow.streams[:2]]
+    [('sun', 'sun'), ('sun', 's~p')]
+    """
     if not found.verdict or found.open_speeds or any(pair.loose or pair.power is None for pair in found.pairs.values()):
         return PowerFlow()
     shafts = _shafts(held.links for held in found.held if len(held.links) == 2)

@@ -114,7 +114,7 @@ class DrivenWay(NamedTuple):
 
     See Also
     --------
-    geartrain.GearTrain.drive_both_ways : what gives these.
+    geartrain.GearTrain.driven : gives the torques of one way.
     """
 
     torques: Torques
@@ -216,9 +216,7 @@ class Torques(FrozenFields, Tabular, Result):
 
     def plot(self) -> Any:
         """The flow of power under these torques, as a figure that notebooks show: `geartrain.drawing.power_figure`."""
-        from geartrain.dynamics.torques.power_flow import find_power_flow
-
-        return picture_maker("drawing", "power_figure")(find_power_flow(self), self.state or "")
+        return picture_maker("drawing", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.dynamics.torques.torque_results import TorqueVerdict
-from geartrain.dynamics.turn.compiled_turn import CompiledTurn, compiled_turn
 from geartrain.dynamics.turn.pair_contact import PinFriction, ToothFriction
 from geartrain.dynamics.turn.turn_analysis import find_figures, find_turn_balance
 from geartrain.dynamics.turn.turn_run import TurnRun
@@ -25,38 +24,25 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.cycle_parts import CycleFigures
     from geartrain.dynamics.turn.pair_contact import PairContact
     from geartrain.dynamics.turn.turn_balance import TurnBalance
-    from geartrain.train.friction_in_force import FrictionInForce
+    from geartrain.train.declaration import FrictionInForce
 
 
 @dataclass
 class FrictionStudy:
     """A run to be told with other coefficients of friction.
 
-    certain    True where who drives each pair is the same with any friction that does not lock
-    compiled   the kernel of the train as declared; None where arrays are to balance
+    certain   True where who drives each pair is the same with any friction that does not lock
     """
 
     run: TurnRun
     of: str | None = None
     certain: bool = False
-    compiled: CompiledTurn | None = None
-
-    @property
-    def seconds(self) -> float:
-        """What one run may take without kernels."""
-        return self.run.seconds
-
-    def compile(self) -> None:
-        """Balance by a kernel from now on, where there is one."""
-        self.compiled = self.compiled or compiled_turn(self.run.train)
 
     def figures(self, friction: Mapping[str, FrictionInForce]) -> CycleFigures:
         """Figures of the run with other frictions of some pairs and couplings."""
         own = self.run.train
         contacts = {name: _rubbed(each, friction.get(name)) for name, each in own.contacts.items()}
-        train = replace(own, contacts=contacts, complete=True, compiled=None)
-        if self.compiled is not None:
-            train.compiled = self.compiled.with_losses(train)
+        train = replace(own, contacts=contacts, complete=True)
         return find_figures(replace(self.run, train=train), self.of)
 
 

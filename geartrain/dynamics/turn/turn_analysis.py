@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.motion_model import Motion
-from geartrain.dynamics.torques.balance_order import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
 from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
+from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
-from geartrain.dynamics.turn.compiled_turn import compiled_turn
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, CycleFigures, PairCycle, PlaceInRun, TorqueExtreme
-from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import TorqueCycle
 from geartrain.dynamics.turn.train_contacts import (
@@ -28,20 +26,52 @@ from geartrain.dynamics.turn.train_contacts import (
     mean_friction_pairs,
 )
 from geartrain.dynamics.turn.turn_balance import TurnBalance
-from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
+from geartrain.dynamics.turn.turn_run import FAINT, NODES, RunScales, TurnRun, sign_beyond
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.labelled_array import labelled_array
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.dynamics.turn.position_torques import PositionTorques
+    from geartrain.dynamics.turn.turn_balance import PositionTorques
+    from geartrain.dynamics.turn.turn_run import RunCells
     from geartrain.numerics.arrays import Floats
 
+
+_CELLS = 12  # cells that are looked at more closely
+_PARTS = 16  # of a cell, and then of what is left of it
+_ROUNDS = 6
 DEFAULT_SAMPLES = 20_000
 MOST_TURNS = 1e9
 _ODD = Fraction(1_414_213, 1_000_003)
+
+
+def find_extreme(
+    value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
+) -> tuple[float, float] | None:
+    """Where a value is greatest (1) or least (-1), and the value; None where there is none anywhere.
+
+    value_at   at some positions; `values`, those of the run, NaN where there are none
+    """
+    signed = np.where(np.isfinite(values), way * values, -np.inf)
+    if not np.isfinite(signed).any():
+        return None
+    highest = np.argsort(-signed.reshape(-1, NODES).max(axis=1), kind="stable")[:_CELLS]
+    top = int(np.argmax(signed))
+    best, at = float(signed[top]), float(cells.turns[top])
+    low, high = cells.low[highest] + cells.aside, cells.high[highest] - cells.aside
+    for _ in range(_ROUNDS):
+        grid = low[:, None] + (high - low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)
+        found = way * value_at(grid.ravel()).reshape(grid.shape)
+        found = np.where(np.isfinite(found), found, -np.inf)
+        which = np.argmax(found, axis=1)
+        peak = found[np.arange(len(which)), which]
+        if peak.max() > best:
+            best = float(peak.max())
+            at = float(grid[np.argmax(peak), which[np.argmax(peak)]])
+        rows = np.arange(len(which))
+        low, high = grid[rows, np.maximum(which - 1, 0)], grid[rows, np.minimum(which + 1, _PARTS)]
+    return at, way * best + 0.0  # no negative zero
 
 
 def find_torque_cycle(
@@ -51,14 +81,12 @@ def find_torque_cycle(
     samples: int = DEFAULT_SAMPLES,
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
-    fast: bool | None = None,
 ) -> TorqueCycle:
     """Torques over some turns of the input.
 
     problem   what motion needs to know of the same case
     of        the link whose torque is unknown, in place of that which the declaration tells
     on_done   called with the number of positions that have been worked out since
-    fast      whether kernels are compiled; by default where the run is long enough for that to pay
     """
     if not 0 < turns <= MOST_TURNS:
         what, why = f"torques over {turns:g} turns", "a run goes forward"
@@ -74,10 +102,7 @@ def find_torque_cycle(
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")
     train.on_done = on_done
-    run = TurnRun(train, turns, samples)
-    if is_fast(fast, run.seconds):
-        train.compiled = compiled_turn(train)
-    return tell_run(run, of)
+    return tell_run(TurnRun(train, turns, samples), of)
 
 
 def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:

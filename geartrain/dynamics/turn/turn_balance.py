@@ -5,20 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.dynamics.turn.pair_contact import DriverState, PairForce
-from geartrain.dynamics.turn.position_balance import (
-    AT_REST,
-    FAINT,
-    ROUNDS,
-    BalanceLayer,
-    ColumnPieces,
-    solve_positions,
-)
-from geartrain.dynamics.turn.position_torques import PositionTorques
+from geartrain.dynamics.turn.position_balance import AT_REST, FAINT, ROUNDS, BalanceLayer, ColumnPieces, solve_positions
 from geartrain.numerics.named_arrays import joined, some
 
 if TYPE_CHECKING:
@@ -29,7 +21,41 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.train_contacts import BearingTorques
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
+
 _CHUNK = 8192  # positions worked on at once
+
+
+class PositionTorques(NamedTuple):
+    """Torques at some positions, (n,) last; powers and losses are over the speed of the input.
+
+    turns     of the input
+    valid     where something balances; `layers`, how many solutions there are
+    adrift    where no flanks agree with the torques that press on them
+    torque    on each link asked for, about its own axis, in the solution that loses least, (asked, n)
+    highest   the same in the one that loses most
+    speeds    of the links with a torque from outside, about their own axes, over the input's, (outside, n)
+    powers    what each of these torques puts in, (outside, n)
+    losses    of pairs, then bearings, (parts, n); `passed`, what the driving side of each puts in
+    pressed   multiplier of each pair: above 0 on its drive flanks, (pairs, n)
+    turning   forward speed of each pair's driver, over the input's, (pairs, n)
+    slipping  speed of each bearing over the input's, (bearings, n)
+    kinks     what changes its sign at kinks of which no law tells, (kinks, n)
+    """
+
+    turns: Floats
+    valid: Bools
+    adrift: Bools
+    layers: Floats
+    torque: Floats
+    highest: Floats
+    speeds: Floats
+    powers: Floats
+    losses: Floats
+    passed: Floats
+    pressed: Floats
+    turning: Floats
+    slipping: Floats
+    kinks: Floats
 
 
 class _State(NamedTuple):
@@ -45,13 +71,6 @@ class _State(NamedTuple):
     static: bool
 
 
-class PositionKernel(Protocol):
-    """What answers for most positions in less time."""
-
-    def at(self, turns: Floats, static: bool) -> tuple[Bools, PositionTorques]:
-        """At which of some positions it answers, and everything at all of them."""
-
-
 @dataclass
 class TurnBalance:
     """A train under load, to be asked at positions.
@@ -61,7 +80,6 @@ class TurnBalance:
     loads      by link, about its own axis; `bearings`, friction and drag by link
     complete   False where not all patterns of power flow were tried
     on_done    called with the number of positions that have been worked out since
-    compiled   asked first, where it is there
     """
 
     setting: LoadCase
@@ -72,7 +90,6 @@ class TurnBalance:
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
     on_done: Callable[[int], object] | None = None
-    compiled: PositionKernel | None = None
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -122,21 +139,10 @@ class TurnBalance:
         size = min(_CHUNK, self.motion.composition.chunk)
         parts = []
         for start in range(0, max(len(turns), 1), size):
-            parts.append(self._asked(turns[start : start + size], static))
+            parts.append(self._chunk(turns[start : start + size], static))
             if self.on_done is not None:
                 self.on_done(len(parts[-1].turns))
         return joined(parts)
-
-    def _asked(self, turns: Floats, static: bool) -> PositionTorques:
-        """By the kernel, and what it leaves by arrays."""
-        if self.compiled is None:
-            return self._chunk(turns, static)
-        settled, found = self.compiled.at(turns, static)
-        if settled.all():
-            return found
-        rest = self._chunk(turns[~settled], static)
-        order = np.argsort(np.concatenate([np.flatnonzero(settled), np.flatnonzero(~settled)]))
-        return some(joined([some(found, settled), rest]), order)
 
     @cached_property
     def flanked(self) -> tuple[str, ...]:

@@ -86,7 +86,7 @@ class _Motion:
         self.work, self.scene, self.pairs, self.names = work, work.scene, pairs, names
         self.bodies = {body.id: at for at, body in enumerate(self.scene.bodies)}
         self.wheels = {wheel.id: wheel for wheel in self.scene.wheels}
-        self.case = work.sized.declaration.case(work.sized.state_or_first(work.state))
+        self.case = work.sized.declaration.case(work.sized.declaration.state_or_first(work.state))
 
     def prove(self) -> FreedomProof:
         """At several poses; what of them disagrees is told once."""

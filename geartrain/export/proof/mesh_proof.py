@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.export.cut_sheets import compensated, wheel_sheets
 from geartrain.export.flat_files import to_svg
-from geartrain.export.kerf import compensated
 from geartrain.export.proof.cut_outlines import TOLERANCE, plane_geometry, read_material
 from geartrain.export.proof.turned_pair import NOTHING, SAME, FreeTurn, TurnedPair
-from geartrain.export.wheel_sheets import wheel_sheets
 from geartrain.kinematics.buildability import BuildFinding, BuildLevel
 from geartrain.numerics.plain_data import Result
 

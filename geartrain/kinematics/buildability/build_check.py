@@ -1,27 +1,294 @@
-"""The one pass over a declaration that says what of it cannot be built."""
+"""The one pass over a declaration that finds what of it cannot be built.
+
+Here are the short rules: wheels that mesh nothing; kinds of wheels that do not go together; three axes whose distances
+break the triangle inequality; brakes and clutches between links on different axes; wheels with two coaxial mates at
+different centre distances; skew axes at another distance than their wheels need. The folder holds the longer rules.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import combinations
+from math import cos
 from typing import TYPE_CHECKING
 
-from geartrain.kinematics.buildability.axis_kinds import check_kinds
-from geartrain.kinematics.buildability.axis_triangles import check_triangles
+from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding
-from geartrain.kinematics.buildability.clutch_axes import check_clutches
 from geartrain.kinematics.buildability.equal_planets import check_planets
-from geartrain.kinematics.buildability.idle_wheels import check_mates
 from geartrain.kinematics.buildability.pitch_distances import PitchDistances
-from geartrain.kinematics.buildability.pitch_pairs import PairOutline, pitch_pairs
+from geartrain.kinematics.buildability.pitch_pairs import SLACK, PairOutline, PitchPair, pitch_pairs
 from geartrain.kinematics.buildability.ring_mates import check_rings
-from geartrain.kinematics.buildability.shared_wheels import check_shared_wheels
-from geartrain.kinematics.buildability.skew_distances import check_skew
-from geartrain.kinematics.circuits import find_circuits, find_tree
+from geartrain.kinematics.circuits import Axes, find_circuits, find_tree, rigid_across_axes, rigid_place
+from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side, passing_distance
 from geartrain.kinematics.planet_copies import has_copies, with_copies
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.pitch_distances import PitchDistances
+    from geartrain.kinematics.buildability.pitch_pairs import PitchPair
     from geartrain.kinematics.circuits import Circuit, Tree
-    from geartrain.train import Train
+    from geartrain.kinematics.circuits.rigid_bodies import Rigid
+    from geartrain.train import StateCase, Train
+
+
+# ----------------------------------------------------------------------------------------------------------- axis kinds
+
+
+_MATES = ({"spur"}, {"bevel"}, {"contrate", "spur"}, {"worm", "spur"})
+_NEEDS = {
+    "bevel": "cones roll on each other where their axes meet",
+    "contrate": "the teeth of a contrate wheel point along its axis, across that of its mate",
+    "worm": "a worm's axis passes that of its wheel at a distance",
+    "helical": "crossed helical wheels touch between axes that pass each other at a distance",
+}
+
+
+def check_kinds(
+    train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
+) -> Iterator[BuildFinding]:
+    """Rules K1, K2 and K5: kinds and axes, kinds and mates, sides of bevels."""
+    axes = Axes(train, tree)
+    for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
+        yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
+    for pair in pairs:
+        shape = next((kind for kind in pair.kinds if kind != "spur"), "helical" if pair.is_crossed else "spur")
+        if set(pair.kinds) not in _MATES:
+            yield BuildFinding("K2", "error", _strange_mates(pair))
+        elif pair.parallel and shape != "spur":
+            declared = all(label in train.axes for label in pair.axes)
+            yield BuildFinding("K1", "error" if declared else "note", _side_by_side(pair, shape, declared))
+        elif not pair.parallel:
+            problem = _crossing(pair, shape, passing_distance(axes, pair.axes))
+            if problem is not None:
+                yield BuildFinding("K1", "error", problem)
+
+
+def _strange_mates(pair: PitchPair) -> Problem:
+    first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
+    return Problem(
+        f"pair '{pair.name}': {first} meets {second}",
+        "bevels mesh with bevels; contrates and worms mesh with spur wheels",
+        "give both wheels kinds that mesh: both `bevel`, or one `contrate` or `worm`",
+        pair.place,
+    )
+
+
+def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
+    return Problem(
+        f"bevels '{one}' and '{other}' of one axis meet '{shared}' from the same side",
+        "their cones have one apex and one axis, so that both would be in one place",
+        f"give the one on the negative side of the axis `facing: -1`, such as '{other}'",
+        train.place("links", train.wheels[other][0], "wheels", other),
+    )
+
+
+def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
+    first, second = pair.axes
+    if declared:
+        what = f"{shape} pair '{pair.name}' on parallel axes '{first}' and '{second}'"
+        fix = f"correct the directions under `axes`, or drop `kind: {shape}`"
+    else:
+        what = f"{shape} pair '{pair.name}' has no declared directions of axes"
+        fix = f"declare the directions of '{first}' and '{second}' under `axes`, or drop `kind: {shape}`"
+    why = _NEEDS[shape] + (
+        "" if declared else ", and axes without a direction count as parallel: its wheels are drawn as spur wheels"
+    )
+    return Problem(what, why, fix, pair.place)
+
+
+def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
+    """What is wrong with a pair on axes of two directions that pass each other at `offset` (m); None if nothing is."""
+    first, second = pair.axes
+    if shape == "spur":
+        return Problem(
+            f"pair '{pair.name}': spur wheels on axes '{first}' and '{second}' that are not parallel",
+            "spur teeth are parallel to their axes, and touch along their width only where axes are parallel",
+            "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
+            pair.place,
+        )
+    if offset is None or (shape in ("worm", "helical")) == (offset > 0):
+        return None
+    far = f"pass each other at {offset * 1000:.6g} mm" if offset else "meet"
+    fix = "move one of the axes" + (", or declare one wheel `kind: worm`" if offset else ", or declare both `bevel`")
+    return Problem(
+        f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}", _NEEDS[shape], fix, pair.place
+    )
+
+
+# ------------------------------------------------------------------------------------------------------- axis triangles
+
+
+_EQUAL = Fraction(1, 10**6)  # of the longest side: three axes may stand in one plane
+
+
+def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
+    """Rule P3, for three axes whose distances are multiples of one length, known or not."""
+    sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
+    near: dict[str, dict[str, PitchPair]] = {}
+    for (first, second), pair in sides.items():
+        near.setdefault(first, {})[second] = pair
+        near.setdefault(second, {})[first] = pair
+    for (first, second), pair in sides.items():
+        fewer, more = sorted((near[first], near[second]), key=len)
+        for third in fewer:
+            # each triangle once, from its last two labels in order
+            if third in more and third < first:
+                yield from _triangle(sizes, (third, first, second), (pair, near[third][first], near[third][second]))
+
+
+def _triangle(
+    sizes: PitchDistances, axes: tuple[str, str, str], pairs: tuple[PitchPair, PitchPair, PitchPair]
+) -> Iterator[BuildFinding]:
+    found = [sizes.distance(pair.axis_pair) for pair in pairs]
+    if len({root for root, _ in found}) > 1:
+        return
+    order = sorted(range(3), key=lambda at: found[at][1])
+    short, middle, long = (found[at][1] for at in order)
+    lack = long - short - middle
+    if lack <= _EQUAL * long:
+        return
+    # how far each pair may stand from its design, in the same length
+    room = sum(
+        (
+            abs(pair.bounds[1] - pair.distance) / pair.distance * size[1]
+            for pair, size in zip(pairs, found, strict=True)
+        ),
+        Fraction(0),
+    )
+    last = pairs[order[2]]
+    measure = sizes.measure(last)
+    sums = " + ".join(measure(found[at][1]) for at in order[:2])
+    names = ", ".join(f"'{axis}'" for axis in axes)
+    problem = Problem(
+        f"axes {names} have no place: {sums} is less than {measure(long)}",
+        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, and two sides of a triangle "
+        "are together longer than the third",
+        "change a tooth count or a module, or take one of the pairs away",
+        last.place,
+    )
+    yield BuildFinding("P3", "note" if lack <= room else "error", problem)
+
+
+# ---------------------------------------------------------------------------------------------------------- clutch axes
+
+
+def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
+    """Rules G1 (locks) and G2 (brakes), each once for all states."""
+    said = set()
+    for case in train.cases:
+        for rigid in rigid_across_axes(train, tree, case):
+            if rigid.links not in said:
+                said.add(rigid.links)
+                lock = len(rigid.links) == 2
+                yield BuildFinding("G1" if lock else "G2", "error", _across(train, case, rigid, lock))
+
+
+def _across(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
+    axes = " and ".join(f"'{label}'" for label in rigid.labels)
+    joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
+    between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
+    if lock:
+        why = f"no clutch joins links of two axes: as one body they would close the joints {joints}"
+        fix = "lock links that have their axis in common, or join the two by a pair of equal wheels"
+    else:
+        why = f"a brake on the frame holds what turns about an axis of the frame: it would close the joints {joints}"
+        fix = f"hold {' or '.join(repr(link) for link in between)} too, or in its place" if between else "hold another"
+    what = f"{case.says(*rigid.links)} across the axes {axes}"
+    return Problem(what, why, fix, train.place(*rigid_place(train, case, rigid.links)))
+
+
+# ---------------------------------------------------------------------------------------------------------- idle wheels
+
+
+def check_mates(train: Train) -> Iterator[BuildFinding]:
+    """Rule W1: a wheel is in a pair, or on a link with a pin or slot, or an escape wheel, or has a note that tells."""
+    meshing = {wheel for gear in train.gears for wheel in gear.pair}
+    coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
+    escapement = train.escapement
+    for name, (link, wheel) in train.wheels.items():
+        if name in meshing or link in coupled or wheel.note:
+            continue
+        if escapement is not None and escapement.has_wheel(link, wheel.count):
+            continue
+        problem = Problem(
+            f"wheel '{name}' {wheel.count or ''}".rstrip() + " meshes nothing",
+            "no pair under `gears` names it",
+            "add its pair, say in its `note` what it is for, or take it away",
+            train.place("links", link, "wheels", name),
+        )
+        yield BuildFinding("W1", "note", problem)
+
+
+# -------------------------------------------------------------------------------------------------------- shared wheels
+
+
+_SAME = 1e-6  # of a distance: declared lengths and radii have some six digits
+
+
+def check_shared_wheels(
+    pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
+) -> Iterator[BuildFinding]:
+    """Rule P2 for teeth that run at any distance, as triangular ones: the shared wheel fixes the size of both pairs."""
+    free = [
+        pair for pair in pairs if pair.parallel and pair.form and pair.form.any_distance and not pair.form.conjugate
+    ]
+    for one, other in combinations(free, 2):
+        if one.axis_pair != other.axis_pair or not set(one.wheels) & set(other.wheels):
+            continue
+        found = outlines()
+        if one.name not in found or other.name not in found:
+            continue
+        first, second = found[one.name].distance, found[other.name].distance
+        if abs(first - second) > _SAME * max(first, second):
+            (wheel,) = set(one.wheels) & set(other.wheels)
+            yield BuildFinding(
+                "P2",
+                "error",
+                Problem(
+                    f"pairs '{one.name}' and '{other.name}' need two distances of their axes: {first:.6g} and "
+                    f"{second:.6g} modules",
+                    f"the teeth of '{wheel}' have one size in both, and two axes have one distance",
+                    "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with one "
+                    f"radius of '{wheel}'",
+                    other.place,
+                ),
+            )
+
+
+# ------------------------------------------------------------------------------------------------------- skew distances
+
+
+_EQUAL_SKEW = 1e-6  # of the distance: positions are rounded as they are written
+
+
+def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
+    """Rule K4: the common perpendicular of two axes is both pitch radii long, m z/(2 cos(helix)) each."""
+    axes = Axes(train, tree)
+    for pair in pairs:
+        if pair.parallel or any(wheel.helix_angle is None for wheel in pair.declared):
+            continue
+        module, offset = sizes.module(pair.wheels[0]), passing_distance(axes, pair.axes)
+        if module is None or not offset:
+            continue
+        radii = [float(module) * (wheel.count or 0) / 2 / cos(wheel.helix) for wheel in pair.declared]
+        off = 1000 * offset - sum(radii)
+        if abs(off) > _EQUAL_SKEW * sum(radii):
+            yield _misplaced(pair, radii, off, module)
+
+
+def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Fraction) -> BuildFinding:
+    first, second = pair.axes
+    sides = " and ".join(f"'{wheel}' {radius:.6g}" for wheel, radius in zip(pair.wheels, radii, strict=True))
+    what = (
+        f"pair '{pair.name}': axes '{first}' and '{second}' pass each other at {sum(radii) + off:.6g} mm, "
+        f"and the pair needs {sum(radii):.6g} mm"
+    )
+    why = f"the pitch radii are {sides} mm, and touch on the common perpendicular"
+    fix = f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles"
+    return BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", Problem(what, why, fix, pair.place))
+
+
+# ---------------------------------------------------------------------------------------------------------- build check
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]

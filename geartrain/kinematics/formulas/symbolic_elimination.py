@@ -10,11 +10,11 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
+from operator import itemgetter
 
 from geartrain.kinematics.formulas.laurent import Laurent, minors, product
 from geartrain.numerics.block_triangular import find_blocks
-from geartrain.numerics.elimination import PRIME, add_into
+from geartrain.numerics.elimination import PRIME, add_into, eliminate_units
 
 Row = dict[int, Laurent]
 """A linear form: column -> coefficient. Columns >= 0 are unknowns; column -1 holds what is given."""
@@ -95,42 +95,26 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
     return SymbolicSolution(width, point, pivots, values, determinants, span, conditions)
 
 
+class _LaurentRing:
+    """Laurent polynomials, whose units are the monomials."""
+
+    modulus = 0
+
+    def inverse(self, entry: Laurent) -> Laurent | None:
+        return entry.inverse() if entry.is_unit else None
+
+    def words(self, entry: Laurent) -> int:
+        return len(entry)
+
+
 def _divide_out(
     rows: Sequence[Row],
 ) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
-    """Eliminate by monomials: shortest row first, rarest column in it. Pivots, the core, and conditions."""
-    active = {at: dict(row) for at, row in enumerate(rows)}
-    users: dict[int, set[int]] = {}
-    for at, row in active.items():
-        for column in row:
-            users.setdefault(column, set()).add(at)
-    queue = [(len(row), at) for at, row in active.items()]
-    heapify(queue)
-    pivots: list[tuple[int, Row]] = []
-    while queue:
-        length, at = heappop(queue)
-        row = active.get(at, {})
-        units = [column for column, entry in row.items() if column != GIVEN and entry.is_unit]
-        if length != len(row) or not units:
-            continue
-        # Markowitz' rule in short: short rows and rare columns fill in least
-        pivot = min(units, key=lambda column: (len(users[column]), column))
-        del active[at]
-        for column in row:
-            users[column].discard(at)
-        inverse = row.pop(pivot).inverse()
-        rest = {column: entry * inverse for column, entry in row.items()}
-        pivots.append((pivot, rest))
-        for other in users.pop(pivot):
-            target = active[other]
-            factor = target.pop(pivot)
-            add_into(target, rest, -factor)
-            for column in rest:
-                (users[column].add if column in target else users[column].discard)(other)
-            heappush(queue, (len(target), other))
-    core = [(at, row) for at, row in active.items() if row.keys() - {GIVEN}]
+    """Eliminate by monomials. Pivots, the core, and conditions."""
+    pivots, left = eliminate_units(rows, _LaurentRing())
+    core = [(at, row) for at, row in left if row.keys() - {GIVEN}]
     core.sort(key=lambda pair: (GIVEN not in pair[1], pair[0]))
-    conditions = [(at, row[GIVEN]) for at, row in active.items() if row.keys() == {GIVEN}]
+    conditions = [(at, row[GIVEN]) for at, row in sorted(left, key=itemgetter(0)) if row.keys() == {GIVEN}]
     return pivots, core, conditions
 
 

@@ -165,7 +165,7 @@ class Gridlock(Result):
     >>> train = geartrain.GearTrain.declare({"links": {"frame": {}} | wheels, "inputs": {"a": 1},
     ...     "revolutes": [{"pair": ["frame", link], "axis": link} for link in "abc"],
     ...     "gears": [{"pair": list(pair)} for pair in ("AB", "BC", "CA")]})
-    >>> found = train.gridlock
+    >>> found = train.kinematics.gridlock
     >>> found.moves, found.jams[0].loop.product, found.release.choices
     (False, Fraction(-1, 1), ('A~B', 'B~C', 'C~A'))
     """

@@ -1,28 +1,402 @@
-"""Which meshes to disengage: one where one is enough, a least set where that can be proved, else a good one."""
+"""Which meshes to disengage: one where one is enough, a least set where that can be proved, else a good one.
+
+Least sets of meshes by branch and bound, good sets by a greedy forest, and loops that prove a lower bound.
+
+The least set of meshes that frees a planar set of gears whose loops fail by sign alone.
+
+Drawn in the plane, a mesh graph parts it into regions. A set of meshes frees the train if and only if, in the dual
+graph, it joins the regions with an odd loop round them in pairs: a T-join, and the least is a minimum-weight perfect
+matching of the odd regions by their distances (Edmonds and Johnson 1973; for signed graphs Katai and Iwai 1978).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Sequence
+from heapq import heappop, heappush
+from typing import TYPE_CHECKING, NamedTuple
 
-from geartrain.kinematics.gridlock.branch_and_bound import (
-    OverBudgetError,
-    disjoint_loops,
-    greedy_removal,
-    minimal_removal,
-)
 from geartrain.kinematics.gridlock.gain_graph import (
+    Gain,
     GainGraph,
     GainLoop,
     GainWalk,
     biconnected_blocks,
+    inverse,
     is_balanced,
     shortest_loop,
     single_mesh_removals,
     walk_gain_graph,
 )
-from geartrain.kinematics.gridlock.planar_matching import planar_removal
 from geartrain.kinematics.gridlock.removal import RemovalMethod, weakest_method
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+# ----------------------------------------------------------------------------------------------------- branch and bound
+
+
+def disjoint_loops(
+    network: GainGraph, without: Collection[int] = (), firm: Collection[int] = ()
+) -> list[GainLoop] | None:
+    """Loops that do not close and share no mesh but firm ones: each costs a mesh of its own.
+
+    Shortest first. None where a loop consists of firm meshes alone, so that nothing frees it.
+    """
+    used = set(without)
+    loops: list[GainLoop] = []
+    while (loop := shortest_loop(network, used)) is not None:
+        loose = [mesh for _, mesh in loop if mesh not in firm and mesh not in network.firm]
+        if not loose:
+            return None
+        used.update(loose)
+        loops.append(loop)
+    return loops
+
+
+def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | None:
+    """A least set of meshes that frees the network, of fewer than `most`; None if there is none, `most` being least.
+
+    Branches on the meshes of a shortest loop that does not close: one of them has to go. A bound on what is left
+    comes from loops without a common mesh. Raises `OverBudgetError` after `budget` branches.
+    """
+    return _Search(network, most, budget).run()
+
+
+class OverBudgetError(Exception):
+    """The search took more branches than allowed."""
+
+
+class _Search:
+    """One branch and bound: `best` is the least set so far, `most` its size."""
+
+    def __init__(self, network: GainGraph, most: int, budget: int) -> None:
+        self.network, self.most, self.budget = network, most, budget
+        self.best: list[int] | None = None
+
+    def run(self) -> list[int] | None:
+        self._branch([], set())
+        return self.best
+
+    def _branch(self, gone: list[int], kept: set[int]) -> None:
+        self.budget -= 1
+        if self.budget < 0:
+            raise OverBudgetError
+        loops = disjoint_loops(self.network, gone, kept)
+        # each of these loops costs a mesh of its own, so nothing below this branch is smaller than the best
+        if loops is None or len(gone) + len(loops) >= self.most:
+            return
+        if not loops:
+            self.best, self.most = list(gone), len(gone)
+            return
+        passed = []
+        for _, mesh in loops[0]:
+            if mesh in kept or mesh in self.network.firm:
+                continue
+            self._branch([*gone, mesh], kept)
+            # all sets with this mesh are tried: in what follows it stays, so that no set is tried twice
+            kept.add(mesh)
+            passed.append(mesh)
+        kept.difference_update(passed)
+
+
+def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list[GainLoop]]:
+    """Meshes that free the network, none of which could stay, and short loops without a common mesh.
+
+    A forest of gains grows mesh by mesh and keeps what agrees: meshes on no short loop that fails first, those on
+    most such loops last. Nodes then move to the speed that most of their meshes ask for.
+    """
+    suspects, loops = _suspects(network, found)
+    tree = [mesh for mesh in found.entry if mesh >= 0]
+    last = sorted(suspects, key=lambda mesh: suspects[mesh])
+    calm = [mesh for mesh in (*tree, *found.chords, *found.breaking) if mesh not in suspects]
+    best: list[int] | None = None
+    for order in ([*calm, *last], [*tree, *found.chords, *found.breaking]):
+        first = _refused(network, order)
+        better = _improved(network, first)
+        least = better if len(better) < len(first) else first
+        if best is None or len(least) < len(best):
+            best = least
+    return best or [], loops
+
+
+def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict[int, int], list[GainLoop]]:
+    """How many loops of two to four meshes that fail each mesh lies on; and such loops without a common mesh.
+
+    A loop that fails contains a mesh with a gain once the walk's speeds are taken as units, so only the
+    surroundings of those are looked at; nodes of very many meshes are passed over.
+    """
+    times: dict[int, int] = {}
+    loops: list[GainLoop] = []
+    taken: set[int] = set()
+    seen: set[frozenset[int]] = set()
+    for mesh in found.breaking:
+        for loop in _short_loops(network, mesh, most):
+            meshes = frozenset(step for _, step in loop)
+            if meshes in seen or network.product(loop) == 1:
+                continue
+            seen.add(meshes)
+            for step in meshes:
+                times[step] = times.get(step, 0) + 1
+    # short loops first, for more of them fit beside each other; then by number, the same on every run
+    for meshes_of in sorted(seen, key=lambda some: (len(some), sorted(some))):
+        if taken.isdisjoint(meshes_of - network.firm):
+            taken |= meshes_of - network.firm
+            loops.append(_in_order(network, meshes_of))
+    return times, loops
+
+
+def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
+    """All loops of two, three and four meshes through one mesh."""
+    start, end = network.ends[mesh]
+    loops: list[GainLoop] = []
+    if max(len(network.at[start]), len(network.at[end])) > most:
+        return loops
+    near = {network.other(last, start): last for last in network.at[start] if last != mesh}
+    for second in network.at[end]:
+        middle = network.other(second, end)
+        if second == mesh:
+            continue
+        if middle == start:
+            loops.append([(start, mesh), (end, second)])
+            continue
+        if middle in near:
+            loops.append([(start, mesh), (end, second), (middle, near[middle])])
+        if len(network.at[middle]) > most:
+            continue
+        for third in network.at[middle]:
+            far = network.other(third, middle)
+            if far in near and far not in (start, end) and third != second:
+                loops.append([(start, mesh), (end, second), (middle, third), (far, near[far])])
+    return loops
+
+
+def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
+    """A loop from the set of its meshes."""
+    left = sorted(meshes)
+    first = left.pop(0)
+    loop: GainLoop = [(network.ends[first][0], first)]
+    here = network.ends[first][1]
+    while left:
+        mesh = next(mesh for mesh in left if here in network.ends[mesh])
+        left.remove(mesh)
+        loop.append((here, mesh))
+        here = network.other(mesh, here)
+    return loop
+
+
+def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
+    """Kruskal's forest with gains: the meshes that contradict those before them; firm ones come first."""
+    up = list(range(network.size))
+    gain: list[Gain] = [1] * network.size  # speed over that of the node above
+    refused = []
+    for mesh in (*network.firm, *(mesh for mesh in order if mesh not in network.firm)):
+        first, second = network.ends[mesh]
+        (top, one), (other, two) = _top(up, gain, first), _top(up, gain, second)
+        asked = one * network.gains[mesh] if mesh in network.gains else one
+        if top != other:
+            up[other], gain[other] = top, asked if two == 1 else asked * inverse(two)
+        elif asked != two:
+            refused.append(mesh)
+    return refused
+
+
+def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
+    """Union-find with path compression: the root above a node, and the node's speed over the root's."""
+    chain = []
+    while up[node] != node:
+        chain.append(node)
+        node = up[node]
+    total: Gain = 1
+    for below in reversed(chain):
+        total = total * gain[below]
+        up[below], gain[below] = node, total
+    return node, total
+
+
+def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
+    """Let nodes near refused meshes take the speed most of their meshes ask for, as long as that helps."""
+    speed = list(walk_gain_graph(network, refused).speed)
+    queue = [node for mesh in refused for node in network.ends[mesh]]
+    for here in queue:
+        asked: dict[Gain, int] = {}
+        for mesh in network.at[here]:
+            there = network.other(mesh, here)
+            # a firm mesh outvotes all others together
+            value = speed[there] * network.gain(mesh, there)
+            asked[value] = asked.get(value, 0) + (len(network.ends) if mesh in network.firm else 1)
+        best = max(asked, key=lambda value: asked[value])
+        # only strictly more votes move a node: the sum of votes that are met grows each time, and the loop ends
+        if asked[best] > asked.get(speed[here], 0):
+            speed[here] = best
+            queue += [network.other(mesh, here) for mesh in network.at[here]]
+    held = [mesh for mesh, (i, _) in enumerate(network.ends) if _agrees(network, speed, mesh, i)]
+    agreeing = set(held)
+    return _refused(network, [*held, *(mesh for mesh in range(len(network.ends)) if mesh not in agreeing)])
+
+
+def _agrees(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) -> bool:
+    return speed[start] * network.gains.get(mesh, 1) == speed[network.other(mesh, start)]
+
+
+# ------------------------------------------------------------------------------------------------------ planar matching
+
+
+MOST_ODD = 300
+"""Odd regions up to which all of them are matched: the matching costs the cube of their number."""
+
+
+class TJoin(NamedTuple):
+    """Meshes to take out; and the loops round the odd regions, where no two meshes join the same nodes."""
+
+    meshes: list[int]
+    odd: list[GainLoop]
+
+
+def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None:
+    """A least set for one block whose gains are signs; None if it is not planar or has too many odd regions."""
+    import networkx as nx
+
+    nodes = _merged_edges(network)
+    bundles = _bundles(network, nodes)
+    graph: nx.Graph[int] = nx.Graph()
+    graph.add_edges_from(bundles)
+    planar, drawing = nx.check_planarity(graph)
+    if not planar or not isinstance(drawing, nx.PlanarEmbedding):
+        return None
+    faces = _faces(drawing)
+    # each region's boundary multiplies to -1 or 1; a loop fails if it encloses an odd number of those with -1
+    odd = [at for at, face in enumerate(faces) if _fails(bundles, face)]
+    if len(odd) > most_odd:
+        return None
+    signs = _signs(bundles, _join(bundles, faces, odd))
+    speed = [sign * signs.get(node, 1) for node, sign in nodes]
+    gone = [mesh for mesh, (i, j) in enumerate(network.ends) if speed[i] * network.gains.get(mesh, 1) != speed[j]]
+    simple = not network.firm and len(bundles) == len(network.ends)
+    between = {pair: mesh for mesh, (i, j) in enumerate(network.ends) for pair in ((i, j), (j, i))}
+    loops = [[(step[0], between[step]) for step in _steps(faces[at])] for at in odd] if simple else []
+    return TJoin(gone, loops)
+
+
+def _merged_edges(network: GainGraph) -> list[tuple[int, Gain]]:
+    """Each node's stand-in and its sign against it: nodes that firm meshes join count as one."""
+    merged: list[tuple[int, Gain]] = [(node, 1) for node in range(network.size)]
+    done: set[int] = set()
+    starts = {end for mesh in network.firm for end in network.ends[mesh]}
+    for start in sorted(starts):
+        queue = [start] if start not in done else []
+        done.add(start)
+        for here in queue:
+            for mesh in network.at[here]:
+                there = network.other(mesh, here)
+                if mesh in network.firm and there not in done:
+                    done.add(there)
+                    merged[there] = (merged[here][0], merged[here][1] * network.gain(mesh, here))
+                    queue.append(there)
+    return merged
+
+
+Pair = tuple[int, int]
+
+
+def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair, int]:
+    """For nodes in mesh: how many more of their meshes keep the sense than turn it; balanced ones are left out.
+
+    Whichever way two nodes turn, the fewer have to go; the difference is what a change of sense costs.
+    """
+    bundles: dict[Pair, int] = {}
+    for mesh, (i, j) in enumerate(network.ends):
+        (first, one), (second, two) = nodes[i], nodes[j]
+        if first != second:
+            pair = (min(first, second), max(first, second))
+            bundles[pair] = bundles.get(pair, 0) + (1 if one * network.gains.get(mesh, 1) == two else -1)
+    return {pair: surplus for pair, surplus in bundles.items() if surplus}
+
+
+def _faces(drawing: nx.PlanarEmbedding[int]) -> list[list[int]]:
+    """The nodes round each region."""
+    seen: set[Pair] = set()
+    return [
+        drawing.traverse_face(first, second, seen) for first, second in drawing.edges if (first, second) not in seen
+    ]
+
+
+def _steps(face: Sequence[int]) -> list[Pair]:
+    return list(zip(face, [*face[1:], face[0]], strict=True))
+
+
+def _fails(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
+    """True if an odd number of bundles round a region turn the sense."""
+    return sum(bundles[min(step), max(step)] < 0 for step in _steps(face)) % 2 == 1
+
+
+def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
+    """The sense of every node, with the sense of all bundles kept but those of the join."""
+    near: dict[int, list[tuple[int, int]]] = {}
+    for (one, two), surplus in bundles.items():
+        sign = -1 if (surplus < 0) != ((one, two) in join) else 1
+        near.setdefault(one, []).append((two, sign))
+        near.setdefault(two, []).append((one, sign))
+    signs: dict[int, int] = {}
+    for root in near:
+        queue = [root] if root not in signs else []
+        signs.setdefault(root, 1)
+        for here in queue:
+            for there, sign in near[here]:
+                if there not in signs:
+                    signs[there] = signs[here] * sign
+                    queue.append(there)
+    return signs
+
+
+def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
+    """The bundles crossed by a minimum T-join of the odd regions."""
+    import networkx as nx
+
+    side = {step: at for at, face in enumerate(faces) for step in _steps(face)}
+    dual: list[list[tuple[int, int, Pair]]] = [[] for _ in faces]
+    for pair, surplus in bundles.items():
+        one, two = side[pair], side[pair[1], pair[0]]
+        if one != two:
+            dual[one].append((two, abs(surplus), pair))  # crossing a bundle costs the meshes that would go
+            dual[two].append((one, abs(surplus), pair))
+    ways = {start: _ways(dual, start) for start in odd}
+    graph: nx.Graph[int] = nx.Graph()
+    graph.add_weighted_edges_from(
+        (one, two, ways[one][0][two]) for at, one in enumerate(odd) for two in odd[at + 1 :] if two in ways[one][0]
+    )
+    join: set[Pair] = set()
+    for one, two in nx.min_weight_matching(graph):
+        # ways that share a bundle cancel there: the join is their symmetric difference
+        came = ways[one][1]
+        while two != one:
+            two, pair = came[two]
+            join ^= {pair}
+    return join
+
+
+def _ways(
+    dual: Sequence[Sequence[tuple[int, int, Pair]]], start: int
+) -> tuple[dict[int, int], dict[int, tuple[int, Pair]]]:
+    """Dijkstra: distances from one region, and the region and bundle each was reached by."""
+    done: dict[int, int] = {}
+    came: dict[int, tuple[int, Pair]] = {}
+    near = {start: 0}
+    queue = [(0, start)]
+    while queue:
+        distance, here = heappop(queue)
+        if here in done:
+            continue
+        done[here] = distance
+        for there, weight, pair in dual[here]:
+            if there not in done and distance + weight < near.get(there, distance + weight + 1):
+                near[there], came[there] = distance + weight, (here, pair)
+                heappush(queue, (distance + weight, there))
+    return done, came
+
+
+# ------------------------------------------------------------------------------------------------------- removal choice
+
 
 SMALL = 20
 """Meshes of a block up to which branch and bound always ends with a least set."""

@@ -9,8 +9,7 @@ from geartrain.kinematics.phasing.assembly import (
     spherical_phasing,
 )
 from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
-from geartrain.kinematics.phasing.loop_phase import LoopPhase
-from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing
+from geartrain.kinematics.phasing.mesh_phasing import LoopPhase, MeshPhasing
 from geartrain.kinematics.phasing.pitch_points import UnplacedPair
 
 __all__ = [

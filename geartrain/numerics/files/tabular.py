@@ -136,7 +136,7 @@ class ColumnTable:
             self._arrow: Any = import_module("pyarrow")  # it carries no types
             import_module("pyarrow.parquet")
         except ImportError:
-            raise MissingExtraError("pyarrow", "errors", "Parquet") from None
+            raise MissingExtraError("pyarrow", "tables", "Parquet") from None
         self._writer: Any = None
         self.path, self.partial, self.force = path, partial_file(path, force, replay), force
         self.about, self.rows = dict(about), 0

@@ -1,21 +1,19 @@
-"""Which executor does the work: none (this process), processes on this machine, or a cluster."""
+"""Which executor does the work: none (this process), processes on this machine, or a dask cluster."""
 
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
-
-if TYPE_CHECKING:
-    from geartrain.numerics.work.worker_pool import WorkerPool
+from geartrain.numerics.work.worker_pool import Announcement, WorkerPool
 
 
 def cores() -> int:
-    """The cores that this process may use: fewer than the machine has where its affinity says so. At least 1."""
+    """The number of cores that this process may use, its affinity respected; at least 1."""
     if hasattr(os, "process_cpu_count"):  # Python 3.13
         return os.process_cpu_count() or 1
     if hasattr(os, "sched_getaffinity"):
@@ -24,7 +22,9 @@ def cores() -> int:
 
 
 @contextmanager
-def open_executor(workers: int | None = None, scheduler: str | None = None) -> Iterator[Executor | None]:
+def open_executor(
+    workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
+) -> Iterator[Executor | None]:
     """An executor for `run`, or None where one worker is enough: then the work is done in this process.
 
     A context manager: leaving it ends what is still running.
@@ -32,22 +32,25 @@ def open_executor(workers: int | None = None, scheduler: str | None = None) -> I
     Parameters
     ----------
     workers : int, optional
-        Processes on this machine, 1 or more; default the cores this process may use. They start with the first task.
-    scheduler : str, optional
-        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`: its workers do the work, however many they are.
-        Needs the extra `dask`, and geartrain in the same version on the cluster.
+        Processes on this machine, 1 or more, started with the first task. By default as many as this process may use
+        cores; they are started only if the work is not nearly finished after a second in this process.
+    dask : str, optional
+        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`: its workers do the work. Needs the extra `dask`,
+        and geartrain in the same version on the cluster.
+    announce : callable, optional
+        Called once with (tasks, workers) when other processes begin to work.
 
     Yields
     ------
     concurrent.futures.Executor or None
-        What `run` and `Execution` take; it outlives workers that die.
+        What `run` and `Execution` take; it survives the death of workers.
 
     Raises
     ------
     QuestionError
         If both are given, or `workers` is below 1.
     MissingExtraError
-        If a scheduler is given without the extra.
+        If an address is given without the extra.
     GearTrainError
         If the cluster does not answer or cannot work.
 
@@ -58,27 +61,35 @@ def open_executor(workers: int | None = None, scheduler: str | None = None) -> I
     ...     list(run(abs, [-1, 2], executor))
     [1, 2]
     """
-    crew = _crew(workers, scheduler)
+    pool = _pool(workers, dask)
+    if pool is not None:
+        pool.announce = announce
     try:
-        yield crew
+        yield pool
     finally:
-        if crew is not None:
-            crew.dismiss()
+        if pool is not None:
+            pool.dismiss()
 
 
-def _crew(workers: int | None, scheduler: str | None) -> WorkerPool | None:
-    if workers is not None and scheduler is not None:
-        why = "how many workers a cluster has is its own matter"
-        raise QuestionError(Problem("both workers and a scheduler are given", why, "give one of the two"))
+def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
+    if workers is not None and dask is not None:
+        why = "the number of workers of a cluster is set where it is started"
+        raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give one of the two"))
     if workers is not None and workers < 1:
-        raise QuestionError(Problem(f"{workers} workers", "it takes one to do the work", "ask for 1 or more"))
-    if scheduler is not None:
-        from geartrain.numerics.work.cluster import connect
+        raise QuestionError(Problem(f"{workers} workers", "at least one is needed to do the work", "ask for 1 or more"))
+    if dask is not None:
+        from geartrain.numerics.work.cluster import DaskPool
 
-        return connect(scheduler)
-    count = cores() if workers is None else workers
+        return DaskPool(dask)
+    count = _default_count() if workers is None else workers
     if count == 1:
         return None
     from geartrain.numerics.work.processes import ProcessPool
 
-    return ProcessPool(count)
+    return ProcessPool(count, waits=workers is None)
+
+
+def _default_count() -> int:
+    """All cores; 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
+    started = sys.modules.get("multiprocessing.process")
+    return 1 if started is not None and started.current_process().daemon else cores()

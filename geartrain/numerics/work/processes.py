@@ -8,6 +8,7 @@ systems. It costs each worker its imports, once.
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -24,13 +25,14 @@ _MOST = 61 if sys.platform == "win32" else 10_000  # as many processes as Window
 
 
 class ProcessPool(WorkerPool):
-    """Up to `workers` processes, started as they are needed and replaced when one dies.
+    """Up to `workers` processes, started as they are needed and replaced when one dies; `waits` as in `WorkerPool`.
 
     They end with this process, whatever ends it: each holds one end of a pipe, the leash, and leaves when the other end
     is gone.
     """
 
-    def __init__(self, workers: int) -> None:
+    def __init__(self, workers: int, waits: bool = False) -> None:
+        self.waits = waits
         self._workers = min(workers, _MOST)
         self._context = get_context("spawn")
         self._leash, self._hand = self._context.Pipe(duplex=False)
@@ -42,6 +44,14 @@ class ProcessPool(WorkerPool):
     def width(self) -> int:
         """How many tasks run at once."""
         return self._workers
+
+    def carries(self, work: Callable[[Any], Any]) -> bool:
+        """True if it can be pickled: outlines of teeth that are local functions cannot."""
+        try:
+            pickle.dumps(work)
+        except (AttributeError, TypeError, pickle.PicklingError):
+            return False
+        return True
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """As `Executor.submit`; after a worker died, in a fresh pool."""

@@ -1,21 +1,29 @@
-"""Tasks in, results out, in the order of the tasks: the same for every executor, and if workers die."""
+"""Tasks in, results out, in the order of the tasks: the same for every executor, and if workers die.
+
+Results become JSON text in the process that works them out, so that they are the same whether they come from this
+process, another one, another machine or a journal: tuples are lists and keys are texts in all of them.
+"""
 
 from __future__ import annotations
 
 import json
+import pickle
+import traceback
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sized
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from contextlib import suppress
 from dataclasses import dataclass
+from fractions import Fraction
 from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any
+from zlib import crc32
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.work.executors import cores
 from geartrain.numerics.work.journal import Journal
-from geartrain.numerics.work.messages import RemoteFailure, as_text, carry, mark_of
 from geartrain.numerics.work.worker_pool import WorkerPool
 
 TaskFunction = Callable[[Any], Any]
@@ -27,6 +35,7 @@ _IN_FLIGHT = 4  # tasks handed over for each one that runs, so that no worker wa
 _AHEAD = 64  # how far, for each worker, results may be ahead of the first one that is missing
 _BETWEEN_WORDS = 0.1  # s between two calls of `tell`
 _BETWEEN_LOOKS = 2.0  # s between two looks at how the executor is
+_SMALL = 1.0  # s of work that this process does itself: a new process takes about as long to start
 
 
 def run(
@@ -72,9 +81,48 @@ def run(
     [3, 4]
     """
     pace = _Pace(tell, len(tasks) if isinstance(tasks, Sized) else 0)
-    if executor is None:
+    if executor is None or (isinstance(executor, WorkerPool) and not executor.carries(work)):
         return _here(work, tasks, journal, pace)
     return _Run(work, tasks, executor, journal, pace).results()
+
+
+@dataclass(frozen=True, slots=True)
+class Execution:
+    """How the independent tasks of a long question are done; the default does them in this process and keeps nothing.
+
+    Attributes
+    ----------
+    executor : concurrent.futures.Executor or None
+        What runs the tasks; None for this process. `open_executor` makes one.
+    journal : Journal or None
+        Where finished work is kept, to be taken up again.
+    tell : callable or None
+        Called with (tasks done, tasks in all), at most ten times a second and at the end.
+
+    Examples
+    --------
+    >>> told = []
+    >>> list(Execution(tell=lambda done, total: told.append((done, total))).run(abs, [-1, 2]))
+    [1, 2]
+    >>> told[-1]
+    (2, 2)
+    """
+
+    executor: Executor | None = None
+    journal: Journal | None = None
+    tell: ProgressReport | None = None
+
+    def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
+        """Results in the order of the tasks, as `geartrain.numerics.run`.
+
+        Parameters
+        ----------
+        work : callable
+            A function at the top of a module.
+        tasks : iterable
+            What it is called with.
+        """
+        return run(work, tasks, self.executor, self.journal, self.tell)
 
 
 def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Pace) -> Iterator[Any]:
@@ -147,12 +195,12 @@ class _Run:
         """The results in the order of the tasks."""
         try:
             self.pace.step(0)
+            if isinstance(self.executor, WorkerPool) and self.executor.waits:
+                yield from self._small()
             while True:
                 self._fill()
-                while self.next in self.ready:
-                    text = self.ready.pop(self.next)
-                    self.next += 1
-                    yield json.loads(text)
+                for result in self._due():
+                    yield result
                     self._fill()
                 if not self.flying and not self.again and self.exhausted:
                     break
@@ -160,6 +208,27 @@ class _Run:
             self.pace.end()
         finally:
             self._cancel()
+
+    def _small(self) -> Iterator[Any]:
+        """The first results, worked out in this process until it is clear that others are worth their start."""
+        done, spent = 0, 0.0
+        while not self.exhausted:
+            flight = self._take()
+            if flight is not None:
+                begun = monotonic()
+                self._finished(flight, as_text(self.work(flight.task)))
+                done, spent = done + 1, spent + monotonic() - begun
+            yield from self._due()
+            rest = spent / done * (self.pace.total - self.pace.done) if done and self.pace.total else spent
+            if min(spent, rest) > _SMALL:
+                return
+
+    def _due(self) -> Iterator[Any]:
+        """Results that are there, up to the first one that is missing."""
+        while self.next in self.ready:
+            text = self.ready.pop(self.next)
+            self.next += 1
+            yield json.loads(text)
 
     @property
     def _width(self) -> int:
@@ -195,6 +264,8 @@ class _Run:
         return None
 
     def _launch(self, flight: _Flight) -> None:
+        if isinstance(self.executor, WorkerPool):
+            self.executor.begin(max(self.pace.total - self.pace.done, 0))
         try:
             future = self.executor.submit(carry, self.work, flight.task)
         except BrokenExecutor:
@@ -202,7 +273,7 @@ class _Run:
                 Problem(
                     "the executor is broken",
                     "one of its workers died, and it makes no new ones",
-                    "use the executor that open_executor gives: it outlives its workers",
+                    "use the executor that open_executor gives: it survives the death of workers",
                 )
             ) from None
         self.flying[future] = flight
@@ -227,14 +298,21 @@ class _Run:
         except BrokenExecutor as error:
             self._died(flight, getattr(error, "times", 1))
         except CancelledError:
-            why = "its executor was shut down, or lost its cluster, before the work was done"
-            raise GearTrainError(Problem("the work was cut off", why, "run it again")) from None
+            why = "its executor was shut down, or lost its scheduler, before the work was done"
+            raise GearTrainError(
+                Problem(
+                    "the work was cut off", why, "run it again; what was finished is in the journal, if one was kept"
+                )
+            ) from None
         else:
             if isinstance(outcome, RemoteFailure):
                 raise outcome.error()
-            self._keep(flight, outcome)
-            self.ready[flight.index] = outcome
-            self.pace.step()
+            self._finished(flight, outcome)
+
+    def _finished(self, flight: _Flight, text: str) -> None:
+        self._keep(flight, text)
+        self.ready[flight.index] = text
+        self.pace.step()
 
     def _keep(self, flight: _Flight, text: str) -> None:
         if self.journal is not None:
@@ -272,3 +350,82 @@ def _deadly(flight: _Flight) -> GearTrainError:
             'if __name__ == "__main__": before what it does',
         )
     )
+
+
+@dataclass(frozen=True, slots=True)
+class RemoteFailure:
+    """What `work` raised, in a form that always comes through.
+
+    A process pool takes an exception it cannot unpickle for a dead worker, and an exception whose `__init__` takes
+    other arguments than its text comes back garbled.
+
+    kind      its class, where it is a `GearTrainError`
+    problems  its problems, likewise
+    pickled   any other exception; empty where it cannot be pickled faithfully
+    trace     the traceback there
+    """
+
+    trace: str
+    kind: type[GearTrainError] | None = None
+    problems: tuple[Problem, ...] = ()
+    pickled: bytes = b""
+
+    def error(self) -> Exception:
+        """The exception again, with the traceback of its worker as a note."""
+        error = self._again()
+        error.add_note(f"raised in a worker:\n{self.trace}")
+        return error
+
+    def _again(self) -> Exception:
+        if self.kind is not None:
+            error = self.kind.__new__(self.kind)
+            GearTrainError.__init__(error, self.problems)
+            return error
+        if self.pickled:
+            back = pickle.loads(self.pickled)
+            assert isinstance(back, Exception)
+            return back
+        return RuntimeError(self.trace.rstrip().rpartition("\n")[2])
+
+
+def as_text(result: Any) -> str:
+    """A result as one line of JSON. Raises `TypeError` where it is no plain data."""
+    return json.dumps(result, separators=(",", ":"))
+
+
+def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
+    """Do one task in a worker: its result as JSON, or what it raised."""
+    try:
+        return as_text(work(task))
+    except Exception as error:
+        return raised(error)
+
+
+def raised(error: Exception) -> RemoteFailure:
+    """Pack an exception."""
+    trace = "".join(traceback.format_exception(error))
+    if isinstance(error, GearTrainError):
+        return RemoteFailure(trace, type(error), error.problems)
+    try:
+        pickled = pickle.dumps(error)
+        back = pickle.loads(pickled)
+    except Exception:  # pickling calls code of the exception's own
+        return RemoteFailure(trace)
+    # an exception whose __init__ takes other arguments may come back as another text, or not as itself
+    faithful = type(back) is type(error) and str(back) == str(error)
+    return RemoteFailure(trace, pickled=pickled if faithful else b"")
+
+
+def mark_of(task: Any) -> str:
+    """A short mark by which a journal knows a task again; empty for a task that is no plain data (nor a Fraction)."""
+    try:
+        text = json.dumps(task, separators=(",", ":"), default=_fraction)
+    except (TypeError, ValueError):
+        return ""
+    return f"{crc32(text.encode()):08x}"
+
+
+def _fraction(value: Any) -> str:
+    if isinstance(value, Fraction):
+        return fraction_text(value)
+    raise TypeError

@@ -3,19 +3,19 @@
 `train_layout` first: its `lay_out` runs the steps below in this order, and each hands a record to the next.
 
     declared_geometry   axes as lines, pairs of wheels           DeclaredGeometry
-    wheel_modules       union-find of ratios; closed_chains      WheelModules
+    wheel_modules       union-find of ratios; closed chains      WheelModules
     wheel_sizes         radii, seats of crossing pairs           SizedGeometry
     wheel_reach         how far bodies of wheels reach
     parallel_groups     groups of parallels, one by one          Arrangement
+                        broad wheels, by backtracking            AxialSlots
+                        wheels that keep their heights           StackProblem
         plan_problem    what is asked of a plan                  PlanProblem
-        plan_search     beam search; plan_order, plan_clearance  places in plan
+        plan_search     beam search: order, clearance            places in plan
         swept_overlap   distances while carriers turn            SweptDistances, PlanOverlap
-        axial_slots     broad wheels, by backtracking            AxialSlots
-        stack_blocks    wheels that keep their heights           StackProblem
         stack_order     local search of the order of levels      keys
         wheel_stacks    heights of levels                        WheelStack
-    mesh_alignment      angles at which teeth meet               MeshAlignment
-    layout_diagnostics  what could not be met                    notices
+    train_layout        angles at which teeth meet               MeshAlignment
+                        what could not be met                    notices
 """
 
 from __future__ import annotations

@@ -221,7 +221,7 @@ class DeclaredGeometry:
 
 def read_geometry(train: GearTrain) -> DeclaredGeometry:
     """All that matters of a train."""
-    declared, tree = train.declaration, train.tree
+    declared, tree = train.declaration, train.kinematics.tree
     lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}
     contacts, ties, strays = [], [], []
@@ -344,5 +344,5 @@ def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> in
     """A worm turns no pitch point sideways: how its thread moves follows from the pair's equation."""
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
-        flip *= train.signs.get(link, 1) if train.tree.axis(link) == axis else 1
+        flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1
     return (-1 if circuit.a * circuit.b > 0 else 1) * flip

@@ -3,24 +3,269 @@
 Beam search: axes are put in one after the other, those first that most distances tie down, each at the crossings of
 circles or in some dozens of directions; of many plans the few that crowd least are carried on. Distances that cannot
 all be had are missed as little as can be: least squares by the Gauss-Newton method.
+
+The order is greedy, from a priority queue. An axis of a closed chain of distances must stay near enough to those that
+are placed for the rest of the chain to reach: Dijkstra's shortest ways give those bounds. The cost of a place is how
+much wheels of parallel axes crowd each other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
 from math import cos, hypot, pi, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.scene.layout.declared_geometry import Point
-from geartrain.scene.layout.plan_clearance import PlanClearance
-from geartrain.scene.layout.plan_order import Bar, PlanOrder, PlanStep
-from geartrain.scene.layout.plan_problem import PlanProblem
+from geartrain.scene.layout.plan_problem import PlanDisc, PlanProblem
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Indices
+
+
+# ------------------------------------------------------------------------------------------------------- plan clearance
+
+
+_HARD = 100.0  # cost of wheels that collide in one level, by how far (mm over mm)
+_OVER = 1.0  # of discs one above the other: levels part them, but flat is better
+_COVER = 2.0  # of a disc over another axis, whose arbor it may meet
+_MOST_AXES = 1500  # axes up to which wheels of one level are told from others
+
+
+class PlanClearance:
+    """Crowding of axes that keep their distance, on one bearer or about it; what carriers sweep is left to levels.
+
+    still    (axes, axes): True where two keep their distance
+    radius   of the widest wheel of each axis (mm), rings apart
+    need     (axes, axes): least distances of axes whose wheels share a level and do not mesh (mm)
+    meet     (axes, axes): True where wheels of two mesh
+    """
+
+    def __init__(self, problem: PlanProblem) -> None:
+        labels = problem.labels
+        number = {label: at for at, label in enumerate(labels)}
+        bearer = np.array([problem.bearers[label] for label in labels])
+        self.still = bearer[:, None] == bearer[None, :]
+        for label, pivot in problem.pivots.items():
+            if pivot in number:
+                ends = number[label], number[pivot]
+                self.still[ends] = self.still[ends[::-1]] = True
+        plain = [[disc for disc in problem.discs.get(label, ()) if not disc.inner] for label in labels]
+        self.radius = np.array([max((disc.outer for disc in discs), default=0.0) for discs in plain])
+        self.need = _least_distances(plain, problem.mates)
+        self.meet = np.zeros((len(labels), len(labels)), bool)
+        axis = {disc.wheel: at for at, label in enumerate(labels) for disc in problem.discs.get(label, ())}
+        for pair in problem.mates:
+            both = [axis[wheel] for wheel in pair if wheel in axis]
+            if len(both) == 2:
+                self.meet[both[0], both[1]] = self.meet[both[1], both[0]] = True
+
+    def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
+        """Cost of each candidate place of an axis among those that stand."""
+        near = self._within_reach(at, placed[self.still[at, placed]], candidates, points)
+        apart = candidates[:, None, :] - points[near][None, :, :]
+        far = np.hypot(apart[:, :, 0], apart[:, :, 1])
+        own, other = self.radius[at], self.radius[near]
+        free = ~self.meet[at, near]
+        cost = _HARD * np.maximum(self.need[at, near] - far, 0).sum(axis=1)
+        cost += _OVER * (np.maximum(own + other - far, 0) * free).sum(axis=1)
+        cost += _COVER * (np.maximum(np.maximum(own, other) - far, 0) * free).sum(axis=1)
+        return np.asarray(cost, float)
+
+    def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
+        """Those of some axes that a candidate may come too near to: all others cost nothing."""
+        low, high = candidates.min(axis=0), candidates.max(axis=0)
+        spots = points[near]
+        away = np.maximum(np.maximum(low - spots, spots - high), 0)
+        reach = np.maximum(self.radius[at] + self.radius[near], self.need[at, near])
+        return np.asarray(near[np.hypot(away[:, 0], away[:, 1]) < reach])
+
+
+def _least_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[frozenset[str]]) -> Floats:
+    """Least distances of axes whose wheels share a level and do not mesh; 0 where nothing asks for any."""
+    mates = _mates(pairs)
+    need = np.zeros((len(discs), len(discs)))
+    clusters: dict[int, list[tuple[int, PlanDisc]]] = {}
+    for at, own in enumerate(discs):
+        for disc in own:
+            clusters.setdefault(disc.cluster, []).append((at, disc))
+    for members in clusters.values() if len(discs) <= _MOST_AXES else ():
+        outer = np.array([disc.outer for _, disc in members])
+        apart = outer[:, None] + outer[None, :]
+        number = {disc.wheel: nth for nth, (_, disc) in enumerate(members)}
+        for _, disc in members:
+            for mate in mates.get(disc.wheel, ()):
+                if mate in number:
+                    apart[number[disc.wheel], number[mate]] = 0.0
+        ends = np.array([at for at, _ in members])
+        np.maximum.at(need, np.ix_(ends, ends), apart)  # not need[...] = : an axis may have several wheels of a cluster
+    np.fill_diagonal(need, 0.0)
+    return need
+
+
+def _mates(pairs: frozenset[frozenset[str]]) -> Mapping[str, Sequence[str]]:
+    mates: dict[str, list[str]] = {}
+    for pair in pairs:
+        for wheel in pair:
+            mates.setdefault(wheel, []).extend(pair - {wheel})
+    return mates
+
+
+# ----------------------------------------------------------------------------------------------------------- plan order
+
+
+_NEAR = 60  # axes on closed chains up to which chains are followed: that takes time with their square
+
+
+class Bar(NamedTuple):
+    """Two axes by number, and their distance (mm)."""
+
+    first: int
+    second: int
+    length: float
+
+
+class DistanceBound(NamedTuple):
+    """An axis by number, and the least and greatest distance (mm) from it."""
+
+    axis: int
+    least: float
+    most: float
+
+
+class _Rank(NamedTuple):
+    """The least is put in first: not before its carrier's axis, most tied, then largest, or with most bars.
+
+    The two numbers are negative, so that the greatest comes first.
+    """
+
+    before_pivot: bool
+    minus_tied: int
+    minus_weight: float
+    axis: int
+
+
+@dataclass(frozen=True)
+class PlanStep:
+    """An axis, by number, to be put in.
+
+    placed  those that stand by then
+    tied    those of them at a given distance
+    bounds  those to which a chain of axes still to come must reach
+    """
+
+    axis: int
+    placed: Indices
+    tied: tuple[DistanceBound, ...]
+    bounds: tuple[DistanceBound, ...]
+
+
+class PlanOrder:
+    """Axes as joints of bars, by number.
+
+    index      number of each axis; radius, the room each needs (mm)
+    bars       all distances
+    alike      axis -> all that are alike on its carrier, itself among them: one bar of one length to the carrier's axis
+    steps      axes in the order in which they are put in
+    """
+
+    def __init__(self, problem: PlanProblem) -> None:
+        self.index = {label: at for at, label in enumerate(problem.labels)}
+        self.radius = np.array([problem.radius(label) for label in problem.labels])
+        self.bars = [Bar(self.index[a], self.index[b], length) for (a, b), length in problem.distances.items()]
+        self._joined: list[dict[int, float]] = [{} for _ in problem.labels]
+        for a, b, length in self.bars:
+            self._joined[a][b] = self._joined[b][a] = length
+        self._pivot = {self.index[a]: self.index[b] for a, b in problem.pivots.items() if b in self.index}
+        fixed = {self.index[label] for label in problem.fixed}
+        self.alike = self._find_alike(fixed)
+        self.steps = self._find_steps(fixed)
+
+    def _find_alike(self, fixed: set[int]) -> dict[int, tuple[int, ...]]:
+        alike: dict[tuple[int, float, float], list[int]] = {}
+        for at, joined in enumerate(self._joined):
+            if len(joined) == 1 and self._pivot.get(at) in joined and at not in fixed:
+                (pivot, length), *_ = joined.items()
+                # rounded: lengths that are equal but for rounding are alike
+                alike.setdefault((pivot, round(length, 9), round(float(self.radius[at]), 9)), []).append(at)
+        return {at: tuple(group) for group in alike.values() for at in group}
+
+    def _find_steps(self, placed: set[int]) -> list[PlanStep]:
+        order = sorted(placed)
+        count = [len(joined.keys() & placed) for joined in self._joined]
+        closing = self._on_closed_chains(placed)
+        carried: dict[int, list[int]] = {}
+        for at, pivot in self._pivot.items():
+            carried.setdefault(pivot, []).append(at)
+        waiting = [self._rank(at, count[at], placed) for at in range(len(self._joined)) if at not in placed]
+        heapify(waiting)
+        found = []
+        while waiting:
+            rank = heappop(waiting)
+            at = rank.axis
+            if at in placed or rank != self._rank(at, count[at], placed):
+                continue  # it has been put in, or waits with another rank too
+            tied = tuple(
+                DistanceBound(other, length, length) for other, length in self._joined[at].items() if other in placed
+            )
+            bounds = tuple(self._bounds(at, placed, closing)) if at in closing else ()
+            found.append((at, len(order), tied, bounds))
+            placed.add(at)
+            order.append(at)
+            for other in self._joined[at]:
+                count[other] += 1
+            for other in {*self._joined[at], *carried.get(at, ())} - placed:
+                heappush(waiting, self._rank(other, count[other], placed))
+        stand = np.array(order, np.intp)  # each step sees a part of one array: no copy a step
+        return [PlanStep(at, stand[:known], tied, bounds) for at, known, tied, bounds in found]
+
+    def _rank(self, at: int, tied: int, placed: set[int]) -> _Rank:
+        late = at in self._pivot and self._pivot[at] not in placed
+        weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
+        # rounded, so that radii equal but for rounding stand in the order declared
+        return _Rank(late, -tied, -round(weight, 9), at)
+
+    def _on_closed_chains(self, placed: set[int]) -> set[int]:
+        """What is left when loose ends are taken off, all that stands counting as one; none of them if too many."""
+        left = set(range(len(self._joined)))
+        count = [len(joined) for joined in self._joined]
+        ends = [at for at in left if at not in placed and count[at] < 2]
+        while ends:
+            at = ends.pop()
+            left.discard(at)
+            for other in self._joined[at]:
+                count[other] -= 1
+                if count[other] == 1 and other in left and other not in placed:
+                    ends.append(other)
+        return left if len(left) <= _NEAR else set()
+
+    def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
+        """Bounds from the shortest ways to axes that stand, over axes to come.
+
+        A chain of bars reaches as far as its length, and no nearer than its longest bar outruns the rest.
+        """
+        ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # length, longest bar, end
+        done: set[int] = set()
+        found: list[DistanceBound] = []
+        while ways:
+            length, longest, here = heappop(ways)
+            if here in done:
+                continue
+            done.add(here)
+            if here in placed:
+                if here not in self._joined[at]:
+                    found.append(DistanceBound(here, max(0.0, 2 * longest - length), length))
+                continue
+            for other, bar in self._joined[here].items():
+                if other in closing and (here != at or other not in placed):
+                    heappush(ways, (length + bar, max(longest, bar), other))
+        return found
+
+
+# ---------------------------------------------------------------------------------------------------------- plan search
 
 
 _TOUCH = 1e-10  # of a distance: nearer than this it is kept

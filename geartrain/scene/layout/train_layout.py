@@ -1,20 +1,271 @@
-"""From a train to its layout: every axis and every wheel in space, in the pose in which all angles are zero."""
+"""From a train to its layout: every axis and every wheel in space, in the pose in which all angles are zero.
+
+Wheels are turned on their arbors so that teeth of one meet spaces of the other, breadth first over the gear pairs: the
+first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches by which a tooth is past
+the pitch point, positive as the wheel turns, teeth and spaces meet where s_1 + s_2 = 1/2 (mod 1) if positive angles
+turn the pitch point against each other, and s_1 - s_2 = 1/2 if not. What a layout could not meet is reported in words.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import hypot, pi, remainder
 from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector, across, dot, minus, size
-from geartrain.scene.layout.declared_geometry import read_geometry
-from geartrain.scene.layout.layout_diagnostics import notices, pitch_gaps
-from geartrain.scene.layout.mesh_alignment import align_meshes, reference
+from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, size, unit
+from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
+from geartrain.scene.layout.wheel_modules import pitch_distance
 from geartrain.scene.layout.wheel_reach import bare_reach, span
-from geartrain.scene.layout.wheel_sizes import Seat, size_geometry
+from geartrain.scene.layout.wheel_sizes import Seat, opposite, size_geometry
+from geartrain.scene.layout.wheel_stacks import WheelStack
+
+# --------------------------------------------------------------------------------------------------- layout diagnostics
+
+
+_TOUCH = 1e-9  # of the pitch radii: nearer than this, pitch circles touch
+_MEET = 1e-6  # of them, where axes meet, for directions are rounded as written
+_SHOWN = 6
+
+
+def pitch_gaps(found: Arrangement) -> dict[str, float]:
+    """Pairs whose pitch circles do not touch, and how far (mm) they are apart, negative into each other."""
+    sizes = found.geometry.sizes
+    gaps = {}
+    for contact in found.geometry.declared.contacts:
+        gap = _gap(found, contact)
+        slack = _TOUCH if contact.parallel else _MEET
+        if abs(gap) > slack * sum(sizes[wheel].radius for wheel in contact.wheels):
+            gaps[contact.name] = gap
+    return gaps
+
+
+def _gap(found: Arrangement, contact: PitchContact) -> float:
+    declared, sizes = found.geometry.declared, found.geometry.sizes
+    lines = [declared.lines[axis] for axis in contact.axes]
+    radii = [sizes[wheel].radius for wheel in contact.wheels]
+    if contact.parallel:
+        first, second = (found.points[axis] for axis in contact.axes)
+        apart = pitch_distance(declared, found.geometry.modules.module, contact)
+        far = size(across(minus(second, first), lines[0].direction)) - apart
+        return -far if contact.kind == "ring" else far
+    centres = [found.centres[wheel] for wheel in contact.wheels]
+    if contact.kind == "screw":
+        upright = unit(cross(lines[0].direction, lines[1].direction))
+        off = minus(centres[1], centres[0])
+        aside = size(across(off, upright))
+        far = abs(dot(off, upright)) - sum(radii)
+        return far if aside <= _TOUCH * sum(radii) else hypot(far, aside)
+    tip, other = (
+        plus(centre, found.geometry.seats[contact.name, wheel].out, radius)
+        for centre, wheel, radius in zip(centres, contact.wheels, radii, strict=True)
+    )
+    return size(minus(other, tip))
+
+
+def notices(
+    train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
+) -> Iterator[Problem]:
+    """All that a reader of a picture must know: what cannot be built first.
+
+    gaps     of pairs whose pitch circles do not touch (mm)
+    misses   of pairs whose teeth do not meet (pitches)
+    """
+    yield from (each.problem for each in train.build_findings)
+    declared = found.geometry.declared
+    place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}
+    for contact in declared.contacts:
+        if contact.name in gaps:
+            yield _not_touching(contact, gaps[contact.name], place[contact.name])
+    yield from _simplified(declared, place)
+    for stack in found.stacks:
+        yield from _crowding(found, stack)
+    for name, miss in misses.items():
+        if name not in gaps:
+            yield Problem(
+                f"the teeth of '{name}' do not meet: they are off by {abs(miss):.3g} of a pitch",
+                "it closes a loop of wheels whose places leave no other choice",
+                "give the axes places where teeth meet, or other tooth numbers",
+                place[name],
+            )
+
+
+def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
+    (first, second), (axis, other) = contact.wheels, contact.axes
+    return Problem(
+        f"the pitch circles of '{first}' and '{second}' "
+        + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
+        f"pair '{contact.name}' wants another distance of axes '{axis}' and '{other}' than other pairs, declared "
+        "positions, modules or offsets leave it",
+        "change a tooth number, a position or a module; the motion does not depend on it",
+        place,
+    )
+
+
+def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
+    """Wheels that are not drawn as they are declared."""
+    for stray in declared.strays:
+        yield Problem(
+            f"wheel '{stray.wheel}' is drawn on axis '{declared.axis[stray.wheel]}' only",
+            f"pair '{stray.pair}' has it on axis '{stray.axis}' too",
+            "give each of its meshes a wheel of its own",
+            place[stray.pair],
+        )
+
+
+def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
+    """Wheels that share a height and a place, and arbors that go through wheels."""
+    mates = {frozenset(contact.wheels) for contact in found.geometry.declared.contacts}
+    height = {block.wheel: dot(found.centres[block.wheel], stack.up) for block in stack.upright}
+    collide = [pair for pair in stack.collisions(height) if frozenset(pair) not in mates]
+    if collide:
+        yield Problem(
+            f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
+            "they lie in one level, as their mates do, and their places leave no room between them",
+            "give their axes positions, or their pairs another order",
+        )
+    pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
+    if pierced:
+        yield Problem(
+            f"arbors go through wheels: {_listed(pierced)}",
+            "no order of the levels was found that keeps all arbors clear",
+            "give the axes positions that leave them room",
+        )
+
+
+def _listed(words: Sequence[str]) -> str:
+    more = f" and {len(words) - _SHOWN} more" if len(words) > _SHOWN else ""
+    return ", ".join(words[:_SHOWN]) + more
+
+
+# ------------------------------------------------------------------------------------------------------- mesh alignment
+
+
+_TEETH_MEET = 1e-6  # of a pitch: nearer, teeth meet
+
+
+@dataclass(frozen=True, slots=True)
+class PitchSide:
+    """The pitch point of a pair as one of its wheels sees it.
+
+    angle  of the pitch point about the wheel's axis, from the axis' reference (rad)
+    """
+
+    wheel: str
+    teeth: int
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class PitchPoint:
+    """The pitch point of a pair.
+
+    sense  1 where positive angles about both axes turn the pitch point the same way, -1 where against each other
+    """
+
+    name: str
+    first: PitchSide
+    second: PitchSide
+    sense: int
+
+    def seen_from(self, wheel: str) -> tuple[PitchSide, PitchSide]:
+        """A wheel of the pair, and its mate."""
+        return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
+
+
+@dataclass(frozen=True, slots=True)
+class MeshAlignment:
+    """Angles of the first tooth of each wheel (rad, from 0 to a pitch); misses (pitches) of pairs that close a loop."""
+
+    turns: Mapping[str, float]
+    misses: Mapping[str, float]
+
+
+def reference(direction: Vector) -> Vector:
+    """Unit vector across an axis from which angles are counted: x where the axis is z."""
+    return frame(direction)[0]
+
+
+def align_meshes(found: Arrangement) -> MeshAlignment:
+    """Angles at which the wheels of a train mesh, as they stand."""
+    return _aligned([_pitch_point(found, contact) for contact in found.geometry.declared.contacts])
+
+
+def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
+    declared = found.geometry.declared
+    directions = [declared.lines[axis].direction for axis in contact.axes]
+    outs = _side_by_side(found, contact) if contact.parallel else _seated(found, contact)
+    first, second = (
+        PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
+        for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)
+    )
+    same = dot(cross(directions[0], outs[0]), cross(directions[1], outs[1])) > 0
+    return PitchPoint(contact.name, first, second, contact.worm_sense or (1 if same else -1))
+
+
+def _seated(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
+    """Where wheels of axes that are not parallel touch, as each wheel sees it."""
+    first, second = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
+    return first.out, second.out
+
+
+def _side_by_side(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
+    """Towards each other, but away from the axis of a wheel that runs in a ring."""
+    declared = found.geometry.declared
+    direction = declared.lines[contact.axes[0]].direction
+    apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), direction)
+    out = unit(apart) if size(apart) else reference(direction)
+    first, second = (declared.wheel(wheel).internal for wheel in contact.wheels)
+    return opposite(out) if second else out, out if first else opposite(out)
+
+
+def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
+    every = list(points)
+    of: dict[str, list[PitchPoint]] = {}
+    for one in every:
+        of.setdefault(one.first.wheel, []).append(one)
+        of.setdefault(one.second.wheel, []).append(one)
+    turns: dict[str, float] = {}
+    for start in of:
+        if start in turns:
+            continue
+        own, _ = of[start][0].seen_from(start)
+        turns[start] = own.angle % (2 * pi / own.teeth)
+        waiting = deque([start])
+        while waiting:
+            here = waiting.popleft()
+            for one in of[here]:
+                own, mate = one.seen_from(here)
+                if mate.wheel not in turns:
+                    turns[mate.wheel] = _turn_of_mate(own, mate, one.sense, turns[here])
+                    waiting.append(mate.wheel)
+    misses = {one.name: _miss(one, turns) for one in every}
+    return MeshAlignment(turns, {name: miss for name, miss in misses.items() if abs(miss) > _TEETH_MEET})
+
+
+def _past(side: PitchSide, turn: float) -> float:
+    """Pitches by which the first tooth is past the pitch point."""
+    return (turn - side.angle) * side.teeth / (2 * pi)
+
+
+def _turn_of_mate(own: PitchSide, mate: PitchSide, sense: int, turn: float) -> float:
+    """The angle of the mate of a wheel whose angle is known."""
+    pitch = 2 * pi / mate.teeth
+    # s_2 = 1/2 - s_1 where against each other, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
+    return (mate.angle + (0.5 + sense * _past(own, turn)) * pitch) % pitch
+
+
+def _miss(one: PitchPoint, turns: Mapping[str, float]) -> float:
+    first, second = (_past(side, turns[side.wheel]) for side in (one.first, one.second))
+    return remainder(first - one.sense * second - 0.5, 1.0)
+
+
+# --------------------------------------------------------------------------------------------------------- train layout
+
 
 How = Literal["given", "found", "free"]
 _Z: Vector = (0.0, 0.0, 1.0)  # the axis of what is declared to stand on none

@@ -1,4 +1,9 @@
-"""What stands on one axis of the frame: an arbor from plate to plate, or a stud in one, and pipes round it."""
+"""What stands on one axis of the frame: an arbor from plate to plate, or a stud in one, and pipes round it.
+
+A pipe covers the arbor inside it from its lowest wheel to its highest: no wheel of that arbor may be there. Each pair
+that leaves no choice is an edge of a graph; a topological order of it is the order of nesting, and a cycle is an axis
+whose arbors cannot be nested.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +12,6 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
-from geartrain.scene.parts.coaxial_order import CoaxialLink, nested
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc, by_piece
 
@@ -313,3 +317,42 @@ def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> 
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
     hit = tuple((disc, free - radius) for disc, free, radius in near if radius and free - radius < APART)
     return replace(column, hit=hit)
+
+
+# -------------------------------------------------------------------------------------------------------------- nesting
+
+
+@dataclass(frozen=True, slots=True)
+class CoaxialLink:
+    """What one link has in one piece on an axis, and how far it reaches (to a dial, or a plate).
+
+    hubs    heights at which something holds it or is held by it: of its discs, and of the plate that holds what stands
+    discs   on it; `ends`, whether it goes out below and above the stack
+    """
+
+    link: str
+    hubs: tuple[float, ...]
+    low: float
+    high: float
+    fixed: bool = False
+    discs: tuple[StackDisc, ...] = ()
+    ends: tuple[bool, bool] = (False, False)
+
+    def covers(self, other: CoaxialLink) -> bool:
+        """True if a hub of the other sits where this one would be its pipe."""
+        return any(self.low < height < self.high for height in other.hubs)
+
+
+def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
+    """Links from the innermost, each outside all before it; if that cannot be, as given, with two that clash."""
+    around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
+    left, order = list(range(len(links))), list[int]()
+    while left:
+        # one that no other must be inside of; of several the one that reaches farthest, what does not turn last
+        free = [at for at in left if around[at].isdisjoint(left)]
+        if not free:
+            both = ((links[a].link, links[b].link) for a in left for b in left if a in around[b] and b in around[a])
+            return tuple(links), next(both, (links[0].link, links[-1].link))
+        order.append(min(free, key=lambda at: (links[at].fixed, links[at].low - links[at].high)))
+        left.remove(order[-1])
+    return tuple(links[at] for at in order), None

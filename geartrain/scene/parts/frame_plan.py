@@ -1,14 +1,27 @@
-"""Plates, pillars, arbors, pipes and studs of a train: chosen, placed, and given room in the stack."""
+"""Plates, pillars, arbors, pipes and studs of a train: chosen, placed, and given room in the stack.
+
+Plates of shafts are arms, which go round what is in the way, and flanges, which clutches grip. Heights of wheels as
+laid out become heights as built, with room for all plates.
+"""
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
-from geartrain.scene.parts.arbor_columns import APART, INTEGRAL, AxisColumn, ColumnMember, ColumnProblem, FramePlaces
+from geartrain.scene.parts.arbor_columns import (
+    APART,
+    HEAD_ROOM,
+    INTEGRAL,
+    AxisColumn,
+    ColumnMember,
+    ColumnProblem,
+    FramePlaces,
+)
 from geartrain.scene.parts.carried_axes import (
     CarriedAxis,
     CarrierSeat,
@@ -23,9 +36,7 @@ from geartrain.scene.parts.frame_stack import AcrossWheel, FrameStack
 from geartrain.scene.parts.pin_circles import PinCircle, pin_seats
 from geartrain.scene.parts.plate_places import PlateChoice, best_column, best_places, obstacles, with_discs
 from geartrain.scene.parts.processes import Process
-from geartrain.scene.parts.shaft_seats import arm_seats, flange_seats
 from geartrain.scene.parts.stack_discs import Point, StackDisc, gaps, slabs
-from geartrain.scene.parts.stack_heights import BEHIND, StackHeights, stack_up
 
 if TYPE_CHECKING:
     from geartrain.scene.layout import Layout
@@ -95,7 +106,7 @@ class FramePlan:
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
         """Diameters of the arbor on an axis and of its pivots, as asked for, else as its link declares (mm)."""
         train = self.stack.train
-        links = [link for link in train.declaration.links if train.tree.axis(link) == axis]
+        links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
         if self.core is not None or not declared:
             return self.core, None
@@ -108,7 +119,7 @@ class FramePlan:
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
         for link, carried in by_carrier.items():
-            axis = self.stack.train.tree.axis(link) or ""
+            axis = self.stack.train.kinematics.tree.axis(link) or ""
             own = [disc for disc in self.stack.discs if disc.link == link]
             at = self.stack.flat(self.stack.axes[axis].point)
             own_pins = next((each for each in self.stack.pin_circles.values() if each.link == link), None)
@@ -124,7 +135,7 @@ class FramePlan:
             if circle.link in seated:
                 continue  # its pins go through all discs
             seated.add(circle.link)
-            axis = self.stack.train.tree.axis(circle.link) or ""
+            axis = self.stack.train.kinematics.tree.axis(circle.link) or ""
             slots = self._slots(circle)
             if circle.link not in by_carrier and axis in self.stack.axes and slots:
                 at = self.stack.flat(self.stack.axes[axis].point)
@@ -339,3 +350,102 @@ class FramePlan:
                 what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
                 why = f"its roots stand at {root:.3f} mm, the {member.outer:g} mm of '{member.link}' go on beside it"
                 yield Problem(what, why, "give a thinner --bore, or a larger module")
+
+
+# ------------------------------------------------------------------------------------------------------ seats of shafts
+
+_ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm in the outermost gaps: arms are nearer to the wheels
+_PART = 0.4  # of the widest disc on its axis: a flange
+_ROOM = 4.0  # mm of a disc beyond all others on its axis: there a bar stands
+
+
+def arm_seats(
+    stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
+) -> Iterator[CarrierSeat]:
+    """Arms for links that are tangled on an axis, and go out to dials on one side.
+
+    An arm turns beyond all wheels; a bar beside the axis joins it to the widest disc of its link.
+    """
+    for link in column.tangled or ():
+        below, above = ends.get(link, (False, False))
+        about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]
+        own = [disc for disc in about if disc.link == link]
+        if not own or below == above or link == stack.frame:
+            continue
+        widest = max(own, key=lambda disc: disc.root)
+        between = [disc for disc in about if disc.link != link and (disc.middle > widest.middle) == above]
+        if all(disc.outer + _ROOM < widest.root for disc in between):
+            height = slab_gaps[-1] - _ARM if above else slab_gaps[0] + _ARM
+            faces = height - _THIN, height + _THIN
+            disc = replace(
+                widest, name=f"{link} arm", low=faces[0], high=faces[1], outer=widest.root, root=0.0, apart=True
+            )
+            yield CarrierSeat(link, disc.name, (TurningPlate(disc),))
+
+
+def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
+    """Flanges, before or behind all wheels, on shafts that have nothing but brakes or clutches."""
+    train = stack.train
+    held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
+    bearing = {axis.carrier for axis in stack.layout.axes.values()}
+    for link, declared in train.declaration.links.items():
+        axis = train.kinematics.tree.axis(link) or ""
+        radius = _PART * max((disc.outer for disc in stack.discs if disc.axis == axis), default=0.0)
+        if link in held - bearing and not declared.wheels and axis in stack.axes and radius:
+            at, found = stack.flat(stack.axes[axis].point), []
+            for height in (slab_gaps[0] + _FLANGE, slab_gaps[-1] - _FLANGE):
+                disc = StackDisc(f"{link} flange", link, axis, at, height - _THIN, height + _THIN, radius)
+                found.append(CarrierSeat(link, disc.name, (TurningPlate(disc, round=True, flange=True),)))
+            yield found
+
+
+# -------------------------------------------------------------------------------------------------------------- heights
+
+BEHIND = 1.5  # mm between a plate of the frame and what turns next to it
+BETWEEN = HEAD_ROOM  # mm between a plate that turns and its neighbours
+
+
+@dataclass(frozen=True, slots=True)
+class StackHeights:
+    """Where everything stands once plates are in.
+
+    starts   lower face of each slab as laid out; shifts: how far it moves up (mm)
+    plates   faces of the plates that turn, by name
+    """
+
+    starts: tuple[float, ...]
+    shifts: tuple[float, ...]
+    places: FramePlaces
+    plates: dict[str, tuple[float, float]]
+
+    def shift(self, height: float) -> float:
+        """How far what stands at a height moves up."""
+        return self.shifts[max(bisect_right(self.starts, height + 1e-6) - 1, 0)]
+
+
+def stack_up(
+    taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
+) -> StackHeights:
+    """Heights from the lowest slab, which stays, up; plates below it are put under it."""
+    rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
+    rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
+    rows += [
+        (places.back[0], thickness, BEHIND, ("frame", "back")),
+        (places.front[0], thickness, BEHIND, ("frame", "front")),
+    ]
+    rows.sort(key=lambda row: row[0])
+    faces: dict[tuple[str, str], tuple[float, float]] = {}
+    top, before = 0.0, None
+    for row in rows:
+        low, tall, room, name = row
+        if before is not None:
+            slabs = before[3][0] == name[0] == "slab"
+            top += low - before[0] - before[1] if slabs else max(room, before[2])
+        faces[name] = top, top + tall
+        top, before = top + tall, row
+    rise = taken[0][0] - faces["slab", "0"][0]
+    moved = {name: (low + rise, high + rise) for name, (low, high) in faces.items()}
+    shifts = tuple(moved["slab", str(at)][0] - low for at, (low, _) in enumerate(taken))
+    turned = {name: each for (kind, name), each in moved.items() if kind == "turning"}
+    starts = tuple(low for low, _ in taken)
+    return StackHeights(starts, shifts, FramePlaces(moved["frame", "back"], moved["frame", "front"]), turned)

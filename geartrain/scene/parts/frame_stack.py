@@ -1,4 +1,7 @@
-"""What a frame and its carriers bear: axes that stand at right angles to the plates, with their wheels as discs."""
+"""What a frame and its carriers bear: axes at right angles to the plates, with their wheels as discs.
+
+It includes which wheels turn on eccentrics, of which arbors, and which pins of round holes are in plates.
+"""
 
 from __future__ import annotations
 
@@ -8,22 +11,26 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from math import ceil, dist, hypot, sqrt
+from math import atan2, ceil, dist, hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector, dot, plus, scaled
+from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
+from geartrain.numerics.vectors import Vector, dot, plus, scaled, size
+from geartrain.scene.joints import coupling_sizes, pin_and_hole
 from geartrain.scene.parts.arbor_columns import HEAD_ROOM
 from geartrain.scene.parts.carried_axes import CarriedAxis
-from geartrain.scene.parts.eccentrics import ROOM, Eccentric, on_eccentrics
+from geartrain.scene.parts.eccentrics import ROOM, USUAL_ARBOR, WALL, Eccentric, Wave, eccentric_radius, on_eccentrics
 from geartrain.scene.parts.flexible_cups import FlexibleCup
 from geartrain.scene.parts.pin_circles import PinCircle
 from geartrain.scene.parts.plate_passages import Passage
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
-from geartrain.scene.parts.stack_eccentrics import StackEccentrics, find_cups, find_pin_circles
 from geartrain.scene.solids.bearing_plates import basis
+from geartrain.scene.strain_waves import BentWheel, bent_wheels
+from geartrain.teeth.outlines.wave_tooth import CUP, wall
+from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 from geartrain.teeth.standard_teeth import DEDENDUM
 
 if TYPE_CHECKING:
@@ -141,7 +148,11 @@ class FrameStack:
 
     def carrier_axis(self, axis: AxisPlace) -> str | None:
         """The axis of the frame about which an upright axis is carried round."""
-        own = None if axis.carrier == self.frame or not self.is_upright(axis) else self.train.tree.axis(axis.carrier)
+        own = (
+            None
+            if axis.carrier == self.frame or not self.is_upright(axis)
+            else self.train.kinematics.tree.axis(axis.carrier)
+        )
         return own if own in self.axes else None
 
     @cached_property
@@ -215,7 +226,7 @@ class FrameStack:
             pins = {each.link for each in self.pin_circles.values()} | {cup.link for cup in self.cups}
             return dict.fromkeys(inner, (True, False)) | dict.fromkeys(pins - inner, (False, True))
         carriers = {self.layout.axes[each.axis].carrier for each in self.eccentrics}
-        about = {self.train.tree.axis(link) for link in carriers}
+        about = {self.train.kinematics.tree.axis(link) for link in carriers}
         drives = {disc.link for disc in self.wheel_discs if disc.axis in about and disc.hub}
         return dict.fromkeys(drives - {self.frame}, (False, True)) | dict.fromkeys(carriers, (True, False))
 
@@ -246,7 +257,7 @@ class FrameStack:
         middle = plus(place.centre, axis.direction, (below + above) / 2)
         half, height = outer * flat + thick * abs(along), dot(middle, self.normal)
         (x, y), low, high = self.flat(middle), height - half, height + half
-        about = None if axis.carrier == self.frame else self.train.tree.axis(axis.carrier)
+        about = None if axis.carrier == self.frame else self.train.kinematics.tree.axis(axis.carrier)
         if about is not None and about in self.layout.axes:
             centre = self.flat(self.layout.axes[about].point)
             return AcrossWheel(place.wheel, low, high, ((centre, dist(centre, (x, y)) + hypot(outer, thick)),))
@@ -324,3 +335,125 @@ def _upwards(direction: Vector) -> Vector:
     x, y, z = (round(each, 12) + 0.0 for each in direction)
     last = next((each for each in (z, y, x) if each), 1.0)
     return (x, y, z) if last > 0 else (0.0 - x, 0.0 - y, 0.0 - z)
+
+
+# -------------------------------------------------------------------------------------------------- eccentrics and pins
+
+_BESIDE = 1.0  # mm in the middle of a wheel between its hole and an arbor that passes
+
+
+@dataclass(frozen=True)
+class StackEccentrics:
+    """Of one stack.
+
+    A wheel whose axis a link carries round close to its own turns on an eccentric of that link. Where the link is only
+    what cranks side by side bear together, each crank has one.
+    """
+
+    stack: FrameStack
+
+    def found(self) -> Iterator[Eccentric]:
+        """All of them; those of one arbor are numbered from the second on."""
+        count: Counter[str] = Counter()
+        for each in self._each():
+            count[each.name] += 1
+            number = count[each.name]
+            yield each if number == 1 else replace(each, name=f"{each.name} {number}")
+
+    def _each(self) -> Iterator[Eccentric]:
+        waves = {each.wheel: each for each in bent_wheels(self.stack.train, self.stack.layout)}
+        for label, axis in self.stack.layout.axes.items():
+            own = self.stack.carrier_axis(axis)
+            discs = [disc for disc in self.stack.wheel_discs if disc.axis == label]
+            if own is None or len(slabs(discs)) != 1:  # wheels apart are one body by their pipe alone
+                continue
+            at = self._place(own)
+            if dist(at, discs[0].at) < ON_ECCENTRIC * min(disc.root for disc in discs):
+                if bent := next((waves[disc.name] for disc in discs if disc.name in waves), None):
+                    yield self._wave(bent, label, at)
+                elif cranks := list(self._cranks(axis.carrier, own)):
+                    yield from self._on_cranks(cranks, at, label, discs)
+                else:
+                    yield from self._on_arbor(axis.carrier, own, label, discs)
+
+    def _wave(self, bent: BentWheel, label: str, at: Point) -> Eccentric:
+        """What bends a thin wheel."""
+        (x, y), blank = self._place(label), self.stack.blanks[bent.wheel]
+        thin = wall(blank.pitch_radius)
+        wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
+        name, radius = f"{bent.link} wave", blank.root_radius - thin
+        return Eccentric(name, bent.link, bent.axis, at, at, radius, (bent.wheel,), label, wave=wave)
+
+    def _place(self, label: str) -> Point:
+        return self.stack.flat(self.stack.layout.axes[label].point)
+
+    def _on_arbor(self, link: str, own: str, label: str, discs: Sequence[StackDisc]) -> Iterator[Eccentric]:
+        at, centre, links = self._place(own), discs[0].at, {disc.link for disc in discs}
+        free = min((circle.free for circle in self.stack.pin_circles.values() if circle.slot in links), default=inf)
+        free = min([free, *(disc.root for disc in discs)])
+        radius = eccentric_radius(dist(at, centre), self._arbor(link), free)
+        yield Eccentric(f"{link} eccentric", link, own, at, centre, radius, tuple(d.name for d in discs), label)
+
+    def _arbor(self, link: str) -> float | None:
+        """Diameter of the arbor of a link (mm), if it is given."""
+        declared = self.stack.train.declaration.links[link].arbor
+        return self.stack.core if self.stack.core is not None or declared is None else 1000 * declared.diameter.si
+
+    # ---------------------------------------------------------------------------------------------- cranks side by side
+
+    def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
+        """Links that bear together what one stands for, on axes that are carried about its own: axes, couplings."""
+        tree = self.stack.train.kinematics.tree
+        for coupling in self.stack.train.declaration.couplings:
+            pair = coupling.pin, coupling.slot
+            if isinstance(coupling, Parallel) and link in pair:
+                crank = pair[1 - pair.index(link)]
+                label = tree.axis(crank) or ""
+                place = self.stack.layout.axes.get(label)
+                if place is not None and self.stack.carrier_axis(place) == own:
+                    yield crank, label, coupling.name
+
+    def _on_cranks(
+        self, cranks: Sequence[tuple[str, str, str]], at: Point, label: str, discs: Sequence[StackDisc]
+    ) -> Iterator[Eccentric]:
+        centre = discs[0].at
+        offset, places = dist(at, centre), [self._place(own) for _, own, _ in cranks]
+        middle = round(offset + (USUAL_ARBOR if self.stack.core is None else self.stack.core) / 2 + _BESIDE, 2)
+        wheels, root = tuple(disc.name for disc in discs), min(disc.root for disc in discs)
+        for (link, own, name), place in zip(cranks, places, strict=True):
+            away = dist(place, at)
+            free = min([root - away, away - middle, *(dist(place, other) / 2 for other in places if other != place)])
+            moved = place[0] + centre[0] - at[0], place[1] + centre[1] - at[1]
+            radius = eccentric_radius(offset, self._arbor(link), free)
+            yield Eccentric(f"{link} eccentric", link, own, place, moved, radius, wheels, label, middle, name)
+
+
+def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
+    """Walls between thin wheels and links on axes of the frame."""
+    declared, tree = stack.train.declaration, stack.train.kinematics.tree
+    for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
+        for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
+            own = [disc for disc in stack.wheel_discs if disc.link == thin and declared.wheels[disc.name][1].flexible]
+            place = stack.layout.axes.get(tree.axis(cup) or "")
+            if own and place is not None and place.carrier == declared.frame and stack.is_upright(place):
+                blank, at = stack.blanks[own[0].name], stack.flat(place.point)
+                yield FlexibleCup(
+                    coupling.name, cup, thin, own[0].name, at, blank.root_radius, wall(blank.pitch_radius)
+                )
+
+
+def find_pin_circles(stack: FrameStack) -> Iterator[PinCircle]:
+    """Pins in round holes that no wheel of their own link is wide enough to bear."""
+    for declared in stack.train.declaration.couplings:
+        places = [
+            stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")
+            for link in (declared.pin, declared.slot)
+        ]
+        if not isinstance(declared, PinsInHoles) or not all(each and stack.is_upright(each) for each in places):
+            continue
+        first, second = (stack.flat(each.point) for each in places if each)
+        radius, offset = coupling_sizes(declared, dist(first, second))
+        pin, hole = pin_and_hole(declared, radius, offset)
+        wide = radius + pin / 2 + WALL
+        if not any(disc.link == declared.pin and disc.hub and disc.root > wide for disc in stack.wheel_discs):
+            yield PinCircle(declared.name, declared.pin, declared.slot, radius, pin, hole)

@@ -71,7 +71,7 @@ def build_scene(
     >>> sorted({part.kind for part in scene.parts})
     ['arbor', 'carrier', 'frame', 'pillar', 'pipe', 'post', 'stud']
     """
-    state = train.state_or_first(run.state if state is None and run is not None else state)
+    state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
     model = SolidModel(train, ManufacturingSizes(), state)
     try:
         parts = tuple(_told(each, model) for each in model.structure)

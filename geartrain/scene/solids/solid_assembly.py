@@ -22,18 +22,17 @@ from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.brackets import Bracket, find_brackets
 from geartrain.scene.solids.carrier_cages import Cage, find_cages
-from geartrain.scene.solids.coupling_parts import CouplingParts
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
 from geartrain.scene.solids.hangers import HangingParts, hanging_solids
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
 from geartrain.scene.solids.pin_couplings import (
+    CouplingParts,
     CutCoupling,
     cut_couplings,
     holes,
 )
-from geartrain.scene.solids.side_bars import side_bars
 from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
-from geartrain.scene.solids.standing_pins import standing_pins
+from geartrain.scene.solids.standing_pins import side_bars, standing_pins
 from geartrain.scene.solids.triangle_solids import wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks, with_seats
 from geartrain.teeth.outlines.contour import Contour

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from heapq import heapify, heappop, heappush
+from math import isnan, nan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
 
 _FLAT = 1e-12  # twice the area (mm2) of a triangle that is none
+_NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
@@ -81,7 +83,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
     found: list[tuple[int, int, int]] = []
     while len(corners.left) > 3:
         at = corners.find_ear()
-        if abs(float(corners.turn[at])) > 0:
+        if corners.turn[at] != 0:
             found.append((loop[corners.before[at]], loop[at], loop[corners.after[at]]))
         corners.cut(at)
     a, b, c = corners.left.tolist()
@@ -94,9 +96,13 @@ class _Corners:
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
         self.corners, self.left = corners, np.arange(count)
+        self.points = [(x, y) for x, y in corners.tolist()]
         self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
-        self.turn, self.fatness = _shape(corners[self.before], corners, corners[self.after])
-        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness.tolist())]
+        self.turn, self.fatness = [0.0] * count, [0.0] * count
+        self.blocker = [-1] * count  # a corner that was found in the triangle of each; -1: none yet
+        for at in range(count):
+            self._measure(at)
+        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness)]
         heapify(self.heap)
 
     def find_ear(self) -> int:
@@ -115,29 +121,37 @@ class _Corners:
         for each in passed:
             heappush(self.heap, each)
         # without an ear nothing but flat corners is left
-        return ear if ear >= 0 else int(self.left[np.argmin(np.abs(self.turn[self.left]))])
+        return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
 
     def _empty(self, at: int) -> bool:
-        """True if no point but its own lies in the triangle of a corner."""
+        """True if no point but its own lies in the triangle of a convex corner."""
+        blocker = self.blocker[at]
+        if blocker >= 0 and not isnan(self.fatness[blocker]):  # it is left
+            return False
         here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
-        a, b, c = own
-        within = (_turn(a, b, here) >= 0) & (_turn(b, c, here) >= 0) & (_turn(c, a, here) >= 0)
-        return bool((here[within][:, None] == own).all(-1).any(-1).all())
+        (ax, ay), (x, y) = own.T[..., None], here.T
+        side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # of each edge, (3, n)
+        within = np.flatnonzero(side.min(axis=0) >= 0)
+        if len(within) == 3:
+            return True
+        others = within[~(here[within][:, None] == own).all(-1).any(-1)]
+        if len(others):
+            self.blocker[at] = int(self.left[others[0]])
+        return not len(others)
 
     def cut(self, at: int) -> None:
         """Cut a corner off."""
         a, c = self.before[at], self.after[at]
         self.left = np.delete(self.left, np.searchsorted(self.left, at))
-        self.after[a], self.before[c], self.fatness[at] = c, a, np.nan
+        self.after[a], self.before[c], self.fatness[at] = c, a, nan
         for k in (a, c):
-            ends = self.corners[self.before[k]], self.corners[k], self.corners[self.after[k]]
-            self.turn[k], self.fatness[k] = _shape(*ends)
-            heappush(self.heap, (-float(self.fatness[k]), k))
+            self._measure(k)
+            heappush(self.heap, (-self.fatness[k], k))
 
-
-def _shape(before: Floats, here: Floats, after: Floats) -> tuple[Floats, Floats]:
-    """Twice the signed area of each corner's triangle, and that over the square of its greatest length."""
-    turn = _turn(before, here, after)
-    sides = ((here - before) ** 2).sum(-1) + ((after - here) ** 2).sum(-1)
-    longest = np.maximum(((after - before) ** 2).sum(-1), sides)
-    return turn, turn / np.where(longest > 0, longest, 1)
+    def _measure(self, at: int) -> None:
+        """Twice the signed area of the triangle of a corner, and that over the square of its greatest length."""
+        (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
+        turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
+        longest = max((cx - ax) * (cx - ax) + (cy - ay) * (cy - ay), first + second)
+        self.turn[at], self.fatness[at], self.blocker[at] = turn, turn / (longest or 1.0), -1

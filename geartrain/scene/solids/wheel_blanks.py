@@ -79,7 +79,7 @@ class Blanks:
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
     """The flat shapes of all wheels of a train without holes, at the sizes of a layout."""
-    toothed = find_train_teeth(train, layout.wheels, making.backlash, layout.apart)
+    toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
     for name, problems in toothed.problems.items():

@@ -23,8 +23,15 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal
 from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, RatioIs, SetFindings, SetOrder, set_rank
-from geartrain.synthesis.epicyclic.set_assembly import clears, places, room
-from geartrain.synthesis.epicyclic.set_enumeration import SetBounds, blocks, ratio_terms, read_bounds
+from geartrain.synthesis.epicyclic.set_enumeration import (
+    SetBounds,
+    blocks,
+    clears,
+    places,
+    ratio_terms,
+    read_bounds,
+    room,
+)
 from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind, EpicyclicMode, epicyclic_kind
 from geartrain.synthesis.search_outcome import Shortfall
 from geartrain.synthesis.target_ratio import TargetRatio

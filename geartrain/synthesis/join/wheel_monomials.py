@@ -13,10 +13,13 @@ from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.formulas.monomial_groups import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
-from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
-from geartrain.synthesis.join.polynomial_signs import SignPolynomial
+from geartrain.synthesis.join.polynomial_constraints import (
+    PolynomialConstraint,
+    PolynomialInequality,
+    SignPolynomial,
+    possible,
+)
 from geartrain.synthesis.join.product_lists import Domains, ItemRecipe, forecast, greatest
-from geartrain.synthesis.join.solution_windows import PolynomialInequality
 
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]

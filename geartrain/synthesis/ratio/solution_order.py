@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.ratio.ratio_windows import ROUNDING, error_places
+from geartrain.synthesis.ratio.product_windows import ROUNDING, error_places
 from geartrain.synthesis.ratio.stage_pairs import suited
 from geartrain.synthesis.ratio.stage_problem import StageConstraints
 

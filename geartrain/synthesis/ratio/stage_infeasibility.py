@@ -9,10 +9,8 @@ from fractions import Fraction
 from geartrain.errors import RangeError
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.work import Execution
-from geartrain.synthesis.ratio.product_windows import MOST_STAGES, multisets
-from geartrain.synthesis.ratio.ratio_windows import rounded_up
-from geartrain.synthesis.ratio.reverted_stages import tally
-from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
+from geartrain.synthesis.ratio.product_windows import MOST_STAGES, multisets, rounded_up
+from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, tally, within
 from geartrain.synthesis.ratio.solution_order import Key
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
 from geartrain.synthesis.search_outcome import Shortfall

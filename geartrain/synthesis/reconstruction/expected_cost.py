@@ -1,4 +1,4 @@
-"""What a search will cost, found by doing a little of it: a part in so many is timed, and multiplied."""
+"""Estimate of the time of a search from a random sample of its tasks."""
 
 from __future__ import annotations
 
@@ -11,13 +11,12 @@ from time import perf_counter
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.skeleton_tasks import (
+from geartrain.synthesis.reconstruction.search_tasks import (
     QUICK,
-    SkeletonTask,
-    skeleton_tasks,
+    TopologyTask,
     timed_part,
+    topology_tasks,
     total_paths,
-    total_placements,
 )
 
 _SAMPLES = {4096: 3, 512: 4, 64: 5}
@@ -49,11 +48,7 @@ class ExpectedCost(Result):
     Attributes
     ----------
     paths : dict of str to int
-        By dial, how many paths from the input to it are possible, with as many added wheels as may be. Empty where
-        trains are searched as wholes, and not by paths.
-    placements : int or None
-        In how many ways as many wheels as may be added may be shared out among the paths to dials; None where paths are
-        searched.
+        By dial, how many paths from the input to it are possible, with as many added wheels as may be.
     seconds : tuple of float
         How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
         three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top.
@@ -61,10 +56,9 @@ class ExpectedCost(Result):
         One part in so many of the search was timed; 0 if none was.
     """
 
-    KEYS = ("paths", "placements", Key("seconds", "whole", to=rough))
+    KEYS = ("paths", Key("seconds", "whole", to=rough))
 
     paths: dict[str, int]
-    placements: int | None
     seconds: tuple[float, ...]
     parts: int
 
@@ -80,14 +74,14 @@ def expect_cost(problem: ReconstructionProblem, clock: Callable[[], float] = per
     Raises `QuestionError` if there are too many paths, or the search would not end within a hundred years.
     """
     _refuse_absurd(problem)
-    parted = dict.fromkeys(task.added for task in skeleton_tasks(problem) if task.parts > 1)
+    parted = dict.fromkeys(task.added for task in topology_tasks(problem) if task.parts > 1)
     timed: dict[int, tuple[int, float]] = {}
     for added in parted if all(total_paths(problem).values()) else ():
         timed[added] = _sampled(problem, added, clock)
         _refuse_endless(problem, [seconds for _, seconds in timed.values()])
     seconds = tuple(timed[added][1] if added in timed else 0.0 for added in range(problem.additions.wheels + 1))
     parts = max((parts for parts, _ in timed.values()), default=0)
-    return ExpectedCost(total_paths(problem), total_placements(problem), seconds, parts)
+    return ExpectedCost(total_paths(problem), seconds, parts)
 
 
 def count_choices(problem: ReconstructionProblem) -> float:
@@ -141,9 +135,9 @@ def _sampled(problem: ReconstructionProblem, added: int, clock: Callable[[], flo
     parts, whole = 0, 0.0
     for parts, samples in _SAMPLES.items():
         # a part that is none: what every part has to do before it comes to what is its own
-        alone = timed_part(SkeletonTask(problem, added, parts, parts), clock)
+        alone = timed_part(TopologyTask(problem, added, parts, parts), clock)
         chosen = (int(_GOLDEN * number % 1 * parts) for number in range(1, samples + 1))
-        own = sum(timed_part(SkeletonTask(problem, added, part, parts), clock) - alone for part in chosen)
+        own = sum(timed_part(TopologyTask(problem, added, part, parts), clock) - alone for part in chosen)
         whole = alone + parts * max(0.0, own) / samples
         if own >= _ENOUGH:
             break
@@ -159,4 +153,4 @@ def done_shares(problem: ReconstructionProblem, expected: ExpectedCost) -> tuple
 def _weights(problem: ReconstructionProblem, expected: ExpectedCost) -> Iterator[float]:
     """What each task takes, none of them nothing."""
     least = 1e-3 * expected.whole + 1e-6
-    yield from (least + expected.seconds[task.added] / task.parts for task in skeleton_tasks(problem))
+    yield from (least + expected.seconds[task.added] / task.parts for task in topology_tasks(problem))

@@ -1,4 +1,4 @@
-"""What trains say of single facts: marginals by weight, and which fact would divide the trains most.
+"""Marginals of single facts over all trains, by weight, and the fact with the greatest entropy.
 
 A fact has one answer in each candidate: whether two wheels mesh, what drives an arbor, the count of a wheel. Its
 marginal is the weight of each answer; looking it up is expected to tell the entropy of these weights, as the candidate
@@ -16,8 +16,11 @@ from typing import Literal, NamedTuple, get_args
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.information import entropy
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.synthesis.reconstruction.named_train import NamedArbor
+from geartrain.synthesis.reconstruction.arbor_orders import AddedPlace, NamedMesh
+from geartrain.synthesis.reconstruction.candidate_names import NamedArbor
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem, SurvivingArbor
+from geartrain.synthesis.reconstruction.search_tasks import OrderPart, TopologyTrains
+from geartrain.synthesis.reconstruction.train_topology import Topology
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
 """What a fact is about.
@@ -284,3 +287,63 @@ def _affirmed(fact: FactMarginal) -> Fraction:
 def _natural(answer: str) -> tuple[int, str]:
     """Counts by size, then words."""
     return (int(answer), "") if answer.isdigit() else (1 << 62, answer)
+
+
+# What all trains of a question say of single facts: weights and numbers, summed exactly without listing a train.
+
+
+MOST_SUMMED = 20_000_000
+"""Trains up to which sums over choices of counts are fast."""
+
+
+def sum_facts(
+    weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, dials: Sequence[str]
+) -> FactTally:
+    """What the trains of topologies say, each topology with the weight of one of its trains."""
+    trains, sums = TopologyTrains(problem, dials), FactTally(problem)
+    lost, doubtful = lost_pointers(problem), wheels_in_doubt(problem)
+    for topology, weight in weighed:
+        parts = [part for part in trains.parts(topology) if part.choices and part.orders.total]
+        number = sum(part.choices * part.orders.total for part in parts)
+        sums.add_trains(weight, number)
+        for fact, answer in _everywhere(topology, lost, doubtful):
+            sums.add(fact, answer, weight, number)
+        for part in parts:
+            for fact, answer, own in _told(part, trains):
+                sums.add(fact, answer, weight, own)
+    return sums
+
+
+def _everywhere(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
+    """What holds in each train of a topology."""
+    for branching in topology.branchings:
+        for dial in lost.intersection(branching.here):
+            yield Fact("pointer", dial), branching.name or AN_ADDED_ARBOR
+    for wheel in topology.used:
+        assert wheel.name is not None
+        yield Fact("used", wheel.name), YES
+        if wheel.name in doubtful:
+            yield Fact("count", wheel.name), str(wheel.teeth)
+
+
+def _told(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
+    """What holds in some trains of a part, and in how many."""
+    for told, orders in part.orders.marginals.items():
+        if isinstance(told, NamedMesh):
+            for fact, answer in _of_mesh(told):
+                yield fact, answer, int(orders) * part.choices
+        elif isinstance(told, AddedPlace):
+            for count, choices in trains.counts.of_kind(part.open, told.kind).items():
+                yield Fact("added", told.name), str(count), int(orders) * choices
+    for count, choices in trains.counts.with_any(part.open).items():
+        yield Fact("needed", str(count)), YES, int(part.orders.total) * choices
+
+
+def _of_mesh(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
+    driving, wheel, arbor = mesh
+    assert arbor.driven is not None
+    yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
+    if wheel.placed.name is not None and arbor.driven.placed.name is not None:
+        yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
+    if not arbor.added:
+        yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name

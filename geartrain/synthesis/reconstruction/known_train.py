@@ -13,7 +13,6 @@ from functools import cached_property
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits.joint_tree import find_tree
-from geartrain.synthesis.reconstruction.mesh_walk import DrivenArbor, walk_meshes
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     Arbor,
@@ -21,6 +20,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     ReconstructionProblem,
     SearchedDial,
 )
+from geartrain.synthesis.reconstruction.spur_tree import DrivenArbor, walk_meshes
 from geartrain.train import Train
 
 

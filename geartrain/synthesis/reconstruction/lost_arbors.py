@@ -1,4 +1,4 @@
-"""From a train to evidence of it, as if some of its arbors had been lost: a test of what evidence is worth."""
+"""Evidence from a complete train of which some arbors are taken as lost: a test of what evidence is worth."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
-from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
-from geartrain.synthesis.reconstruction.sameness import mechanism
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree
-from geartrain.synthesis.reconstruction.train_parts import why_not
+from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions, mechanism
+from geartrain.synthesis.reconstruction.spur_tree import SpurTree, why_not
 from geartrain.train import Train, declare
 from geartrain.train.reconstruction import NEW_ARBOR
 

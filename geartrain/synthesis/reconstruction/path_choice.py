@@ -1,4 +1,7 @@
-"""One path for every dial, so that all of them may be the paths of one train.
+"""Backtracking over dials: one path for every dial, so that all of them may be the paths of one train.
+
+A join on hashed quotients finds pairs of paths, bit masks tell what they share, and the length of the shortest tour of
+the dials is the lower bound by which branches are pruned.
 
 How far two ends of a train are apart is the number of added wheels on one of the two paths alone; from the input it is
 the number on the path. All ends cannot be far from each other, for on a tour around the tree each added wheel is passed
@@ -11,25 +14,173 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, reduce
-from itertools import combinations, pairwise, product
+from functools import cache, lru_cache, reduce
+from itertools import combinations, pairwise, permutations, product
 from operator import or_
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.synthesis.reconstruction.end_tours import (
-    EndPair,
-    distances,
-    end_pair,
-    shortest_tour,
-    tours_with_one_more,
-)
-from geartrain.synthesis.reconstruction.path_columns import PathColumns, all_to_use
-from geartrain.synthesis.reconstruction.path_lists import PathList, Rows
+from geartrain.synthesis.reconstruction.path_lists import PathList, Rows, seen_clusters
 from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
 from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
+from geartrain.synthesis.reconstruction.train_topology import ADDED, ArborPass
+
+# Tours of the ends of a train: from the input past the dials and back, each added wheel is passed twice.
+
+
+EndPair = tuple[str, str]
+"""Two ends by name, sorted."""
+
+
+def end_pair(one: str, other: str) -> EndPair:
+    """Two ends as a pair."""
+    return (one, other) if one < other else (other, one)
+
+
+def distances(ends: Sequence[str], far: Mapping[EndPair, int]) -> tuple[int, ...]:
+    """How far each end is from each, row by row; 0 where that is not known."""
+    return tuple(far.get(end_pair(one, two), 0) for one in ends for two in ends)
+
+
+@lru_cache(maxsize=1 << 16)
+def shortest_tour(number: int, far: tuple[int, ...]) -> int:
+    """The least length of a tour from the first end past all others and back."""
+    return min(far[one * number + two] + rest for one, two, rest in tours_with_one_more(number, far))
+
+
+@lru_cache(maxsize=1 << 16)
+def tours_with_one_more(number: int, far: tuple[int, ...]) -> tuple[tuple[int, int, int], ...]:
+    """By two ends between which one more may stand on a tour: the least length of the rest."""
+    orders, first, pairs = _orders(number)
+    lengths = np.array(far, dtype=np.int64)[orders].sum(axis=1)
+    least = np.minimum.reduceat(lengths, first)
+    return tuple((one, two, rest) for (one, two), rest in zip(pairs, least.tolist(), strict=True))
+
+
+@lru_cache(maxsize=16)
+def _orders(number: int) -> tuple[NDArray[np.int64], NDArray[np.int64], tuple[tuple[int, int], ...]]:
+    """Orders of ends, one of each two that are the reverse of each other, those between the same two ends together.
+
+    By order, its steps as places in a table of distances; where those between two ends begin; and these two ends.
+    """
+    orders = [order for order in permutations(range(number)) if order[0] <= order[-1]]
+    orders.sort(key=lambda order: (order[0], order[-1]))
+    ends = np.array([(order[0], order[-1]) for order in orders])
+    first = np.flatnonzero((np.diff(ends, axis=0, prepend=-1) != 0).any(axis=1))
+    whole = np.array(orders)
+    pairs = tuple((int(one), int(two)) for one, two in ends[first])
+    return whole[:, :-1] * number + whole[:, 1:], first, pairs
+
+
+# What of the paths in a list is compared with a path to another dial, in columns: fast for many paths at once.
+
+
+_NEVER = 100
+"""Wheels apart, of paths that differ by a prime that no wheel has."""
+
+
+class PathColumns:
+    """The paths of a list, by arbor.
+
+    powers           by large prime and row: its power in what the added wheels must make
+    codes            by arbor and row: the way through it, 0 where there is none
+    driven, driver   by arbor and row: number of the wheel that is driven with its count, and of the one that drives by
+                     its name; 0 where there is none
+    ends             by row: bit of the surviving arbor that shows the dial
+    passes_added     by row: whether an added wheel is an idler on it
+    used             by row: bits of surviving arbors, then of wheels, that are used
+    """
+
+    def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
+        self.paths = paths
+        self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
+        names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
+        number = {name: at for at, name in enumerate(names, 1)}
+        self.codes = np.ascontiguousarray(paths.codes.T)
+        self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
+        self.driven = np.ascontiguousarray(paths.driven_at(np.arange(len(paths))).T.astype(np.int16)) + np.int16(1)
+        self.driver = np.zeros(self.codes.shape, dtype=np.int16)
+        self.used = paths.arbors.copy()
+        self.ends = np.zeros(len(paths), dtype=np.int64)
+        self.passes_added = paths.idlers > 0
+        for at, passes in enumerate(paths.passes):
+            taken = self.codes[at]
+            drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
+            self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
+            wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
+            self.used |= np.array(wheels, dtype=np.int64)[taken]
+            self.passes_added |= np.array([False, *(each.idler and each.driven == ADDED for each in passes)])[taken]
+            if at:
+                last = np.array([False, *(each.driver is None for each in passes)])
+                self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
+
+    def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
+        """Which paths may stand in one tree with a path to another dial, or each with one of several.
+
+        Only the arbor at which they part may be left by different wheels, and none is reached by different ones. A
+        wheel has one count. Where they part at the input they share no arbor.
+        """
+        both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
+        good = self._end_in(rows, both, other, row)
+        mine, theirs = self.paths.arbors[rows], other.paths.arbors[row]
+        for cluster in self._clusters:  # all paths to it lead through the arbor that is above all others of it
+            good &= (both & cluster != 0) | (mine & cluster == 0) | (theirs & cluster == 0)
+        parted = np.zeros(len(rows), dtype=np.int8)
+        one = isinstance(row, int)
+        for at in np.flatnonzero(other.codes[:, row]).tolist() if one else range(len(self.codes)):
+            codes, others = self.codes[at][rows], other.codes[at, row]
+            shared = codes > 0 if one else (codes > 0) & (others > 0)
+            left = shared & (codes != others)
+            parted += left
+            good &= ~(shared & (self.driven[at][rows] != other.driven[at, row]))
+            driver = other.driver[at, row]
+            if not one or driver:
+                good &= ~(left & (self.driver[at][rows] == driver) & (driver > 0))
+            if not at:
+                good &= ~left | (both == 0)
+        return good & (parted <= 1)
+
+    def differing_primes(self, rows: Rows, other: PathColumns, row: int) -> NDArray[np.int8]:
+        """How many wheels with a large prime each path and one to another dial have apart from each other, at least."""
+        found = np.zeros(len(rows), dtype=np.int16)
+        for prime in self.powers.keys() | other.powers.keys():
+            own = self.powers[prime][rows] if prime in self.powers else np.int8(0)
+            theirs = other.powers[prime][row] if prime in other.powers else np.int8(0)
+            differ = np.abs(own - theirs)
+            found += differ if prime <= self.paths.problem.additions.greatest else differ * np.int16(_NEVER)
+        return np.minimum(found, _NEVER).astype(np.int8)
+
+    def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
+        """Which paths keep to the rule that one which ends at an arbor of the other is a part of it."""
+        mine, theirs = self.paths, other.paths
+        ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
+        compounds = mine.compounds[rows] - theirs.compounds[row]
+        idlers = mine.idlers[rows] - theirs.idlers[row]
+        good = ~ends | ((both == mine.arbors[rows]) & (compounds <= 0) & (idlers <= 0))
+        good &= ~their_end | ((both == theirs.arbors[row]) & (compounds >= 0) & (idlers >= 0))
+        return np.asarray(good)
+
+
+def all_to_use(problem: ReconstructionProblem) -> int:
+    """Bits of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
+    if problem.use == "some":
+        return 0
+    arbors = (1 << len(problem.arbors)) - 1
+    if problem.use == "arbors":
+        return arbors
+    wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
+    return arbors | ((1 << wheels) - 1) << len(problem.arbors)
+
+
+def _bits(each: ArborPass, number: dict[str, int]) -> int:
+    found = 0
+    for wheel in (each.driven, each.driver):
+        if wheel is not None and wheel.name in number:
+            found |= 1 << (number[wheel.name] - 1)
+    return found
+
 
 Choice = dict[str, int]
 """By dial, the row of its list."""

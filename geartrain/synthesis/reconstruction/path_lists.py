@@ -1,4 +1,4 @@
-"""All surviving arbors and wheels that a path from the input to one dial may use, whatever is added to it.
+"""Enumeration of paths: all surviving arbors and wheels that a path from the input to one dial may use.
 
 Most have no answer: what is left of a dial's speed when the surviving wheels on a path are taken out must be a quotient
 of few added counts. So few paths remain, whichever trains they then belong to, and a search over trains goes only where
@@ -7,35 +7,226 @@ every dial still has one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, cached_property
 from math import prod
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import QuestionError
-from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass, arbor_passes
-from geartrain.synthesis.reconstruction.asked_question import too_wide
-from geartrain.synthesis.reconstruction.path_growth import PathGrowth
-from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, prime_powers
-from geartrain.synthesis.reconstruction.quotient_ranges import Bounds, QuotientRanges
+from geartrain.synthesis.reconstruction.quotient_keys import Bounds, QuotientKeys, QuotientRanges, prime_powers
 from geartrain.synthesis.reconstruction.reconstruction_problem import (
     NEW,
     PlacedWheel,
     ReconstructionProblem,
     SearchedDial,
+    too_wide,
 )
-from geartrain.synthesis.reconstruction.seen_meshes import SeenMeshes
+from geartrain.synthesis.reconstruction.train_topology import ADDED, ArborPass, arbor_passes
+
+# Meshes that were seen, as what they leave of the ways of a path through arbors. Arbors that seen meshes hold
+# together are a cluster, a part of the tree: one of them is above all others of it, which is the input where that
+# is among them. Of two wheels in mesh one drives the other, and its arbor is the parent. A path has the parents of
+# all its arbors. So the arbors of a cluster that are on it stand in a row, and it leads over their meshes.
+
+
+_Fits = NDArray[np.bool_]
+"""By way through an arbor, from 1 on, and way through another: whether they go together; 0 where there is none."""
+
+
+def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
+    """Arbors by number, the input at 0, that seen meshes hold together; each but the first has a mate before it."""
+    mates: dict[int, list[int]] = {}
+    for first, _, second, _ in _meshes(problem):
+        mates.setdefault(first, []).append(second)
+        mates.setdefault(second, []).append(first)
+    found: list[tuple[int, ...]] = []
+    for start in sorted(mates):
+        if not any(start in cluster for cluster in found):
+            cluster = [start]
+            for at in cluster:
+                cluster += [mate for mate in dict.fromkeys(mates[at]) if mate not in cluster]
+            found.append(tuple(cluster))
+    return tuple(found)
+
+
+def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str]]:
+    """Each mesh that was seen, as two arbors by number with their wheels."""
+    owner = {wheel.name: at for at, arbor in enumerate((problem.input, *problem.arbors)) for wheel in arbor.wheels}
+    for one, other in sorted(map(sorted, problem.meshes)):
+        yield owner[one], one, owner[other], other
+
+
+class SeenMeshes:
+    """Which ways of a path through arbors go together.
+
+    Parameters
+    ----------
+    passes : sequence
+        By arbor the ways through it, the input first.
+
+    Attributes
+    ----------
+    order : tuple of int
+        The arbors, those of one cluster after each other, and those with many ways first.
+    """
+
+    def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:
+        clusters = seen_clusters(problem)
+        held = {at for cluster in clusters for at in cluster}
+        groups = [*clusters, *((at,) for at in range(len(passes)) if at not in held)]
+        groups.sort(key=lambda group: (0 not in group or len(group) == 1, -max(len(passes[at]) for at in group)))
+        self.order = tuple(at for group in groups for at in group)
+        place = {at: number for number, at in enumerate(self.order)}
+        self._before = {at: cluster[:number] for cluster in clusters for number, at in enumerate(cluster)}
+        self._fits: dict[int, list[tuple[int, _Fits]]] = {at: [] for at in range(len(passes))}
+        for mesh in _meshes(problem):
+            first, one, second, other = mesh if place[mesh[0]] < place[mesh[2]] else (*mesh[2:], *mesh[:2])
+            below = next(0 in cluster for cluster in clusters if first in cluster)
+            fits = [
+                [_go_together(mine, one, theirs, other, problem.idlers, below) for mine in (None, *passes[first])]
+                for theirs in (None, *passes[second])
+            ]
+            self._fits[second].append((first, np.array(fits, dtype=bool)))
+
+    def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> NDArray[np.bool_] | None:
+        """Which of some paths through the arbors before may take a way through one more; None where all may."""
+        if not self._fits[at]:
+            return None
+        found = np.ones(len(codes), dtype=bool)
+        for other, fits in self._fits[at]:
+            found &= fits[code][codes[:, other]]
+            if code:  # in a row: where its mate is not on the path, no other of the cluster is
+                found &= (codes[:, other] > 0) | ~(codes[:, list(self._before[at])] > 0).any(axis=1)
+        return found
+
+
+def _go_together(
+    mine: ArborPass | None, one: str, theirs: ArborPass | None, other: str, idlers: bool, below: bool
+) -> bool:
+    """Whether a path may have these ways through two arbors whose wheels `one` and `other` mesh.
+
+    below   whether the second arbor must be driven by the first
+    """
+    if mine is None or theirs is None:
+        there, wheel = (mine, one) if theirs is None else (theirs, other)
+        return there is None or (not (below and mine is None) and (idlers or not _is(there.driven, wheel)))
+    if _is(mine.driver, one) and _is(theirs.driven, other):
+        return True
+    return not below and _is(theirs.driver, other) and _is(mine.driven, one)
+
+
+def _is(wheel: PlacedWheel | None, name: str) -> bool:
+    return wheel is not None and wheel.name == name
+
+
+# Paths through more and more surviving arbors, millions at a time, as columns of arrays.
+
+
+@dataclass(frozen=True)
+class PathGrowth:
+    """Paths through some of the arbors, a row each.
+
+    codes             by arbor, which way through it is taken, from 1 on; 0 where none is
+    keys, powers      of what is left to be added: its key, and the powers of large primes in it
+    drivers, driven   added wheels beside surviving ones that drive, and that are driven
+    added, idle       added wheels, idlers counted too, and surviving wheels that are passed by
+    need              added wheels that must have a large prime which no later arbor has
+    ended             whether the path ends at one of the arbors
+    """
+
+    codes: NDArray[np.uint16]
+    keys: NDArray[np.uint64]
+    powers: NDArray[np.int8]
+    drivers: NDArray[np.int8]
+    driven: NDArray[np.int8]
+    added: NDArray[np.int8]
+    idle: NDArray[np.int8]
+    need: NDArray[np.int8]
+    ended: NDArray[np.bool_]
+
+    @staticmethod
+    def start(arbors: int, key: int, powers: NDArray[np.int8]) -> PathGrowth:
+        """One path, through nothing yet."""
+        none = np.zeros(1, dtype=np.int8)
+        return PathGrowth(
+            np.zeros((1, arbors), dtype=np.uint16),
+            np.array([key], dtype=np.uint64),
+            powers[None, :],
+            *(none,) * 5,
+            np.zeros(1, dtype=bool),
+        )
+
+    def columns(self) -> tuple[NDArray[Any], ...]:
+        """All of it, a row each."""
+        numbers = self.drivers, self.driven, self.added, self.idle, self.need
+        return self.codes, self.keys, self.powers, *numbers, self.ended
+
+    @staticmethod
+    def joined(parts: list[PathGrowth]) -> PathGrowth:
+        """All paths of some."""
+        return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
+
+    def kept(self, rows: NDArray[np.bool_] | np.bool_ | slice) -> PathGrowth:
+        """Some of the paths."""
+        return PathGrowth(*(column[rows] for column in self.columns()))
+
+    def along(
+        self,
+        closing: Sequence[int],
+        lost: NDArray[np.bool_],
+        each: ArborPass | None,
+        powers: NDArray[np.int8],
+        limits: tuple[int, int | None],
+    ) -> PathGrowth:
+        """The paths that may go through one arbor more, or past it, with the added wheels that they need then.
+
+        closing   columns of large primes that no later arbor has
+        lost      by column, whether no added wheel has the prime
+        limits    how many wheels may be added, and how many may be passed by
+        """
+        wheels, debts = limits
+        need = self.need.copy()
+        good = np.ones(len(need), dtype=bool) if each is None or each.driver is not None else ~self.ended
+        for column in closing:
+            left = self.powers[:, column] + powers[column]
+            need += np.abs(left)
+            if lost[column]:
+                good &= left == 0
+        good &= need <= wheels
+        if each is not None:
+            good &= self.added <= wheels - each.added
+            if debts is not None:
+                good &= self.idle <= debts - each.idle
+        return replace(self, need=need).kept(good)
+
+    def through(self, at: int, code: int, each: ArborPass, key: np.uint64, powers: NDArray[np.int8]) -> PathGrowth:
+        """The same paths, through one arbor more; none of them has ended where the arbor would end it."""
+        codes = self.codes.copy()
+        codes[:, at] = code
+        return PathGrowth(
+            codes,
+            self.keys + key,
+            self.powers + powers,
+            self.drivers + np.int8(each.added_drivers),
+            self.driven + np.int8(each.added_driven),
+            self.added + np.int8(each.added),
+            self.idle + np.int8(each.idle),
+            self.need,
+            self.ended | (each.driver is None),
+        )
+
 
 Rows = NDArray[np.int64]
 WayThrough = tuple[PlacedWheel | None, PlacedWheel | None]
 """The wheel by which a path comes into a surviving arbor and the one by which it goes on, as of `ArborPass`."""
 _MOST_PATHS = 1_000_000_000
 """Paths that are looked at on the way to those that are possible: minutes."""
-_PIECE = 1 << 21
+_PIECE = 1 << 19
 """Paths that are grown at once."""
 
 
@@ -149,23 +340,29 @@ class PathList:
         if not order:
             yield growth
             return
-        growth = self._with_arbor(growth, order[0])
         later = {prime for each in order[1:] for prime in self._primes_of(each)}
-        closed = [column for column, prime in enumerate(self.primes) if prime not in later]
-        debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
-        growth = growth.kept(growth.may_stand(closed, self._lost, self.problem.additions.wheels, debts))
+        own = set(self.primes) if len(order) == len(self.passes) else self._primes_of(order[0])
+        closing = [column for column, prime in enumerate(self.primes) if prime in own and prime not in later]
+        growth = self._with_arbor(growth, order[0], closing)
         for start in range(0, len(growth.codes), _PIECE):
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
-    def _with_arbor(self, growth: PathGrowth, at: int) -> PathGrowth:
+    def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
+        """Paths through one arbor more, or past it; `closing` are columns of primes that no later arbor has."""
+        debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
+        limits = self.problem.additions.wheels, debts
         parts = []
         for code, each in enumerate((None, *self.passes[at])):
             if (each is None and not at) or not self._is_listed(at, each):
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
-            parts.append(own if each is None else own.through(at, code, each, *self._step(each)))
-        self._looked_at += sum(len(part.codes) for part in parts)
+            self._looked_at += len(own.codes)
+            if each is None:
+                parts.append(own.along(closing, self._lost, None, np.zeros(len(self.primes), dtype=np.int8), limits))
+            else:
+                key, powers = self._step(each)
+                parts.append(own.along(closing, self._lost, each, powers, limits).through(at, code, each, key, powers))
         if self._looked_at > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
             raise QuestionError(too_wide(self.problem, what))

@@ -1,7 +1,7 @@
-"""Every skeleton with one given path a dial: which added wheels paths share, and where paths part.
+"""Enumeration of topologies by recursion: every one with one given path a dial, each once.
 
 Where two paths have surviving arbors in common, these are above their branching. So what is open is little: how many
-added arbors stand on each limb, at which of them paths part, and how added driving wheels are shared.
+added arbors stand on each chain, at which of them paths part, and how added driving wheels are shared.
 """
 
 from __future__ import annotations
@@ -9,16 +9,83 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 from itertools import combinations, product
-from operator import and_
+from operator import and_, or_
 from typing import NamedTuple
 
-from geartrain.synthesis.reconstruction.arbor_passes import ADDED, ArborPass
-from geartrain.synthesis.reconstruction.dial_shares import BESIDE, HERE, IDLER, Block, partitions, shared_out, way_on
 from geartrain.synthesis.reconstruction.path_lists import PathList
 from geartrain.synthesis.reconstruction.reconstruction_problem import PlacedWheel, ReconstructionProblem
-from geartrain.synthesis.reconstruction.skeletons import Dials, Joint, Limb, Skeleton
+from geartrain.synthesis.reconstruction.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
 
-_Drive = tuple[PlacedWheel | None, tuple[Limb, ...]]
+# How an arbor at which paths part shares out its dials: which it shows, and which each of its wheels leads to.
+
+
+HERE = "="
+IDLER = "~"
+BESIDE = "+"
+"""Ways on from an arbor, beside the names of its surviving wheels: its own dial, its driven wheel, an added one."""
+
+Block = tuple[str, Dials]
+"""A way on from an arbor, and the dials to which it leads."""
+
+
+def way_on(each: ArborPass) -> str:
+    """The way on that a path takes from an arbor."""
+    if each.driver is None:
+        return HERE
+    if each.idler:
+        return IDLER
+    return BESIDE if each.driver.name is None else each.driver.name
+
+
+def shared_out(
+    dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
+) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
+    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them.
+
+    arbors   by dial bits of the surviving arbors on its path: dials with one in common stay together
+    """
+    for chosen in product(*(ways[dial] for dial in dials)):
+        by_way: dict[str, list[str]] = {}
+        for dial, way in zip(dials, chosen, strict=True):
+            by_way.setdefault(way, []).append(dial)
+        named = tuple((way, tuple(block)) for way, block in by_way.items() if way not in (HERE, BESIDE))
+        for blocks in partitions(tuple(by_way.get(BESIDE, ())), arbors):
+            yield tuple(by_way.get(HERE, ())), (*named, *((BESIDE, block) for block in blocks))
+
+
+def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
+    """Each way to part dials into blocks with no surviving arbor in common, the first of them in the first block."""
+    place = {dial: at for at, dial in enumerate(dials)}
+    for blocks in _parted(_together(dials, arbors)):
+        yield tuple(
+            tuple(sorted((dial for group in block for dial in group), key=place.__getitem__)) for block in blocks
+        )
+
+
+def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
+    """Dials in groups, by what they and others between them have in common."""
+    groups: list[tuple[int, Dials]] = []
+    for dial in dials:
+        joined = [group for group in groups if group[0] & arbors[dial]]
+        groups = [group for group in groups if not group[0] & arbors[dial]]
+        bits = reduce(or_, (own for own, _ in joined), arbors[dial])
+        groups.append((bits, (*(one for _, group in joined for one in group), dial)))
+    first = dials.index
+    return tuple(sorted((group for _, group in groups), key=lambda group: min(map(first, group))))
+
+
+def _parted(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
+    if not groups:
+        yield ()
+        return
+    for size in range(len(groups)):
+        for others in combinations(groups[1:], size):
+            rest = tuple(group for group in groups[1:] if group not in others)
+            for blocks in _parted(rest):
+                yield ((groups[0], *others), *blocks)
+
+
+_Drive = tuple[PlacedWheel | None, tuple[Chain, ...]]
 _ENDLESS = 1 << 20
 
 
@@ -69,7 +136,7 @@ class _Left(NamedTuple):
 
 
 class PathTrees:
-    """Skeletons from paths.
+    """Topologies from paths.
 
     lists   by dial, sorted by its name
     """
@@ -79,16 +146,16 @@ class PathTrees:
         self.names = (problem.input.name, *(arbor.name for arbor in problem.arbors))
         self._new = _ENDLESS if problem.additions.arbors is None else problem.additions.arbors
 
-    def skeletons(self, choice: Mapping[str, int], added: int) -> Iterator[Skeleton]:
+    def topologies(self, choice: Mapping[str, int], added: int) -> Iterator[Topology]:
         """All with just so many added wheels and these rows of the lists."""
         roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
         if roots:
             wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
-            yield from (Skeleton(root, wanted) for root in roots)
+            yield from (Topology(root, wanted) for root in roots)
 
-    def roots(self, paths: Paths, added: int) -> list[Joint]:
+    def roots(self, paths: Paths, added: int) -> list[Branching]:
         """The input arbor of each tree that has these paths and just so many added wheels."""
-        return [root for root, left in self._joint(0, paths, _Left(added, self._new)) if not left.wheels]
+        return [root for root, left in self._branching(0, paths, _Left(added, self._new)) if not left.wheels]
 
     def _path(self, dial: str, row: int) -> DialPath:
         paths = self.lists[dial]
@@ -100,23 +167,23 @@ class PathTrees:
 
     # what hangs from a driving wheel
 
-    def _forest(self, paths: Paths, left: _Left, least: int = 1) -> Iterator[tuple[tuple[Limb, ...], _Left]]:
-        """Limbs that share out some dials; those that have an arbor in common stay together."""
+    def _forest(self, paths: Paths, left: _Left, least: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+        """Chains that share out some dials; those that have an arbor in common stay together."""
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= least:
-                yield from self._limbs([_some(paths, block) for block in blocks], left)
+                yield from self._chains([_some(paths, block) for block in blocks], left)
 
-    def _limbs(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Limb, ...], _Left]]:
-        """Limbs to the dials of each block; what the later ones need at least is kept for them."""
+    def _chains(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+        """Chains to the dials of each block; what the later ones need at least is kept for them."""
         if not blocks:
             yield (), left
             return
         kept = sum(map(_need, blocks[1:]))
-        for limb, after in self._limb(blocks[0], left.without(kept)):
-            for others, end in self._limbs(blocks[1:], after.without(-kept)):
-                yield (limb, *others), end
+        for chain, after in self._chain(blocks[0], left.without(kept)):
+            for others, end in self._chains(blocks[1:], after.without(-kept)):
+                yield (chain, *others), end
 
-    def _limb(self, paths: Paths, left: _Left) -> Iterator[tuple[Limb, _Left]]:
+    def _chain(self, paths: Paths, left: _Left) -> Iterator[tuple[Chain, _Left]]:
         if _need(paths) > left.wheels:
             return
         if len(paths) == 1:
@@ -137,17 +204,19 @@ class PathTrees:
                 continue
             below = _below(paths, through, compounds, idlers)
             if end is not None:
-                yield from self._ended(tuple(paths), paths, through, compounds, idlers, self._joint(end, below, after))
+                yield from self._ended(
+                    tuple(paths), paths, through, compounds, idlers, self._branching(end, below, after)
+                )
                 continue
             if through or compounds or idlers:
                 forests = self._forest(below, after, 2)
                 yield from self._ended(tuple(paths), paths, through, compounds, idlers, forests)
-            yield from self._ended(tuple(paths), paths, through, compounds, idlers, self._new_joint(below, after))
+            yield from self._ended(tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after))
         if end is None:
             yield from self._parted_by_added(paths, through, left)
 
-    def _parted_by_added(self, paths: Paths, through: tuple[int, ...], left: _Left) -> Iterator[tuple[Limb, _Left]]:
-        """Limbs that end at a surviving arbor which all leave by added wheels, by several ones."""
+    def _parted_by_added(self, paths: Paths, through: tuple[int, ...], left: _Left) -> Iterator[tuple[Chain, _Left]]:
+        """Chains that end at a surviving arbor which all leave by added wheels, by several ones."""
         for end in through:
             if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
                 continue
@@ -159,8 +228,8 @@ class PathTrees:
             ):
                 after = left.without(added + 2 * compounds + idlers, compounds + idlers)
                 if after.is_possible:
-                    joints = self._joint(end, _below(paths, others, compounds, idlers), after)
-                    yield from self._ended(tuple(paths), paths, others, compounds, idlers, joints)
+                    branchings = self._branching(end, _below(paths, others, compounds, idlers), after)
+                    yield from self._ended(tuple(paths), paths, others, compounds, idlers, branchings)
 
     def _ended(
         self,
@@ -169,12 +238,12 @@ class PathTrees:
         through: tuple[int, ...],
         compounds: int,
         idlers: int,
-        ends: Iterator[tuple[Joint, _Left]] | Iterator[tuple[tuple[Limb, ...], _Left]],
-    ) -> Iterator[tuple[Limb, _Left]]:
+        ends: Iterator[tuple[Branching, _Left]] | Iterator[tuple[tuple[Chain, ...], _Left]],
+    ) -> Iterator[tuple[Chain, _Left]]:
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
         for end, after in ends:
-            yield Limb(dials, named, compounds, idlers, end), after
+            yield Chain(dials, named, compounds, idlers, end), after
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
         """Surviving arbors that all paths pass in the same way, and the one where they part; None if that cannot be."""
@@ -187,24 +256,24 @@ class PathTrees:
                 through.append(at)
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
-    def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Limb, _Left]]:
-        """The only limb that leads to one dial alone."""
+    def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Chain, _Left]]:
+        """The only chain that leads to one dial alone."""
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
             return
-        through, end = [], Joint(None, ADDED, (dial,))
+        through, end = [], Branching(None, ADDED, (dial,))
         for at in _arbors(path.arbors):
             each = path.passes[at]
             if each.driver is None:
-                end = Joint(self.names[at], each.driven, (dial,))
+                end = Branching(self.names[at], each.driven, (dial,))
             else:
                 through.append((self.names[at], each))
         if path.ends_new or end.name is not None:
-            yield Limb((dial,), tuple(through), path.compounds, path.idlers, end), after
+            yield Chain((dial,), tuple(through), path.compounds, path.idlers, end), after
 
     # arbors at which paths end or part
 
-    def _joint(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Joint, _Left]]:
+    def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
         """A surviving arbor that shows some of the dials, or leads to them by several wheels; or the input arbor."""
         first = paths_first(paths).passes[at]
         ways = {dial: (way_on(path.passes[at]),) for dial, path in paths.items()}
@@ -221,7 +290,7 @@ class PathTrees:
                 drivers = [None if way == IDLER else paths[dials[0]].passes[at].driver for way, dials in blocks]
                 yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
 
-    def _new_joint(self, paths: Paths, left: _Left) -> Iterator[tuple[Joint, _Left]]:
+    def _new_branching(self, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
         """An added arbor that shows some of the dials, or leads to them by several wheels."""
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
@@ -251,15 +320,15 @@ class PathTrees:
         drivers: Sequence[PlacedWheel | None],
         paths: Paths,
         left: _Left,
-    ) -> Iterator[tuple[Joint, _Left]]:
+    ) -> Iterator[tuple[Branching, _Left]]:
         """An arbor with what hangs from each of its wheels."""
         if not _are_parted([dials for _, dials in blocks], paths):
             return
         after = left.without(sum(way == BESIDE for way, _ in blocks))
         for drives, end in self._drives([_some(paths, dials) for _, dials in blocks], drivers, after):
-            driving = tuple((wheel, limbs) for wheel, limbs in drives if wheel is not None)
-            passes = tuple(limb for wheel, limbs in drives if wheel is None for limb in limbs)
-            yield Joint(name, driven, here, driving, passes), end
+            driving = tuple((wheel, chains) for wheel, chains in drives if wheel is not None)
+            passes = tuple(chain for wheel, chains in drives if wheel is None for chain in chains)
+            yield Branching(name, driven, here, driving, passes), end
 
     def _drives(
         self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Left
@@ -270,9 +339,9 @@ class PathTrees:
         kept = sum(map(_need, blocks[1:]))
         if kept + _need(blocks[0]) > left.wheels:
             return
-        for limbs, after in self._forest(blocks[0], left.without(kept)):
+        for chains, after in self._forest(blocks[0], left.without(kept)):
             for drives, end in self._drives(blocks[1:], drivers[1:], after.without(-kept)):
-                yield ((drivers[0], limbs), *drives), end
+                yield ((drivers[0], chains), *drives), end
 
 
 def paths_first(paths: Paths) -> DialPath:
@@ -300,7 +369,7 @@ def _are_parted(blocks: Sequence[Dials], paths: Paths) -> bool:
 
 
 def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) -> Paths:
-    """What is left of paths after a limb."""
+    """What is left of paths after a chain."""
     bits = sum(1 << (at - 1) for at in through)
     added = sum(paths_first(paths).passes[at].added for at in through) + 2 * compounds + idlers
     return {

@@ -1,16 +1,22 @@
-"""What a reconstruction is asked: surviving arbors with their wheels, dials with their speeds, what may be added.
+"""Typed question of a reconstruction: surviving arbors with wheels, dials with speeds, what may be added.
 
 Speeds are turns per unit of the input arbor, exact, positive in one sense. The input arbor turns at `input_speed`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, fields, is_dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import product
+from math import prod
 from typing import Literal
 
+from geartrain.errors import Problem
+from geartrain.numerics.plain_data import Result
 from geartrain.synthesis.reconstruction.surviving_geometry import NO_GEOMETRY, SurvivingGeometry
 
 NEW = "new"
@@ -179,3 +185,101 @@ class Arbor:
     def added_arbors(self) -> int:
         """Arbors from here on that are added."""
         return sum(arbor.name is None for arbor in self.arbors())
+
+
+# How much a reconstruction asks: what survives, in how many ways it may be read, and what may be added.
+
+
+_MOST_DOUBTS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class AskedQuestion(Result):
+    """What is asked.
+
+    Attributes
+    ----------
+    arbors : int
+        Surviving ones, the input included.
+    wheels : int
+        Surviving ones.
+    readings : int
+        Combinations of counts in doubt; 1 where all are sure.
+    dials : int
+        Pointers whose speed is known.
+    added : int
+        The most wheels that may be added.
+    teeth : tuple of int
+        The least and the greatest count that an added wheel may have.
+    """
+
+    arbors: int
+    wheels: int
+    readings: int
+    dials: int
+    added: int
+    teeth: tuple[int, int]
+
+    @classmethod
+    def of(cls, problem: ReconstructionProblem) -> AskedQuestion:
+        """What a question asks."""
+        arbors, limits = (problem.input, *problem.arbors), problem.additions
+        counts = [len(wheel.counts) for arbor in arbors for wheel in arbor.wheels]
+        teeth = (limits.least, limits.greatest)
+        return cls(len(arbors), len(counts), prod(counts), len(problem.dials), limits.wheels, teeth)
+
+    def __str__(self) -> str:
+        read = f", their counts in {self.readings} ways" if self.readings > 1 else ""
+        wheels = f"{_many(self.arbors, 'arbor')} with {_many(self.wheels, 'wheel')}{read}"
+        least, greatest = self.teeth
+        added = f"at most {_many(self.added, 'added wheel')} of {least} to {greatest} teeth"
+        return f"{wheels}; {_many(self.dials, 'dial')}; {added if self.added else 'nothing added'}"
+
+
+def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
+    """What to say of a question that is too wide: how much it asks, and how to ask for less."""
+    wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
+    widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_DOUBTS]
+    doubts = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
+    ways = [f"narrow counts in doubt ({doubts})"] if doubts else []
+    if problem.additions.wheels:
+        ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
+    ways.append("leave out arbors, or dials with the arbors that lead to them alone")
+    return Problem(what, f"asked are {AskedQuestion.of(problem)}", "; or ".join(ways))
+
+
+def _many(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+# A mark by which two runs know that they were asked the same.
+
+
+def question_digest(problem: ReconstructionProblem) -> str:
+    """SHA-256 of a question: its evidence, bounds and rules, the same whatever the order of facts without one."""
+    return hashlib.sha256(json.dumps(_plain(problem), sort_keys=True).encode("utf-8")).hexdigest()
+
+
+def _plain(value: object) -> object:
+    if is_dataclass(value):
+        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+    if isinstance(value, frozenset):
+        return sorted((_plain(each) for each in value), key=json.dumps)
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    return str(value) if isinstance(value, Fraction) else value
+
+
+# Which surviving wheels the distances of their axes keep apart, exactly.
+
+
+def find_unreachable(arbors: Sequence[SurvivingArbor], geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
+    """Pairs of wheels of different arbors that cannot mesh, whichever of their counts they have."""
+    wheels = [(arbor.name, wheel) for arbor in arbors if arbor.name in geometry.places for wheel in arbor.wheels]
+    for at, (arbor, wheel) in enumerate(wheels):
+        for other_arbor, other in wheels[:at]:
+            counts = product((count for count, _ in wheel.counts), (count for count, _ in other.counts))
+            if arbor != other_arbor and not any(
+                geometry.may_mesh(arbor, (wheel.name, own), other_arbor, (other.name, mate)) for own, mate in counts
+            ):
+                yield frozenset((wheel.name, other.name))

@@ -1,4 +1,4 @@
-"""From a question to its counts and candidates: explanations are counted by skeletons, weighed, and the best listed."""
+"""From a question to its counts and candidates: topologies are weighed, and the best trains listed."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby, islice
+from random import Random
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import whole_multiple
+from geartrain.numerics.weighted_alternatives import draw_index
 from geartrain.numerics.work import Execution
 from geartrain.synthesis.reconstruction.added_counts import AddedCounts
-from geartrain.synthesis.reconstruction.arrangements import MeshFacts, arranged
-from geartrain.synthesis.reconstruction.candidate_prior import prior, skeleton_prior, weight_ranks
+from geartrain.synthesis.reconstruction.arbor_orders import MeshFacts, arranged, rings_limit
 from geartrain.synthesis.reconstruction.geometry_likelihood import candidate_likelihood
 from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, ReconstructionProblem
 from geartrain.synthesis.reconstruction.reconstruction_result import (
@@ -20,10 +22,13 @@ from geartrain.synthesis.reconstruction.reconstruction_result import (
     ExplanationCount,
     Reconstructions,
     WeightClass,
+    bag,
+    prior,
+    ratio_class,
+    topology_prior,
+    weight_ranks,
 )
-from geartrain.synthesis.reconstruction.ring_meshes import rings_limit
-from geartrain.synthesis.reconstruction.sameness import bag, ratio_class
-from geartrain.synthesis.reconstruction.skeleton_tasks import CountedSkeleton, count_skeletons
+from geartrain.synthesis.reconstruction.search_tasks import CountedTopology, TopologyTrains, count_topologies
 
 _LISTED = 20_000
 """Candidates that are made at most; of more of one weight, the first that are found."""
@@ -45,8 +50,7 @@ def find_reconstructions(
     execution : Execution, optional
         How the parts of the search are done; default one after the other in this process.
     listed : int
-        How many candidates are listed at least, where there are so many. With 0, parts of the search with many trains
-        are summed, and the skeletons of these are left out.
+        How many candidates are listed at least, where there are so many.
     per : {"mechanism", "class"}
         What has a weight of its own: every train, or every ratio class, whose trains then share it.
 
@@ -55,70 +59,63 @@ def find_reconstructions(
     QuestionError
         If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
     """
-    found: dict[int, list[CountedSkeleton]] = {added: [] for added in range(problem.additions.wheels + 1)}
-    summed: dict[int, Counter[Fraction]] = {added: Counter() for added in found}
+    found: dict[int, list[CountedTopology]] = {added: [] for added in range(problem.additions.wheels + 1)}
     whole: set[int] = set()
     geometry = problem.geometry
     one_by_one = per == "class" or bool(geometry.wheels or geometry.arbors)
     try:
-        for part in count_skeletons(problem, execution, None if listed or one_by_one else _TOLD_APART):
-            found[part.added] += part.skeletons
-            summed[part.added] += part.weights
+        for part in count_topologies(problem, execution):
+            found[part.added] += part.topologies
             if part.last:
                 whole.add(part.added)
     except KeyboardInterrupt:
-        found = {added: skeletons for added, skeletons in found.items() if added in whole}
-        summed = {added: summed[added] for added in found}
+        found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
         return _all_weighed(problem, found, complete, per)
-    counts = tuple(_count(added, some, summed[added].total(), problem) for added, some in found.items())
+    counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
-    weights = tuple(_weight_classes(problem, found, summed))
+    weights = tuple(_weight_classes(problem, found))
     return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every, weights)
 
 
 def _weight_classes(
-    problem: ReconstructionProblem,
-    found: Mapping[int, Sequence[CountedSkeleton]],
-    summed: Mapping[int, Counter[Fraction]],
+    problem: ReconstructionProblem, found: Mapping[int, Sequence[CountedTopology]]
 ) -> Iterator[WeightClass]:
     """By number of added wheels, how many trains have each weight, the greatest first."""
-    for added, skeletons in found.items():
-        alike = Counter(summed[added])
-        for each in skeletons:
-            alike[skeleton_prior(each.skeleton, problem)] += each.mechanisms
+    for added, topologies in found.items():
+        alike = Counter[Fraction]()
+        for each in topologies:
+            alike[topology_prior(each.topology, problem)] += each.mechanisms
         yield from (WeightClass(added, weight, alike[weight]) for weight in sorted(alike, reverse=True))
 
 
-def _count(
-    added: int, skeletons: Sequence[CountedSkeleton], summed: int, problem: ReconstructionProblem
-) -> ExplanationCount:
-    mechanisms = sum(each.mechanisms for each in skeletons) + summed
+def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
+    mechanisms = sum(each.mechanisms for each in topologies)
     # the order of arbors changes neither, but where a ring limits counts in some orders
     greatest = problem.additions.greatest
-    told = [(each, not rings_limit(each.skeleton, problem.rings, greatest)) for each in skeletons]
-    if summed or sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
+    told = [(each, not rings_limit(each.topology, problem.rings, greatest)) for each in topologies]
+    if sum(each.choices if one_order else each.mechanisms for each, one_order in told) > _TOLD_APART:
         return ExplanationCount(added, mechanisms, None, None)
     some = [arbor for each, one_order in told for arbor in _trains(each, problem, one_order)]
     return ExplanationCount(added, mechanisms, len({*map(bag, some)}), len({*map(ratio_class, some)}))
 
 
-def _trains(each: CountedSkeleton, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
-    """All trains of a skeleton; or with each choice of counts one, its arbors in any order."""
+def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
+    """All trains of a topology; or with each choice of counts one, its arbors in any order."""
     limits = problem.additions
     facts = MeshFacts() if one_order else MeshFacts.of(problem)
-    skeleton = each.skeleton
-    for counts, idle in AddedCounts(limits.least, limits.greatest).assignments(skeleton.added, skeleton.wanted):
-        yield from islice(arranged(skeleton, counts, idle, facts), 1 if one_order else None)
+    topology = each.topology
+    for counts, idle in AddedCounts(limits.least, limits.greatest).assignments(topology.added, topology.wanted):
+        yield from islice(arranged(topology, counts, idle, facts), 1 if one_order else None)
 
 
 # the best
 
 
-def _best(problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]], listed: int) -> Iterator[Candidate]:
+def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
     """The heaviest candidates, those of one weight by added wheels and their teeth."""
-    weighed = [(skeleton_prior(each.skeleton, problem), added, each) for added, some in found.items() for each in some]
+    weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.mechanisms for weight, _, each in weighed)
     ranks = weight_ranks((weight, each.mechanisms) for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
@@ -137,7 +134,7 @@ def _order(arbor: Arbor) -> tuple[int, str]:
 
 
 def _all_weighed(
-    problem: ReconstructionProblem, found: dict[int, list[CountedSkeleton]], complete: bool, per: str
+    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
 ) -> Reconstructions:
     """Every candidate, weighed by itself: by its misfits, or as a part of its class; impossible ones are dropped."""
     number = sum(each.mechanisms for some in found.values() for each in some)
@@ -146,9 +143,9 @@ def _all_weighed(
         fix = "ask with fewer added wheels (-k), or with `--per mechanism` and without measured sizes"
         raise QuestionError(Problem(what, "weights by class, and of measured sizes, are of whole trains", fix))
     counts, weighed = [], []
-    for added, skeletons in found.items():
+    for added, topologies in found.items():
         own = []
-        for arbor in (arbor for each in skeletons for arbor in _trains(each, problem)):
+        for arbor in (arbor for each in topologies for arbor in _trains(each, problem)):
             likelihood = candidate_likelihood(arbor, problem.geometry)
             if likelihood:
                 own.append((float(prior(arbor, problem)) * likelihood, added, arbor))
@@ -165,3 +162,48 @@ def _all_weighed(
     ranks = weight_ranks((weight, 1) for weight, _, _ in weighed)
     candidates = tuple(Candidate(arbor, added, weight / whole, ranks[weight]) for weight, added, arbor in weighed)
     return Reconstructions(tuple(counts), complete, candidates)
+
+
+# Trains drawn at random, each with the chance of its weight among all explanations.
+
+
+def draw_candidates(
+    found: Reconstructions, problem: ReconstructionProblem, dials: Sequence[str], number: int, seed: int
+) -> tuple[Candidate, ...]:
+    """Draw candidates independently of each other; one may come several times.
+
+    Parameters
+    ----------
+    found : Reconstructions
+        All explanations of the question.
+    problem : ReconstructionProblem
+    dials : sequence of str
+        In the order of the evidence.
+    number : int
+        How many are drawn, from 0 on.
+    seed : int
+        The same seed draws the same trains.
+
+    Raises
+    ------
+    QuestionError
+        If trains are weighed one by one, by measured sizes or by class.
+    """
+    if not found.topologies:
+        if not sum(each.mechanisms for each in found.counts):
+            return ()
+        what = "no trains can be drawn where each is weighed by itself"
+        fix = "list them instead (--all), or ask without measured sizes and with `--per mechanism`"
+        raise QuestionError(Problem(what, "they are drawn from sums over trains that weigh the same", fix))
+    weights = [topology_prior(each.topology, problem) for each in found.topologies]
+    whole = whole_multiple(weights)
+    shares = [weight * each.mechanisms for weight, each in zip(whole, found.topologies, strict=True)]
+    ranks = weight_ranks((weight, each.mechanisms) for weight, each in zip(weights, found.topologies, strict=True))
+    trains, chance = TopologyTrains(problem, dials), Random(seed)
+    drawn = []
+    for _ in range(number):
+        at = draw_index(shares, chance)
+        topology, weight = found.topologies[at].topology, weights[at]
+        share = float(Fraction(whole[at], sum(shares)))
+        drawn.append(Candidate(trains.draw(topology, chance), topology.added.number, share, ranks[weight]))
+    return tuple(drawn)

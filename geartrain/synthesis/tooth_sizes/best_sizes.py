@@ -10,7 +10,6 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.result_picture import Pictured
 from geartrain.numerics.tabular import Tabular
-from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit, best_within
 from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement, confirm_by_outlines
 from geartrain.synthesis.tooth_sizes.size_design import (
     AIMS,
@@ -19,7 +18,7 @@ from geartrain.synthesis.tooth_sizes.size_design import (
     equal_depth_radii,
     size_columns,
 )
-from geartrain.synthesis.tooth_sizes.size_search import Range, SizeSearch, checked_ranges
+from geartrain.synthesis.tooth_sizes.size_search import ChanceLimit, Range, SizeSearch, best_within, checked_ranges
 
 
 @dataclass(frozen=True)

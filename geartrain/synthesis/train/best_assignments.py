@@ -15,7 +15,7 @@ from geartrain.numerics.bounded_polynomials import BoundedQuotient, WholeTerm, p
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.integer_columns import distinct_quotients
 from geartrain.synthesis.join.exact_join import AssignmentColumns
-from geartrain.synthesis.join.polynomial_signs import ROUNDING
+from geartrain.synthesis.join.polynomial_constraints import ROUNDING
 from geartrain.synthesis.join.product_lists import Tallies
 from geartrain.synthesis.train.output_requirements import OutputRequirement
 from geartrain.synthesis.train.train_findings import Assignment, By

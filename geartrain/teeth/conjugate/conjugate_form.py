@@ -54,7 +54,7 @@ class ConjugateToothForm(ToothForm):
     @classmethod
     def figures(cls) -> type[PairFigures]:
         """With those of the path of contact."""
-        from geartrain.teeth.conjugate.conjugate_account import ConjugateFigures
+        from geartrain.teeth.conjugate.conjugate_mesh import ConjugateFigures
 
         return ConjugateFigures
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from math import acos, atan2, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
@@ -16,7 +14,6 @@ from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-    from geartrain.teeth.gear_mesh import GearMesh
 
 
 _THIN = 0.1  # modules: least land of a wheel about its bore
@@ -36,42 +33,6 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     if pins is not None and gear == pins.gear:
         return both.lantern(pins)
     return both.toothed(gear)
-
-
-def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
-    """The outline of the first or the second wheel of any mesh, as its form wants it cut: `GearMesh.wheel_outline`."""
-    size = mesh.own_size
-    scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
-    tooth, mate = (mesh.requirement(name, scale, tolerance).cut() for name in mesh.gear.pair[:: 3 - 2 * gear])
-    z, other = mesh.wheels.counts[:: 3 - 2 * gear]
-    distance = mesh.wheels.touching if size is None else size.distance
-    teeth = Contour.of(repeated(tooth.tooth, z)).scaled(cut.module)
-    if tooth.kind == "ring":
-        rim = 2 * cut.module if cut.rim is None else cut.rim
-        contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
-    else:
-        contours = [teeth, *_bore(cut, tooth.root * cut.module)]
-    points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
-    side = points[points[:, 1] >= 0]
-    side = side[np.argsort(np.hypot(*side.T))]
-    half = float(np.interp(z / 2, np.hypot(*side.T), np.arctan2(side[:, 1], side[:, 0])))
-    return WheelOutline(
-        gear=gear,
-        z=z,
-        kind=tooth.kind,
-        contours=tuple(contours),
-        module=cut.module,
-        pitch_radius=z / 2 * cut.module,
-        tip_radius=tooth.tip * cut.module,
-        root_radius=tooth.root * cut.module,
-        thickness=half * z * cut.module,
-        fillet=0.0,
-        relief=0.0,
-        clearance=(distance - mate.tip - tooth.root) * cut.module,
-        backlash=mesh.verdict.play * (z if mesh.driven == mesh.gear.pair[gear - 1] else other) / 2 * cut.module,
-        centre_distance=distance * cut.module,
-        tolerance=cut.tolerance,
-    )
 
 
 class _Both:
@@ -97,7 +58,7 @@ class _Both:
         scale = self.cut.module
         inner, outer = pins.circle - pins.radius, pins.circle + pins.radius
         rim = 2 * pins.radius * scale if self.cut.rim is None else self.cut.rim
-        contours = [*lantern(pins, int(self._of(pins.gear).z), scale, rim), *_bore(self.cut, inner * scale)]
+        contours = [*lantern(pins, int(self._of(pins.gear).z), scale, rim), *bore(self.cut, inner * scale)]
         sizes = (self._of(pins.gear).flank.R, outer, inner, 2 * self.pair.halves[pins.gear - 1], 0.0)
         return self._wheel(pins.gear, "pins", contours, sizes, 0.0)
 
@@ -166,13 +127,14 @@ def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
     if tooth.flank.outward > 0:
         if cut.rim is not None:
             raise QuestionError(Problem("only a ring or a lantern has a rim", "", "leave --rim out", "--rim"))
-        return [teeth, *_bore(cut, tooth.root * cut.module)]
+        return [teeth, *bore(cut, tooth.root * cut.module)]
     if cut.bore is not None:
         raise QuestionError(Problem("a ring has no bore", "its middle is open", "leave --bore out", "--bore"))
     return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 
-def _bore(cut: BlankSizes, root: float) -> list[Contour]:
+def bore(cut: BlankSizes, root: float) -> list[Contour]:
+    """The hole of a wheel whose root circle has a radius of `root` (mm), if it has one."""
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.teeth.triangular.triangular_form import OTHER_SHAPES
-
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+
+OTHER_SHAPES = (
+    "use more teeth, a ratio nearer to 1, or another half_angle",
+    "use `radii: pitch_true` (teeth of equal depth do not suit a ring), more teeth, or another half_angle",
+)
 
 
 def explain_clearance(law: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:

@@ -12,6 +12,7 @@ from geartrain.errors import Problem
 from geartrain.numerics.quantity import Angle, Figure, Length
 from geartrain.numerics.units import RADIANS_PER_TURN
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
+from geartrain.teeth.triangular.triangular_explanations import OTHER_SHAPES
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -30,12 +31,6 @@ _UNLIKE = 10  # how far radii may be from the ratio of their teeth
 _THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
 TRIANGULAR_SCOPE = (
     "the model covers pairs of spur wheels, and a spur wheel in a ring; a contrate is taken for a spur wheel"
-)
-
-
-OTHER_SHAPES = (
-    "use more teeth, a ratio nearer to 1, or another half_angle",
-    "use `radii: pitch_true` (teeth of equal depth do not suit a ring), more teeth, or another half_angle",
 )
 
 
@@ -189,7 +184,7 @@ class Triangular(ToothForm):
     @classmethod
     def figures(cls) -> type[PairFigures]:
         """With those of clearance, path and collisions."""
-        from geartrain.teeth.triangular.triangular_account import TriangularFigures
+        from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
         return TriangularFigures
 

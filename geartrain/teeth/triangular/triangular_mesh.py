@@ -1,4 +1,4 @@
-"""Triangular teeth of a gear pair, their window of clearance, and why they do not turn."""
+"""Triangular teeth of a gear pair: their window of clearance, why they do not turn, and the figures of the pair."""
 
 from __future__ import annotations
 
@@ -6,14 +6,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, pi, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from geartrain.errors import Problem
+from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.meshing_wheels import PairSize
+from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.outlines.wheel_requirement import SAME_SIZE, CutTooth, WheelRequirement
+from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
+from geartrain.teeth.transmission_figures import SlidingEfficiency
+from geartrain.teeth.triangular.clearance_window import ClearanceWindow
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.real_path import DriveInterval
+from geartrain.teeth.triangular.speed_jump import SpeedJump
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
 if TYPE_CHECKING:
@@ -21,7 +28,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_verdict import PairVerdict
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.teeth.triangular.triangular_form import Triangular
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 
@@ -62,11 +68,18 @@ class TriangularTooth(WheelRequirement):
         )
 
 
+class TriangularDetails(NamedForm, Protocol):
+    """What such a mesh reads of its form besides the name: see the methods of the form."""
+
+    def in_metres(self, module: float | None) -> bool:
+        """Whether lengths are in metres for wheels of some module (m)."""
+
+
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
     """A gear pair with triangular teeth."""
 
-    tooth_form: Triangular
+    tooth_form: TriangularDetails
     law: TriangularTransmission
 
     @cached_property
@@ -156,7 +169,6 @@ class TriangularMesh(GearMesh):
 
     def account(self) -> PairAccount:
         """Its clearance, its law and its collisions."""
-        from geartrain.teeth.triangular.triangular_account import triangular_account
 
         return triangular_account(self)
 
@@ -164,8 +176,98 @@ class TriangularMesh(GearMesh):
         """Everything that is wrong, with what would mend it."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.wheels.friction_law is not None:
-            from geartrain.teeth.mesh_faults import friction_faults
-
-            yield from friction_faults(self)
+            yield from self.friction_faults()
         elif self.verdict and self.law.locks:
             yield Problem(*explain_friction_lock(self.law))
+
+
+# --------------------------------------------------------------------------------------------------- triangular account
+
+_WORDS = (
+    "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
+    "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
+)
+_PLACE = ("pair", "drives", "clearance", "window", "verdict")
+_LAW = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+
+
+_WINDOW = (
+    *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
+    *(Key("reach", "reach_factor"), "works"),
+)
+_SIZES = (
+    *("radii", "half_angles", "depths", Key("centre_distance", "D")),
+    *(Key("reach", "reach1"), Key("matching", to=finite)),
+)
+
+
+@dataclass(frozen=True)
+class TriangularFigures(PairFigures):
+    """Figures of a pair with triangular teeth; angles in rad.
+
+    sizes       in m, or the plain unit of radii
+    window      clearance factors between which the pair turns; None where there are no such teeth
+    intervals   the real path, in order of time, one pitch of the driver
+    jumps       the collisions of a pitch
+    impacts     what they cost, where a run of the pair is declared; else None
+    """
+
+    KEYS = (
+        *PairFigures.KEYS,
+        *(Key("clearance", "sizes.clearance_factor"), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
+        *(Key("intervals", keys=("phase", "start", "end")), "jumps", "impacts"),
+    )
+
+    sizes: TriangularSizes
+    window: ClearanceWindow | None
+    intervals: tuple[DriveInterval, ...]
+    jumps: tuple[SpeedJump, ...]
+    impacts: Any = None
+
+
+def triangular_account(mesh: TriangularMesh) -> PairAccount:
+    """A row on its clearance and one on its law, and the figures."""
+    figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
+    tables = AccountTable(_PLACE, _place_row(mesh)), AccountTable(_LAW, _law_row(mesh, figures))
+    return PairAccount(_WORDS, tables, figures)
+
+
+def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
+    law, window = mesh.law, mesh.window
+    where = (
+        "-"
+        if window is None
+        else f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
+    )
+    return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{law.sizes.clearance_factor:.6g}", where, law.verdict.kind)
+
+
+def _law_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:
+    speed, efficiency = figures.speed_ratio, figures.efficiency
+    if speed is None or efficiency is None:
+        return (mesh.name, "-", "-", "-", "-")
+    least, most = speed.relative
+    lost = efficiency.text if mesh.tells_losses else "-"
+    jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
+    return (mesh.name, f"{least:.5f}..{most:.5f}", figures.error_text, lost, jumps)
+
+
+def triangular_figures(
+    law: TriangularTransmission,
+    window: ClearanceWindow | None,
+    impacts: Result | None = None,
+    losses: SlidingEfficiency | None = None,
+) -> TriangularFigures:
+    """Of a pair, whatever train it is in; `losses` where they are not those of the law alone."""
+    found, moves = law.verdict, bool(law.intervals)
+    return TriangularFigures(
+        (law.sizes.z1, law.sizes.z2),
+        found if found else found.explained(*explain_clearance(law, window)),
+        *motion_figures(law, moves),
+        (losses or SlidingEfficiency(law)) if moves else None,
+        sizes=law.sizes,
+        window=window,
+        intervals=law.intervals,
+        jumps=tuple(law.jumps) if moves else (),
+        impacts=impacts,
+    )

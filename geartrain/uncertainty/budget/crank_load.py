@@ -1,4 +1,8 @@
-"""What the crank of a train has to give: torque and efficiency under the declared loads, or for a unit of power."""
+"""Torque and efficiency of the link that drives a train, at mean speeds and over a run.
+
+The run is a year, or a period after which everything repeats if that is shorter. A weight on its drum gives a torque,
+and a part of it arrives at the escape wheel.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +10,131 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.torques.train_torques import drive_both_ways
+from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
-from geartrain.uncertainty.budget.natural_run import find_natural_run
-from geartrain.uncertainty.budget.weight_drive import WeightDrive, find_weight_drive
+from geartrain.numerics.quantity import Quantity
+from geartrain.train.periods import period_table
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TorqueCycle, Torques
     from geartrain.train import Train
+
+
+# ------------------------------------------------------------------------------------------------------------------ run
+
+
+YEAR = period_table()["year_tropical_J2000"].value  # d
+MOST_PASSAGES = 600_000
+"""Teeth that pass, times the pairs that are asked at each: longer runs are cut off, at about two minutes without
+compiled kernels."""
+SAMPLES = 2_000
+
+
+def find_natural_run(train: GearTrain, state: str | None, lead: str, of: str | None = None) -> TorqueCycle:
+    """The torque over the natural run of a train.
+
+    lead   the input; `of`, the link whose torque is asked for, by default the crank
+    """
+    turns = natural_turns(train, state, lead, of)
+    return train.torques(state, turns=turns, samples=SAMPLES, of=of)
+
+
+def natural_turns(train: GearTrain, state: str | None, lead: str, of: str | None = None) -> float:
+    """Turns of the input in a year; where speeds are by no time, while what they are by passes once.
+
+    Or in a period after which all repeats, if that is shorter. Where nothing is uneven any run is as good: then it is
+    what speeds are by, an hour or a day. Fewer turns where more teeth pass than can be followed.
+    """
+    once = abs(train.declaration.case(state).inputs[lead]) or 1
+    period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
+    if period is None:
+        return float(once)
+    used = train.motion(state, tuple(train.declaration.links)).ahead.used
+    passages = len(used) * float(sum(each.cycles for each in used))
+    whole = min(period, once if unit is None else once * YEAR / unit)
+    return float(whole) if passages * whole <= MOST_PASSAGES else MOST_PASSAGES / passages
+
+
+# --------------------------------------------------------------------------------------------------------------- weight
+
+
+@dataclass(frozen=True, slots=True)
+class WeightDrive(Result):
+    """What a weight gives at its drum, and what the train makes of it over a run.
+
+    Attributes
+    ----------
+    link : str
+        The link of the drum.
+    torque : float
+        Mass times gravity times the radius at which the line pulls [N m].
+    needed : float or None
+        What starts the train at its worst position under its declared loads [N m]; None without loads, or where it
+        locks.
+    wheel : str or None
+        The link of the escape wheel; None where none is declared, or loads are.
+    mean, least : float or None
+        Torque that arrives there while the weight alone drives, the mean and the least over the run [N m].
+    efficiency : float or None
+        Energy that arrives there over that of the weight.
+
+    See Also
+    --------
+    CrankLoad : holds it
+    """
+
+    KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "least", "efficiency")
+
+    link: str
+    torque: float
+    needed: float | None = None
+    wheel: str | None = None
+    mean: float | None = None
+    least: float | None = None
+    efficiency: float | None = None
+
+    @property
+    def suffices(self) -> bool | None:
+        """True if the weight starts the train at its worst position; None where that is not known."""
+        return None if self.needed is None else self.torque >= self.needed
+
+
+def find_weight_drive(
+    train: GearTrain, state: str | None, link: str, lead: str, under_load: TorqueCycle | None
+) -> WeightDrive | None:
+    """The weight that drives a train in one state; None where another thing drives it.
+
+    link         the drum's; `lead`, the input
+    under_load   torque over the run under the declared loads; None where none are declared
+    """
+    drive = train.declaration.case(state).drive
+    if drive is None or drive.pull is None:
+        return None
+    if under_load is not None:
+        return WeightDrive(link, drive.pull, under_load.starting_torque)
+    escapement = train.declaration.escapement
+    if escapement is None:
+        return WeightDrive(link, drive.pull)
+    found = find_natural_run(_driven_by(train, state, link, drive.pull), state, lead, escapement.link)
+    mean = None if found.mean is None else -found.mean
+    least = None if found.greatest is None else -found.greatest.torque
+    return WeightDrive(link, drive.pull, None, escapement.link, mean, least, found.efficiency)
+
+
+def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
+    """The same train with this torque at the drum, the way it turns."""
+    from geartrain.analysis.gear_train import GearTrain
+
+    speed = train.solve(state)[link]
+    way = -1 if speed is not None and speed < 0 else 1
+    load = Quantity.parse(f"{way * pull!r} N m", "torque", plain=False)
+    return GearTrain(train.declaration.model_copy(update={"loads": {link: load}}))
+
+
+# ---------------------------------------------------------------------------------------------------------------- crank
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +205,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mappi
         return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
     if not loses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
-    ways = train.drive_both_ways(state)
+    ways = drive_both_ways(train.mechanics, state)
     if not ways or not ways[0].torques.verdict:
         return CrankLoad(link, None, None, "no loads are declared", pointers)
     way = ways[0]

@@ -3,6 +3,9 @@
 The pointer's pins, all teeth ideal, give an error d(phi) over one cycle of the pin. The true motion has the equation of
 centre C(M) over one anomalistic revolution. How the pin stands at first is the maker's choice: the phase of M is the
 one that leaves least, sum (d(phi) - C(phi + phase) - mean)^2, and the mean is where the pointer is set.
+
+The true motion of Moon and Sun is Kepler's: M = E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). The Sun's pull
+on the Moon (evection, variation, annual equation: 1.3, 0.7 and 0.2 degrees) and the planets' on both are left out.
 """
 
 from __future__ import annotations
@@ -11,18 +14,68 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import hypot, pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from geartrain.uncertainty.budget.pointer_budget import BudgetCause
 from geartrain.uncertainty.budget.tooth_motion import declared_pairs
-from geartrain.uncertainty.budget.true_anomaly import TRUE_MOTIONS, Body, equation_of_centre
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.arrays import Floats
+
+
+# ---------------------------------------------------------------------------------------------------------- true motion
+
+
+Body = Literal["moon", "sun"]
+
+_STEPS = 40  # far more than Newton's method takes for any ellipse
+
+
+@dataclass(frozen=True, slots=True)
+class TrueMotion:
+    """What is shipped of a body's orbit.
+
+    eccentricity   of its ellipse, today
+    period         from a star or the equinox back to it, to a hundredth (d): a pointer's target must be near it
+    words          by which an output or link of it is known
+    source         of the eccentricity
+    """
+
+    eccentricity: float
+    period: float
+    words: frozenset[str]
+    source: str
+
+
+TRUE_MOTIONS: dict[Body, TrueMotion] = {
+    "moon": TrueMotion(0.0549, 27.3217, frozenset({"moon"}), "NASA planetary fact sheets (general knowledge)"),
+    "sun": TrueMotion(0.0167, 365.2422, frozenset({"sun"}), "NASA planetary fact sheets (general knowledge)"),
+}
+
+
+def equation_of_centre(M: Floats, e: float) -> Floats:
+    """True less mean anomaly (rad) at mean anomalies M (rad), eccentricity 0 <= e < 1: Kepler's equation by Newton.
+
+    Right to rounding; E starts at M + e sin M, from where the method converges for the small e of these orbits.
+    """
+    E = M + e * np.sin(M)
+    for _ in range(_STEPS):
+        step = (E - e * np.sin(E) - M) / (1 - e * np.cos(E))
+        E = E - step
+        if np.max(np.abs(step), initial=0.0) < 1e-15:
+            break
+    # nu - E as one atan2: no half angles, no jumps between turns
+    beta = e / (1 + np.sqrt(1 - e * e))
+    found: Floats = 2 * np.arctan2(beta * np.sin(E), 1 - beta * np.cos(E)) + (E - M)
+    return found
+
+
+# ----------------------------------------------------------------------------------------------------------------- pins
+
 
 _POSITIONS = 4096  # over one cycle of the pin
 _NEAR = 0.02  # of the period: how far a target may be from the body's own

@@ -1,32 +1,56 @@
-"""All budgets of a train in one state: what is asked, and how the causes are gathered."""
+"""The budget of a train in one state: what is requested, how the causes are gathered, and two of the causes.
+
+First cause, the ratio: a pointer of speed w (turns a unit) that should turn at t gains 360 (|w| - |t|) degrees a unit,
+and 360 (|w|/|t| - 1) in a turn; w and t are exact.
+
+Fifth cause, wheels cut by hand: trials of the whole train. The error of a trial includes the ripple of even teeth,
+which is a cause of its own: the same positions with even teeth are composed again and subtracted (docs/cut-by-hand.md).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import degrees, sqrt
 from typing import TYPE_CHECKING
 
-from geartrain.errors import Problem, QuestionError, check_choice
+import numpy as np
+
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
+from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
 from geartrain.train.periods import period_table
 from geartrain.uncertainty.budget.crank_load import find_crank_load
-from geartrain.uncertainty.budget.cutting_trials import cutting_plan, find_cutting_trials, jams_over_clearance
-from geartrain.uncertainty.budget.pin_theory import TheoryError, find_bodies, link_theory, theory_cause
-from geartrain.uncertainty.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
-from geartrain.uncertainty.budget.ratio_drift import find_drifts, ratio_cause
-from geartrain.uncertainty.budget.tooth_motion import find_tooth_motion, tooth_causes
-from geartrain.uncertainty.budget.true_anomaly import Body
+from geartrain.uncertainty.budget.pin_theory import Body, TheoryError, find_bodies, link_theory, theory_cause
+from geartrain.uncertainty.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
+from geartrain.uncertainty.budget.tooth_motion import (
+    DeclaredPairs,
+    ErrorDifference,
+    find_tooth_motion,
+    tooth_causes,
+    without_teeth,
+)
+from geartrain.uncertainty.confidence_intervals import deviation_of, percentile_of
+from geartrain.uncertainty.manufacturing_errors.declared_errors import read_error_overrides
+from geartrain.uncertainty.monte_carlo.clearance_study import run_clearances
+from geartrain.uncertainty.monte_carlo.pointer_error import FEWEST
+from geartrain.uncertainty.monte_carlo.trial_plan import find_trial_plan
+from geartrain.uncertainty.monte_carlo.trial_results import turning_trials
+from geartrain.uncertainty.monte_carlo.trial_run import run_trials
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Motion
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.judged_outputs import OutputResult
+    from geartrain.numerics.arrays import Floats
     from geartrain.numerics.work import Execution
-    from geartrain.uncertainty.budget.cutting_trials import CuttingTrials
+    from geartrain.train import Target
     from geartrain.uncertainty.budget.tooth_motion import ToothMotion
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
+    from geartrain.uncertainty.monte_carlo.trial_results import TrialResults
+
 
 SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
@@ -242,3 +266,123 @@ def _jams(
     if plan is None:
         return (), uncut
     return jams_over_clearance(plan, asked.clearances, asked.jam_trials, asked.seed, means)
+
+
+# ---------------------------------------------------------------------------------------------------------------- ratio
+
+
+YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
+
+
+def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
+    """What an output gains against each of its targets; what the sky was seen to do comes first.
+
+    unit_days   the train's unit of time (d), None where it is none
+    """
+    judged = list(zip(output.output.targets, output.targets, strict=False))
+    judged.sort(key=lambda both: not _is_seen(both[0]))  # stable: else as declared
+    return tuple(_drift(result, unit_days, span_days) for _, result in judged)
+
+
+def _is_seen(target: Target) -> bool:
+    """A period of the shipped table is a time in the sky; speeds and relations are what makers meant."""
+    return target.name is not None and period_table()[target.name].kind == "period"
+
+
+def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> RatioDrift:
+    per_unit, ppm = result.degrees_per_unit, result.ppm
+    per_day = per_unit / unit_days if per_unit is not None and unit_days else None
+    return RatioDrift(
+        result.goal.words if result.goal.sense else result.label,
+        ppm,
+        None if ppm is None else ppm * 360e-6,
+        *(None if per_day is None else per_day * days for days in (YEAR, CENTURY, span_days)),
+    )
+
+
+def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
+    """The drift over the span, against the first target."""
+    if not drifts:
+        return BudgetCause.unknown("ratio", "no target is declared for this pointer")
+    first = drifts[0]
+    if first.degrees_over_span is None:
+        note = f"against {first.target}: the train's unit is no time, so that there is no span to drift over"
+        return BudgetCause.unknown("ratio", note)
+    size = abs(first.degrees_over_span)
+    # a line from 0 to its end: rms about its mean
+    return BudgetCause("ratio", "whole", size, size / sqrt(12), note=f"against {first.target}")
+
+
+# -------------------------------------------------------------------------------------------------------------- cutting
+
+
+@dataclass(frozen=True)
+class CuttingTrials:
+    """Trials of a train, with what even teeth do at the same positions (rad), (outputs, trials)."""
+
+    trials: TrialResults
+    even: Floats
+
+    def cause(self, name: str, known: DeclaredPairs) -> BudgetCause:
+        """The range that holds 95 % of the errors of one output, and its interval: ends of both percentiles'.
+
+        known   what moves the output
+        """
+        at = self.trials.plan.outputs.index(name)
+        errors = self.trials.errors[:, at]
+        whole = np.isfinite(errors)
+        reach = len(self.trials.plan.reach[at])
+        if known.gears and not reach:
+            return BudgetCause.unknown("cutting", "none of the pairs that move it can be cut")
+        if known.bare and not np.ptp(errors[whole]):
+            return BudgetCause.unknown("cutting", f"no dimensions are declared of {', '.join(known.bare)}")
+        runs = whole & turning_trials(self.trials.marks, self.trials.plan.reach[at])
+        kept = runs if np.count_nonzero(runs) >= FEWEST else whole
+        note = f"{int(np.count_nonzero(runs))} of {self.trials.done} trials turn"
+        note += f", {reach} of {known.gears} pairs cut" if reach < known.gears else ""
+        note += "" if kept is runs else "; taken from all, as the pushing flanks alone would have them"
+        values = np.sort((errors - self.even[at])[kept])
+        low, high = percentile_of(values, 2.5), percentile_of(values, 97.5)
+        size = degrees(high.value - low.value)
+        within = degrees(max(high.low - low.high, 0.0)), degrees(high.high - low.low)
+        interval = within if np.isfinite(within).all() else None
+        if interval is None:
+            note += "; too few trials for an interval"
+        declared: Declared = "part" if known.bare or reach < known.gears else "whole"
+        deviation = degrees(deviation_of(values).value)
+        return BudgetCause("cutting", declared, size, deviation, interval=interval, note=note)
+
+
+def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution) -> CuttingTrials:
+    """Cut the wheels so many times; the motion is that with even teeth."""
+    found = run_trials(plan, count, seed, means)
+    if not found.complete:  # interrupted: a budget of half the trials would not say so
+        raise KeyboardInterrupt
+    teeth = ErrorDifference(plan.composition, without_teeth(motion).ahead)
+    parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
+    return CuttingTrials(found, np.concatenate(parts, axis=1))
+
+
+def cutting_plan(
+    train: GearTrain, cutting: Sequence[str], outputs: Sequence[str], state: str | None, without: Sequence[str]
+) -> tuple[TrialPlan | None, str]:
+    """What trials need, or why there are none. Raises `GearTrainError` where `cutting` cannot be tried."""
+    settings = read_error_overrides(cutting)
+    try:
+        return find_trial_plan(train, settings, outputs, state, without), ""
+    except GearTrainError as error:
+        if cutting:
+            raise
+        return None, error.problems[0].what
+
+
+def jams_over_clearance(
+    plan: TrialPlan, clearances: Sequence[float], count: int, seed: int, means: Execution
+) -> tuple[tuple[ClearanceCase, ...], str]:
+    """How often some pair jams at each clearance; none, and why, where a pair has no window."""
+    if not clearances:
+        return (), "no clearance was asked for"
+    try:
+        return tuple(run_clearances(plan, clearances, count, seed, means)), ""
+    except GearTrainError as error:
+        return (), error.problems[0].what

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, RangeError
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, ToothCouple
 from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 
@@ -97,14 +96,6 @@ class CutToothPairs(ToothCouple):
         found: NDArray[np.bool_] = np.asarray(flank + turned >= np.pi / 2)
         return found
 
-    @property
-    def matches(self) -> Floats:
-        """alpha_1 where flank lies on flank, D sin(x + beta1) = R1 sin(beta1) + R2 sin(beta2); NaN where nowhere."""
-        line = (self.R1 * self.sin1 + self.R2 * self.sin2) / self.D
-        with np.errstate(invalid="ignore"):
-            found: Floats = np.arcsin(line) - np.arctan2(self.sin1, self.cos1)
-        return found
-
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
     """Sine of half the reach of wheel 1, Eq. (4)."""
@@ -136,10 +127,10 @@ class CutGearPair:
         """Shape of the trials: () for one pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
-    def couples(self, k: Any, of_driven: Any = None) -> CutToothPairs:
-        """Couples k, counted on through all turns; `of_driven` numbers the driven teeth where they are others."""
+    def couples(self, k: Any) -> CutToothPairs:
+        """Couples k, counted on through all turns."""
         i = k % self.sizes.z1
-        j = (k if of_driven is None else of_driven) % self.sizes.z2
+        j = k % self.sizes.z2
         one, two, sizes = self.first, self.second, self.sizes
         shift = self.shift if np.ndim(self.shift) == 0 else np.asarray(self.shift)[..., None]
         tips = one.tip[..., i], two.tip[..., j]
@@ -174,16 +165,3 @@ class CutGearPair:
         both = [np.atleast_2d(each.leaning).any(axis=1) for each in (self.couples(k), self.mirrored.couples(k))]
         found: Bools = np.broadcast_to(both[0] | both[1], self.trials or (1,)).copy()
         return found
-
-    def checked(self) -> CutGearPair:
-        """The pair itself. Raises `RangeError` where a flank leans beyond the perpendicular where tips meet."""
-        if self.leans.any():
-            raise RangeError(
-                Problem(
-                    "a flank leans beyond the perpendicular where tips meet",
-                    "few, deep or blunt teeth do so; which of their couples touches first is then no longer known "
-                    "tooth by tooth",
-                    "use more teeth, a smaller half_angle or a greater centre distance",
-                )
-            )
-        return self

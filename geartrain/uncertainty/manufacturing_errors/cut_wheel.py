@@ -51,26 +51,11 @@ class CutWheel:
 
     All arrays are (..., z) for z teeth, numbered as they pass while the wheel turns forward; leading axes are trials.
 
-    Attributes
-    ----------
-    radius : float
-        Tip radius R of the even wheel [any one unit], negative for a ring.
-    half_angle : float
-        Half aperture of its teeth [rad].
-    place : ndarray
-        How far behind its even place a tip stands [rad].
-    tip : ndarray
-        How far a tip stands out beyond R [as R].
-    leading, trailing : ndarray
-        By how much the flanks are flatter than the half angle, about the axle [rad].
-
-    Examples
-    --------
-    The wheel of 16 teeth cut about a centre 0.01 R off its axle: its tips lie between 0.99 R and 1.01 R.
-
-    >>> wheel = CutWheel.even(16, 1.0, 0.5).eccentric(0.01)
-    >>> round(float(wheel.r.min()), 6), round(float(wheel.r.max()), 6)
-    (0.99, 1.01)
+    radius             tip radius R of the even wheel [any one unit], negative for a ring
+    half_angle         half aperture of its teeth [rad]
+    place              how far behind its even place a tip is [rad]
+    tip                how far a tip extends beyond R [as R]
+    leading, trailing  by how much the flanks are flatter than the half angle, about the axle [rad]
     """
 
     radius: float
@@ -82,52 +67,8 @@ class CutWheel:
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
-        """A wheel without errors.
-
-        Parameters
-        ----------
-        z : int
-            Tooth number.
-        radius : float
-            Tip radius [any one unit], negative for a ring.
-        half_angle : float
-            Half aperture of its teeth [rad].
-        """
+        """A wheel of z teeth without errors."""
         return cls(radius, half_angle, *(np.zeros(z) for _ in range(4)))
-
-    @classmethod
-    def measured(
-        cls, even: CutWheel, theta: ArrayLike, r: ArrayLike, leading: ArrayLike, trailing: ArrayLike
-    ) -> CutWheel:
-        """A wheel measured tooth by tooth.
-
-        Parameters
-        ----------
-        even : CutWheel
-            What it was meant to be.
-        theta, r : array_like
-            Polar angle [rad] and radius [as R] of each tip.
-        leading, trailing : array_like
-            Half angle of each flank [rad].
-
-        Raises
-        ------
-        RangeError
-            For tables of another length, or teeth that cannot be cut.
-        """
-        teeth = [np.asarray(each, dtype=float) for each in (theta, r, leading, trailing)]
-        if any(each.shape[-1:] != (even.z,) for each in teeth):
-            raise RangeError(
-                Problem(
-                    f"the tables of a wheel of {even.z} teeth have other lengths: {[each.shape for each in teeth]}",
-                    "each tooth has one angle, one radius and two half angles",
-                    f"give {even.z} values of each, in the order in which teeth pass",
-                )
-            )
-        place, tip = teeth[0] - np.arange(even.z) * even.pitch, even.sign * teeth[1] - even.radius
-        return replace(
-            even, place=place, tip=tip, leading=teeth[2] - even.half_angle, trailing=teeth[3] - even.half_angle
-        ).checked()
 
     # ---------------------------------------------------------------------------------------------------------- as is
 
@@ -167,84 +108,38 @@ class CutWheel:
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def trial(self, at: int) -> CutWheel:
-        """One wheel out of many; an array that all share stays.
-
-        Parameters
-        ----------
-        at : int
-            The number of the trial.
-        """
+        """One wheel out of many; an array that all share stays."""
         one = (each[at] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *one)
 
     def taken(self, part: slice | NDArray[np.int64]) -> CutWheel:
-        """Some wheels out of many.
-
-        Parameters
-        ----------
-        part : slice or ndarray of int
-            The trials.
-        """
+        """Some wheels out of many."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
     # ------------------------------------------------------------------------------------------------------ with errors
 
     def placed(self, place: ArrayLike) -> CutWheel:
-        """Teeth moved along the rim: flanks turn with them.
-
-        Parameters
-        ----------
-        place : array_like
-            Late where positive [rad].
-        """
+        """Teeth moved along the rim, late where positive [rad]: flanks turn with them."""
         return replace(self, place=self.place + np.asarray(place)).checked()
 
     def grown(self, tip: ArrayLike) -> CutWheel:
-        """Teeth cut to other heights: only tips move, radially.
-
-        Parameters
-        ----------
-        tip : array_like
-            Outwards where positive [as R].
-        """
+        """Teeth cut to other heights [as R]: only tips move, radially."""
         return replace(self, tip=self.tip + np.asarray(tip)).checked()
 
     def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Teeth with other half angles.
-
-        Parameters
-        ----------
-        leading, trailing : array_like
-            Flatter where positive [rad]; the first alone gives both flanks.
-        """
+        """Teeth with other half angles, flatter where positive [rad]; the first alone gives both flanks."""
         trailing = leading if trailing is None else trailing
         return replace(
             self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
         ).checked()
 
     def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
-        """The same teeth cut about a centre that lies off the axle: the sinusoidal error.
-
-        Parameters
-        ----------
-        e : array_like
-            Distance of the two, one or one for each trial [as R].
-        towards : array_like
-            Direction of the centre from the axle [rad].
-        """
+        """The same teeth cut about a centre at a distance e from the axle [as R], in a direction [rad]."""
         return self.moved(e, towards).checked()
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """The wheel of `eccentric`, whether its teeth can be cut or not.
-
-        Parameters
-        ----------
-        e : array_like
-            Distance of the two centres, one or one for each trial [as R].
-        towards : array_like
-            Direction of the centre of the teeth from the axle [rad].
-        """
+        """The wheel of `eccentric`, whether its teeth can be cut or not."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         lean = self.sign * turned
@@ -259,10 +154,7 @@ class CutWheel:
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
         """The same teeth with flanks lowered along their normals: each tip moves down the other flank.
 
-        Parameters
-        ----------
-        leading, trailing : ndarray
-            By how much, 0 or more, (..., z) [as R].
+        leading, trailing   by how much, 0 or more, (..., z) [as R]
         """
         ahead, behind = self.half_angle + self.leading, self.half_angle + self.trailing
         # the other flank meets the lowered one this much farther down
@@ -276,13 +168,7 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """The wheel seen from behind, turning the other way.
-
-        Parameters
-        ----------
-        first : int
-            Tooth i is tooth `first` - i as it was.
-        """
+        """The wheel seen from behind, turning the other way; tooth i is tooth `first` - i as it was."""
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
             self.radius,

@@ -1,8 +1,11 @@
 """Trains cut by hand, many times over: how often they jam, how far their pointers stray, and whose fault it is.
 
-trial_plan                  what is asked of a train, and its errors
-random_streams, trial_block, trial_run   wheels drawn, judged and put in motion, by blocks that anyone may work out
-trial_results, pointer_error, monte_carlo_result   what comes out
-clearance_study, sobol_indices, tolerance_allocation   other clearances; whose errors; how great they may be
-trial_studies, trial_table   all that may be asked beside trials; every trial as a row of a file
+trial_plan, trial_pair           what is asked of a train, and its errors
+random_streams, trial_block      wheels drawn, judged and put in motion
+trial_run                        tasks of trials, their journal and their table
+trial_results, pointer_error     what comes out
+monte_carlo_result               all that can be asked besides, and the whole result
+clearance_study, sobol_indices   other clearances; whose errors move a pointer
+pair_trials                      a single pair
+friction_trials                  torque over a turn with friction drawn from its spread
 """

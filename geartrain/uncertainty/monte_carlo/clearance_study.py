@@ -16,7 +16,7 @@ from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
 from geartrain.uncertainty.monte_carlo.trial_results import EVENTS, EventRates
-from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
+from geartrain.uncertainty.monte_carlo.trial_run import check_trials, trial_tasks
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
@@ -125,22 +125,17 @@ def jamming_map(
     """
     check_trials(trials)
     means = means or Execution()
-    cases = [(clearance, scale, "") for clearance in clearances for scale in scales]
+    cases = [(clearance, scale) for clearance in clearances for scale in scales]
     return list(_judged(plan, cases, trials, seed, means))
 
 
-def judged_at(plan: TrialPlan, scale: float, kind: str, trials: int, seed: int, means: Execution) -> ClearanceCase:
-    """The train as declared, its errors of one kind (all for "") at one scale."""
-    return next(_judged(plan, [(None, scale, kind)], trials, seed, means))
-
-
 def _judged(
-    plan: TrialPlan, cases: Sequence[tuple[float | None, float, str]], trials: int, seed: int, means: Execution
+    plan: TrialPlan, cases: Sequence[tuple[float | None, float]], trials: int, seed: int, means: Execution
 ) -> Iterator[ClearanceCase]:
-    tasks = [[*case, *block] for case in cases for block in block_tasks(trials)]
-    results = means.run(partial(work_case, plan, seed), tasks)
-    for clearance, scale, _ in cases:
-        counts = np.sum([next(results) for _ in range(-(-trials // BLOCK))], axis=0)
+    parts = trial_tasks(trials, len(cases))
+    results = means.run(partial(work_case, plan, seed), [[*case, *part] for case in cases for part in parts])
+    for clearance, scale in cases:
+        counts = np.sum([next(results) for _ in parts], axis=0)
         found = [
             {name: ProbabilityEstimate(*each) for name, each in zip(EVENTS, row.tolist(), strict=True)}
             for row in counts
@@ -151,11 +146,11 @@ def _judged(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """One block of one case: for each pair and then the train, for each event, how many of how many."""
-    clearance, scale, kind, block, trials = task
-    changed = plan.scaled(scale, kind)
+    """Some trials of one case: for each pair and then the train, for each event, how many of how many."""
+    clearance, scale, first, trials = task
+    changed = plan.scaled(scale)
     changed = changed if clearance is None else changed.cleared(clearance)
-    marks, _ = judge_trial_pairs(draw_trial_wheels(changed, RandomStreams(seed, block), trials))
+    marks, _ = judge_trial_pairs(draw_trial_wheels(changed, RandomStreams(seed, first // BLOCK), trials, first % BLOCK))
     columns = [*marks.T, np.bitwise_or.reduce(marks, axis=1)]
     return [
         [[int(np.count_nonzero(cut & mark)), len(cut)] for mark in EVENTS.values()]

@@ -1,23 +1,27 @@
-"""Everything that was asked of the trials of one train, and what is assumed in it."""
+"""Everything that can be asked of the trials of one train, its result, and what is assumed in it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import degrees
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from geartrain.numerics.plain_data import Key, Result, group
 from geartrain.numerics.result_picture import Pictured
 from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE
+from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map, run_clearances
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK
+from geartrain.uncertainty.monte_carlo.sobol_indices import find_sobol_indices
+from geartrain.uncertainty.monte_carlo.trial_results import TrialResults
+from geartrain.uncertainty.monte_carlo.trial_run import run_course
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
     from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse
     from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation
     from geartrain.uncertainty.monte_carlo.trial_results import TrialResults
 
 
@@ -45,8 +49,6 @@ class MonteCarloResult(Tabular, Pictured, Result):
         Along a turn, from `run_course`.
     indices : sequence of SobolIndices
         From `find_sobol_indices`.
-    tolerance : ToleranceAllocation or None
-        From `find_tolerance`.
 
     See Also
     --------
@@ -72,14 +74,12 @@ class MonteCarloResult(Tabular, Pictured, Result):
         Key("clearances", "cleared"),
         "courses",
         "indices",
-        "tolerance",
     )
 
     trials: TrialResults
     cleared: Sequence[ClearanceCase] = ()
     courses: Sequence[PointerErrorCourse] = ()
     indices: Sequence[SobolIndices] = ()
-    tolerance: ToleranceAllocation | None = None
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -177,3 +177,44 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
 def _sizes(errors: Mapping[str, Mapping[str, Any]]) -> ErrorSizes:
     return {name: {kind: {off.way: off.size} for kind, off in each.items()} for name, each in errors.items() if each}
+
+
+# -------------------------------------------------------------------------------------------------------------- studies
+
+
+_FEW = 4  # outputs whose course and indices are worked out at a time
+_POSITIONS, _COURSES = 120, 128  # along a turn, and trials that take them
+_SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # of windows, where no clearances are given
+_SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # of the errors declared
+
+
+@dataclass(frozen=True)
+class TrialStudies:
+    """What is asked beside the trials themselves.
+
+    clearances   factors, or shares of windows, at which the train is judged again
+    courses      whether the first outputs are followed along a turn
+    sobol        whether their Sobol indices are found, by wheel and by kind
+    """
+
+    clearances: Sequence[float] = ()
+    courses: bool = False
+    sobol: bool = False
+
+    def of(self, trials: TrialResults, means: Execution) -> MonteCarloResult:
+        """The trials with all that is asked beside them."""
+        plan, seed, count = trials.plan, trials.seed, trials.wanted
+        few = range(min(_FEW, len(plan.outputs)))
+        by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
+        return MonteCarloResult(
+            trials,
+            run_clearances(plan, self.clearances, count, seed, means) if self.clearances else (),
+            [run_course(plan, at, _POSITIONS, seed, _COURSES) for at in few] if self.courses else (),
+            [find_sobol_indices(plan, at, each, count, seed, means) for at in few for each in by] if self.sobol else (),
+        )
+
+    def mapped(self, findings: MonteCarloResult, means: Execution) -> MonteCarloResult:
+        """The findings with what a map of jams needs: the clearances, or others, and errors of other sizes."""
+        of = findings.trials
+        clearances = self.clearances or _SHARES
+        return replace(findings, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 BLOCK = 256
-"""Trials that are drawn and worked out together; results depend on it, so it never changes."""
+"""Trials that are drawn together; results depend on it, so it never changes."""
 
 PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
     8
@@ -71,24 +71,25 @@ class RandomStreams:
 
 
 def draw_wheel(
-    wheel: WheelErrors, item: int, streams: RandomStreams, trials: int = BLOCK
+    wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
-    """Wheels, arrays (trials, z) where drawn, and whether each can be cut (trials,).
+    """Some rows of a block of wheels, arrays (trials, z) where drawn, and whether each can be cut (trials,).
 
     Triangular ones have the tip radius 1, rings -1. Those that cannot be cut are handed back even, so that nothing
     downstream meets teeth without tips.
     """
-    shape = (trials, wheel.z)
+    # always a whole block, then some rows of it: a trial is the same with whichever others it is worked out
+    shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
     zero = np.zeros(wheel.z)
 
     def drawn(kind: str) -> Floats:
         found = zero + np.asarray(wheel.tables[kind]) if kind in wheel.tables else zero
-        return found + streams.errors(item, kind, wheel.errors[kind], shape) if kind in wheel.errors else found
+        return found + streams.errors(item, kind, wheel.errors[kind], shape)[rows] if kind in wheel.errors else found
 
     # declared errors are ahead and wider; a wheel's arrays are behind and flatter
     place, tip = -wheel.pitch * drawn("placement"), wheel.depth * drawn("tip")
     flank = wheel.half_angle * drawn("aperture")
-    eccentric = _eccentric(wheel, item, streams, trials) if "eccentricity" in wheel.errors else None
+    eccentric = _eccentric(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
         return _displaced(place, tip, flank, eccentric, trials)
     cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
@@ -111,11 +112,11 @@ def _displaced(
     return (found if good.all() else replace(found, place=np.where(good[:, None], place, 0.0))), good
 
 
-def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, trials: int) -> tuple[Floats, Floats]:
-    e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (trials,))
+def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
+    e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (BLOCK,))[rows]
     if wheel.towards is not None:
-        return e, np.full(trials, wheel.towards)
-    return e, streams.rng(item, TOWARDS).uniform(0.0, 2 * pi, trials)
+        return e, np.full(len(e), wheel.towards)
+    return e, streams.rng(item, TOWARDS).uniform(0.0, 2 * pi, BLOCK)[rows]
 
 
 def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:

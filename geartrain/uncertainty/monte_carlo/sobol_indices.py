@@ -1,26 +1,30 @@
-"""Whose errors move a pointer: Sobol indices by wheel or by kind of error, through SALib.
+"""Sobol indices of a pointer's error by wheel or by kind of error: Monte Carlo estimates from two independent samples.
 
-A wheel's teeth are one input, and so is the position: what an input gives is drawn from one of two independent sets,
-and trials are worked out with one input after the other taken from the second set (Saltelli 2010, as SALib has it).
+All teeth of a wheel are one input, and so is the position of the train's input. With the samples A and B, and AB(i)
+equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
+
+    first order   S_i = mean(f(B) (f(AB(i)) - f(A))) / V        total   T_i = mean((f(A) - f(AB(i)))^2) / 2 V
+
+`scipy.stats.sobol_indices` has the same estimators, but takes a number of samples that is a power of 2 only, and its
+bootstrap takes no seed.
 """
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from geartrain.errors import MissingExtraError, Problem, QuestionError
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution
-from geartrain.uncertainty.confidence_intervals import CONFIDENCE, IntervalEstimate
+from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviations
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
-from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
+from geartrain.uncertainty.monte_carlo.trial_run import check_trials, trial_tasks
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -77,7 +81,7 @@ def find_sobol_indices(
     seed: int = 1,
     means: Execution | None = None,
 ) -> SobolIndices:
-    """Sobol indices of an output's error at random positions, by Saltelli's scheme through SALib.
+    """Sobol indices of an output's error at random positions, by Saltelli's scheme.
 
     Pairs that jam move the output by their pushing flanks.
 
@@ -103,8 +107,6 @@ def find_sobol_indices(
 
     Raises
     ------
-    MissingExtraError
-        Without SALib.
     QuestionError
         Where nothing that is off moves the output.
 
@@ -120,7 +122,6 @@ def find_sobol_indices(
     >>> sorted(index.name for index in find_sobol_indices(plan, 0, trials=16).indices)
     ['a', 'b1', 'position']
     """
-    sobol = _sobol()
     check_trials(trials)
     means, names = means or Execution(), [name for name, _ in error_groups(plan, output, by)]
     if len(names) < 2:
@@ -128,33 +129,41 @@ def find_sobol_indices(
         raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))
     rows: list[Any] = []
     # not journalled: a journal knows its tasks by block and trials, which are those of the trials themselves
-    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), block_tasks(trials)):
+    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
     values = values[np.isfinite(values).all(axis=1)]
-    problem = {"num_vars": len(names), "names": names, "bounds": [[0, 1]] * len(names)}
-    with warnings.catch_warnings():  # SALib divides by the variance, which may be 0
-        warnings.simplefilter("ignore")
-        found = sobol.analyze(problem, values.ravel(), False, _RESAMPLES, CONFIDENCE, print_to_console=False, seed=seed)
-    indices = [
-        SobolIndex(name, *(_figure(found[key][at], found[f"{key}_conf"][at]) for key in ("S1", "ST")))
-        for at, name in enumerate(names)
-    ]
+    indices = [SobolIndex(name, *both) for name, both in zip(names, saltelli_indices(values, seed), strict=True)]
     ordered = tuple(sorted(indices, key=lambda each: -each.total.value))
     return SobolIndices(plan.outputs[output], by, len(values), ordered)
 
 
-def _sobol() -> Any:
-    from importlib import import_module
+def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
+    """First-order and total index of each input, with bootstrap intervals; 0 where the values do not vary.
 
-    try:
-        return import_module("SALib.analyze.sobol")  # it carries no types
-    except ImportError:
-        raise MissingExtraError("SALib", "errors", "Sobol indices") from None
+    values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
+    seed     of the resamples
+    """
+    values = values - values.mean()  # the estimate of S_i is less scattered for centred values
+    rng, n = np.random.default_rng(seed), len(values)
+    estimates = _saltelli(values)
+    resampled = np.array([_saltelli(values[rng.integers(n, size=n)]) for _ in range(_RESAMPLES)])
+    halves = deviations() * resampled.std(axis=0, ddof=1)
+    first, total = (
+        [IntervalEstimate(value, value - half, value + half) for value, half in zip(*row, strict=True)]
+        for row in zip(estimates.tolist(), halves.tolist(), strict=True)
+    )
+    return list(zip(first, total, strict=True))
 
 
-def _figure(value: float, half: float) -> IntervalEstimate:
-    return IntervalEstimate(float(value), float(value - half), float(value + half))
+def _saltelli(values: Floats) -> Floats:
+    """First-order and total indices, (2, d)."""
+    a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
+    variance = np.var(values[:, [0, -1]])
+    if not variance:
+        return np.zeros((2, mixed.shape[1]))
+    indices: Floats = np.stack([np.mean(b * (mixed - a), axis=0), np.mean((a - mixed) ** 2, axis=0) / 2]) / variance
+    return indices
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callable[[int, int], bool]]]:
@@ -204,7 +213,7 @@ def _none(item: int, kind: int) -> bool:
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """One block of base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
+    """Some base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
 
     plan: TrialPlan
     seed: int
@@ -212,15 +221,16 @@ class SobolBlock:
     by: By
 
     def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """The block as plain data."""
-        block, trials = task
+        """The samples of a task as plain data."""
+        first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        columns = [self._errors(block, trials, choice) for choice in (_none, *inputs, _all)]
+        columns = [self._errors(first, trials, choice) for choice in (_none, *inputs, _all)]
         found: list[list[float]] = np.stack(columns, axis=1).tolist()
         return found
 
-    def _errors(self, block: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
-        drawn = draw_trial_wheels(self.plan, RandomStreams(self.seed, _STREAMS + block, choice), min(trials, BLOCK))
+    def _errors(self, first: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
+        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, choice)
+        drawn = draw_trial_wheels(self.plan, streams, trials, first % BLOCK)
         found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
-        errors: Floats = found.errors(input_positions(self.plan, drawn.streams, drawn.trials))[0]
+        errors: Floats = found.errors(input_positions(drawn))[0]
         return errors

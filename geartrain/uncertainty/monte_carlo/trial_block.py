@@ -40,9 +40,14 @@ class TrialWheels:
 
     plan: TrialPlan
     streams: RandomStreams
-    trials: int
+    rows: slice
     wheels: tuple[CutWheel | DisplacedWheel, ...]
     good: tuple[Bools, ...]
+
+    @property
+    def trials(self) -> int:
+        """How many trials there are."""
+        return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
         """One pair as it was drawn; `widest` 1 and -1 have its bearings at their farthest and nearest."""
@@ -71,23 +76,17 @@ class TrialWheels:
         shift = np.zeros(self.trials)
         for kind, off in pair.fitting.items():
             # always a whole block, then cut: a trial is the same however many are wanted
-            drawn = self.streams.errors(len(self.plan.wheels) + at, kind, off, (BLOCK,))[: self.trials]
+            drawn = self.streams.errors(len(self.plan.wheels) + at, kind, off, (BLOCK,))[self.rows]
             # a bearing moves from tooth to tooth: where it matters most is where it counts
             shift = shift + (widest * np.abs(drawn) if kind == "bearing" and widest else drawn)
         return shift * pair.depth
 
 
-def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK) -> TrialWheels:
-    """The wheels of the first trials of a block."""
-    found = [draw_wheel(wheel, at, streams) for at, wheel in enumerate(plan.wheels)]
-    rows = slice(0, trials)
-    return TrialWheels(
-        plan,
-        streams,
-        trials,
-        tuple(wheel.taken(rows) for wheel, _ in found),
-        tuple(good[rows] for _, good in found),
-    )
+def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
+    """The wheels of some trials of a block, from number `start` of it on."""
+    rows = slice(start, start + trials)
+    found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
+    return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
 
 
 # ------------------------------------------------------------------------------------------------------------- verdicts
@@ -123,10 +122,10 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
 # ------------------------------------------------------------------------------------------------------------- pointers
 
 
-def input_positions(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK) -> Floats:
-    """Where the input stands in each trial (turns)."""
+def input_positions(drawn: TrialWheels) -> Floats:
+    """The position of the input in each trial (turns)."""
     # a whole block, then cut, as all errors are
-    return streams.rng(plan.position, POSITION).uniform(0.0, plan.span, BLOCK)[:trials]
+    return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 
 
 @dataclass(frozen=True)

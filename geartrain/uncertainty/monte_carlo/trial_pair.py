@@ -13,8 +13,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair, even_play
-from geartrain.uncertainty.manufacturing_errors.file_strokes import FilingWork, file_to_fit
-from geartrain.uncertainty.manufacturing_errors.filed_cut_pair import FileableCutPair
+from geartrain.uncertainty.manufacturing_errors.file_strokes import FileableCutPair, FilingWork, file_to_fit
 from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 from geartrain.uncertainty.manufacturing_errors.trial_transmission import (
@@ -43,7 +42,6 @@ class TrialPair(ABC):
     even     mean error of the pair without cutting errors (rad of the driven wheel)
     fitting  errors of its axes, in depths of the less deep teeth
     stroke   what one stroke of the file takes, in the same depths; 0 where nothing is filed to fit
-    fast     whether a compiled kernel judges it, where it has one; it says the same
     """
 
     name: str
@@ -53,7 +51,6 @@ class TrialPair(ABC):
     even: float
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
     stroke: float = field(default=0.0, kw_only=True)
-    fast: bool = field(default=False, kw_only=True)
 
     @property
     @abstractmethod
@@ -149,7 +146,7 @@ class TriangularTrialPair(TrialPair):
     def verdicts(self, pair: Any) -> MeshingVerdicts:
         """One trial where all share everything."""
         first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
-        return batch_verdicts(pair.sizes, first, pair.second, pair.shift, fast=self.fast)
+        return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
 
     def law(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
         """Tooth by tooth."""

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.kernels import is_fast
 from geartrain.uncertainty.manufacturing_errors.declared_errors import (
     OF_PAIRS,
     ErrorOverride,
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
 
-_PACE = 1.3e5  # couples a second that numpy judges with every error
 _FARTHEST = 10**6  # turns of the input within which positions are drawn, where the train takes longer to repeat
 
 
@@ -81,28 +79,21 @@ class TrialPlan:
         return len(self.wheels) + len(self.pairs)
 
     @property
-    def fast(self) -> bool:
-        """True if compiled kernels judge the pairs that have one."""
-        return any(pair.fast for pair in self.pairs)
-
-    @property
     def files(self) -> bool:
         """True if some pair is filed to fit."""
         return any(pair.stroke for pair in self.pairs)
 
-    def scaled(self, factor: float, kind: str = "") -> TrialPlan:
-        """The plan with all errors, or those of one kind, so many times as great.
+    def scaled(self, factor: float) -> TrialPlan:
+        """The plan with all errors multiplied by a factor.
 
         Parameters
         ----------
         factor : float
             0 or more.
-        kind : str
-            A kind of error; "" for all.
         """
 
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
-            return {each: off.times(factor) if kind in ("", each) else off for each, off in errors.items()}
+            return {each: off.times(factor) for each, off in errors.items()}
 
         wheels = tuple(replace(each, errors=times(each.errors)) for each in self.wheels)
         pairs = tuple(replace(each, fitting=times(each.fitting)) for each in self.pairs)
@@ -117,26 +108,6 @@ class TrialPlan:
             A factor of the least centre distance (1 and above), or a share of each pair's own window (below 1).
         """
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
-
-    def judged(self, fast: bool | None, trials: int) -> TrialPlan:
-        """The plan with compiled kernels for so many trials, where that pays or is asked for.
-
-        Parameters
-        ----------
-        fast : bool, optional
-            As of `run_trials`.
-        trials : int
-            How many there will be.
-        """
-        couples = sum(each.count for each in self.pairs if self._has_kernel(each))
-        chosen = is_fast(fast, trials * couples / _PACE)
-        return replace(self, pairs=tuple(replace(each, fast=chosen and self._has_kernel(each)) for each in self.pairs))
-
-    def _has_kernel(self, pair: TrialPair) -> bool:
-        """Triangular teeth that are off in more than their places; those are judged by the tooth, not by the couple."""
-        wheels = self.wheels[pair.first], self.wheels[pair.second]
-        only_placed = all(not each.tables and set(each.errors) <= {"placement"} for each in wheels)
-        return isinstance(pair, TriangularTrialPair) and (bool(pair.fitting) or not only_placed)
 
     def question(self) -> dict[str, Any]:
         """All on which results hang, as plain data: a journal knows its train by it."""
@@ -184,7 +155,7 @@ def find_trial_plan(
     Returns
     -------
     TrialPlan
-        To be handed to `run_trials`, `jamming_map`, `find_tolerance`, `find_sobol_indices` and `run_course`.
+        To be handed to `run_trials`, `jamming_map`, `find_sobol_indices` and `run_course`.
 
     Raises
     ------

@@ -1,19 +1,22 @@
-"""Trials by the block, here or by many, kept in a journal as they come; and what becomes of them all."""
+"""Trials by the task, here or in other processes, kept in a journal as they come; all together, and as a table."""
 
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.metadata import version
 from math import isnan
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
@@ -34,16 +37,18 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
 
 
-VERSION = 1
+VERSION = 2
 """Of the way trials are drawn and worked out: a journal of another is refused."""
-_CHECKED = 4  # blocks in which superposition is held against composition
+_CHECKED = 1024  # trials in which superposition is compared with composition
+_TASKS = 16  # at least, where there are trials enough: so that 8 processes end at nearly the same time
+_FEWEST = 32  # trials of a part of a block: what is computed once for each task then costs less than they do
 _COURSE = 1 << 20  # courses draw from streams of their own
 _MOST = 10**9
 
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """One block of trials: numbers of its trials, and arrays as in `TrialResults`; `play` least, in driven pitches.
+    """The trials of one task: number of the first, and arrays as in `TrialResults`; `play` least, in driven pitches.
 
     filing   strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); none where nothing is filed
     """
@@ -71,9 +76,19 @@ def check_trials(trials: int) -> None:
         raise QuestionError(Problem(what, "shares are counted over trials", f"ask for 1 to {_MOST:.0e} of them"))
 
 
-def block_tasks(trials: int) -> list[list[int]]:
-    """Tasks: the number of each block and how many of its trials are wanted."""
-    return [[start // BLOCK, min(BLOCK, trials - start)] for start in range(0, trials, BLOCK)]
+def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
+    """Tasks: the first trial and the number of trials of each.
+
+    They are blocks, or a half or a quarter of one where there are few; they depend on the trials and on the number of
+    cases for which they are repeated, not on who does them, for sums are rounded by tasks.
+    """
+    blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
+    parts = min(4, -(-_TASKS // (len(blocks) * cases)))
+    found = []
+    for block in blocks:
+        size = max(_FEWEST, -(-len(block) // parts))
+        found += [[part[0], len(part)] for part in (block[at : at + size] for at in range(0, len(block), size))]
+    return found
 
 
 def run_trials(
@@ -82,7 +97,6 @@ def run_trials(
     seed: int = 1,
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
-    fast: bool | None = None,
 ) -> TrialResults:
     """Monte Carlo: each trial cuts all wheels anew and judges every pair over its whole cycle of teeth.
 
@@ -101,9 +115,6 @@ def run_trials(
         Executor, journal of finished blocks, progress report; by default this process, and none of the others.
     take : callable, optional
         Given each block of trials as it comes, a TrialRecord.
-    fast : bool, optional
-        Whether a compiled kernel judges pairs with every error, the same to 1e-12; by default where numba is installed
-        and there is so much work that it pays to load it.
 
     Returns
     -------
@@ -135,13 +146,12 @@ def run_trials(
     (0, [0.0, 0.0566])
     """
     check_trials(trials)
-    plan = plan.judged(fast, trials)
-    means, work = means or Execution(), partial(work_block, plan, seed)
+    means, work, tasks = means or Execution(), partial(work_block, plan, seed), trial_tasks(trials)
     found: list[TrialRecord] = []
     try:
-        for block, packed in enumerate(means.run(work, block_tasks(trials))):
-            rows = unpack(plan, block, packed)
-            if not block:
+        for (first, _), packed in zip(tasks, means.run(work, tasks), strict=True):
+            rows = unpack(plan, first, packed)
+            if not first:
                 _check_cut(plan, rows)
             if take is not None:
                 take(rows)
@@ -172,13 +182,13 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
 
 
 def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
-    """One block of trials as plain data."""
-    block, trials = task
-    drawn = draw_trial_wheels(plan, RandomStreams(seed, block), trials)
+    """The trials of one task as plain data."""
+    number, trials = task
+    drawn = draw_trial_wheels(plan, RandomStreams(seed, number // BLOCK), trials, number % BLOCK)
     marks, play = judge_trial_pairs(drawn)
-    turns = input_positions(plan, drawn.streams, trials)
+    turns = input_positions(drawn)
     found = trial_pointers(drawn, np.arange(trials))
-    first = found.superposed(turns) if block < _CHECKED else None
+    first = found.superposed(turns) if number < _CHECKED else None
     errors = found.errors(turns)  # after the superposition: laws remember what they said last
     runs = [turning_trials(marks, reach) & np.isfinite(row) for reach, row in zip(plan.reach, errors, strict=True)]
     off = [] if first is None else [_off(*both) for both in zip(first, errors, strict=True)]
@@ -228,8 +238,8 @@ def _pack(array: NDArray[Any]) -> str:
     return b64encode(np.ascontiguousarray(array).tobytes()).decode()
 
 
-def unpack(plan: TrialPlan, block: int, packed: Mapping[str, Any]) -> TrialRecord:
-    """A block again from what a worker said or a journal kept."""
+def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecord:
+    """The trials of a task, `first` the number of the first of them, from the plain data of a worker or a journal."""
 
     def array(name: str, width: int = 0) -> Any:
         found = np.frombuffer(b64decode(packed[name]), np.uint8 if name == "marks" else np.float64)
@@ -237,7 +247,7 @@ def unpack(plan: TrialPlan, block: int, packed: Mapping[str, Any]) -> TrialRecor
 
     pairs = len(plan.pairs)
     return TrialRecord(
-        block * BLOCK,
+        first,
         array("turns"),
         array("marks", pairs),
         array("play", pairs),
@@ -332,3 +342,60 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
         part = slice(start, start + chunk)
         parts.append(trial_pointers(drawn, rows[part], (output,)).errors(everywhere[part])[0])
     return PointerErrorCourse(plan.outputs[output], turns, np.concatenate(parts).reshape(trials, positions))
+
+
+# ---------------------------------------------------------------------------------------------------------------- table
+
+
+SUFFIXES = (".parquet", ".csv")
+_EVENTS = "sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 wheels cannot be cut"
+
+
+@dataclass(frozen=True)
+class TrialTable:
+    """Every trial, block by block, into a file.
+
+    path     a .parquet or .csv
+    force    an existing file is written over
+    replay   the run was interrupted: its file is written anew from the journal
+    """
+
+    plan: TrialPlan
+    path: Path
+    force: bool = False
+    replay: bool = False
+
+    @contextmanager
+    def open(self) -> Iterator[Callable[[TrialRecord], None]]:
+        """What takes every block."""
+        plan = self.plan
+        if self.path.suffix.lower() == ".parquet":
+            about = {"train": plan.name, "events": _EVENTS}
+            with ColumnTable(self.path, about, self.force, replay=self.replay) as columns:
+                yield lambda rows: columns.write(dict(zip(_names(plan), _columns(plan, rows), strict=True)))
+        else:
+            with LongTable(self.path, csv_line(_names(plan)), force=self.force, replay=self.replay) as table:
+                yield lambda rows: table.write(
+                    csv_lines(zip(*(column.tolist() for column in _columns(plan, rows)), strict=True))
+                )
+
+
+def _names(plan: TrialPlan) -> list[str]:
+    return [
+        "trial",
+        "turns",
+        *(f"{name} error (deg)" for name in plan.outputs),
+        *(f"{pair.name} {what}" for pair in plan.pairs for what in ("play (pitches)", "events")),
+        *(f"{pair.name} {what}" for pair in plan.pairs if pair.stroke for what in ("strokes", "teeth filed")),
+    ]
+
+
+def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
+    """The columns of one block, as `_names` names them."""
+    values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
+    for at in range(len(plan.pairs)):
+        values += [rows.play[:, at], rows.marks[:, at]]
+    for at, pair in enumerate(plan.pairs):
+        if pair.stroke:
+            values += [rows.filing[:, 2 * at].astype(np.int64), rows.filing[:, 2 * at + 1].astype(np.int64)]
+    return values

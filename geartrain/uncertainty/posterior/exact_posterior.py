@@ -15,10 +15,8 @@ from typing import Any
 import numpy as np
 
 from geartrain.synthesis.join.exact_join import ExactJoin
-from geartrain.synthesis.join.inside_outside import AssignmentSums, BestFirst
-from geartrain.synthesis.join.join_plan import JoinProblem, find_join_problem
-from geartrain.synthesis.join.recorded_join import CountWeights, RecordedNode, record_join
-from geartrain.synthesis.join.selectivity import SelectivitySample
+from geartrain.synthesis.join.inside_outside import AssignmentSums, BestFirst, CountWeights, RecordedNode, record_join
+from geartrain.synthesis.join.join_plan import JoinProblem, SelectivitySample, find_join_problem
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
 from geartrain.uncertainty.posterior.likelihood import misfit_of
 from geartrain.uncertainty.posterior.posterior_result import CountProbability

@@ -118,7 +118,7 @@ def _takes_numpy(train: GearTrain) -> bool:
     declared = train.declaration
     toothed = declared.tooth_form is not None or any(gear.tooth_form for gear in declared.gears)
     loaded = any(declared.is_loaded(state) for state in train.states or (None,))
-    return toothed or loaded or train.is_placed or any(each.pin_radius for each in declared.couplings)
+    return toothed or loaded or train.kinematics.is_placed or any(each.pin_radius for each in declared.couplings)
 
 
 # -------------------------------------------------------------------------------------------------------------- dials

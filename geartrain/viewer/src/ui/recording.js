@@ -1,8 +1,10 @@
 // The picture in motion, to a file of the reader's: a film of what the canvas shows while it is recorded.
-import { el } from "./element.js";
+import { el, icon } from "./element.js";
 import { fileName, saveAs } from "./saving.js";
 
 const RATE = 30; // pictures a second at most
+const START = "M12 5a7 7 0 1 0 0 14a7 7 0 0 0 0-14z";
+const STOP = "M6 6h12v12H6z";
 const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 
 /** The kind of film this browser records, null where it records none. */
@@ -16,7 +18,7 @@ export class Recording {
   constructor() {
     this.type = filmType();
     this.recorders = [];
-    this.node = el("button", { type: "button", class: "record", "aria-label": "Record film", "aria-pressed": "false", onclick: () => this.toggle() }, "Record");
+    this.node = el("button", { type: "button", class: "record", "aria-label": "Record film", "aria-pressed": "false", title: "Record film", onclick: () => this.toggle() });
     this.use([]);
   }
 
@@ -61,6 +63,6 @@ export class Recording {
 
   #show(recording) {
     this.node.setAttribute("aria-pressed", String(recording));
-    this.node.textContent = recording ? "Stop" : "Record";
+    this.node.replaceChildren(icon(recording ? STOP : START));
   }
 }

@@ -49,8 +49,12 @@ export class Tools {
       field("Hide front", this.front, { class: "field tick" }),
       field("Teeth", this.teeth, { class: "field tick" }),
       this.opening,
-      el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
-      this.recording.node,
+      el(
+        "div",
+        { class: "group", role: "group", "aria-label": "files" },
+        el("button", { type: "button", class: "save", "aria-label": "Save picture", onclick: () => savePicture(this.sides) }, "Save"),
+        this.recording.node,
+      ),
     );
     this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), this.row);
     this.small = matchMedia(SMALL);

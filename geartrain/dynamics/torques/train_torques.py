@@ -1,0 +1,41 @@
+"""Torques of a train at mean speeds: under the declared loads, or while it is driven from one link by another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.torques.load_case import input_and_output
+from geartrain.dynamics.torques.torque_analysis import drive, find_torques, torques_unknown
+from geartrain.dynamics.torques.torque_results import DrivenWay
+from geartrain.errors import check_choice
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.torque_results import Torques
+    from geartrain.dynamics.train_mechanics import TrainMechanics
+
+
+def solve(train: TrainMechanics, state: str | None) -> Torques:
+    """Torques on links and pairs under the loads of one state; loads are shared among equal planets."""
+    found = train.unfolded.load_case(state)
+    return torques_unknown(state) if found is None else find_torques(found)
+
+
+def solve_driven(train: TrainMechanics, load: str, source: str, state: str | None) -> Torques:
+    """Torques while a unit of power leaves at `load`, driven from `source`."""
+    train = train.unfolded
+    for link in (load, source):
+        check_choice("link", link, tuple(train.declaration.links))
+    found = train.load_case(state)
+    return torques_unknown(state) if found is None else drive(found, load, source)
+
+
+def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]:
+    """The train driven from its input, and from its output, a unit of power leaving at the other.
+
+    Empty where it is not plain which link is the output. By default in the first state.
+    """
+    train = train.unfolded
+    declared = train.declaration
+    found = input_and_output(declared, declared.case(declared.state_or_first(state)))
+    ways = [] if found is None else [found, found[::-1]]
+    return [DrivenWay(solve_driven(train, load, source, state), source, load) for source, load in ways]

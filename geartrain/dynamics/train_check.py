@@ -1,0 +1,41 @@
+"""What of a train cannot be built: what its declaration alone tells, and what its teeth add."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from geartrain.errors import GearTrainError
+from geartrain.kinematics.buildability.build_check import check_build
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.train_mechanics import TrainMechanics
+    from geartrain.kinematics.buildability import BuildFinding
+    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
+    from geartrain.train import Train
+
+
+def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
+    """What of the train cannot be built, or is unwise, by the declaration alone (docs/buildability.md)."""
+    cuts = _cuts_teeth(train.declaration)
+    found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
+    if not cuts:
+        return found
+    from geartrain.dynamics.cut_teeth import find_odd_wheels
+
+    return (*found, *find_odd_wheels(train))
+
+
+def _cuts_teeth(declared: Train) -> bool:
+    """True where pairs declare forms, and numpy is there: a page that answers in a browser goes without."""
+    return any(map(declared.form_of, declared.gears)) and find_spec("numpy") is not None
+
+
+def _outlines(train: TrainMechanics) -> Mapping[str, PairOutline]:
+    from geartrain.dynamics.gear_meshes import find_outlines
+
+    try:
+        return find_outlines(train.teeth)
+    except GearTrainError:  # teeth that cannot be made are reported as such
+        return {}

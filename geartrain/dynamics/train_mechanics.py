@@ -1,0 +1,229 @@
+"""The mechanics of a train: its real teeth and pins, who drives whom, and the loads of each state.
+
+Each part is found once, when it is first requested, and kept. Torques, motion, strength and motion in time are
+functions of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, final
+
+from geartrain.errors import Problem
+from geartrain.kinematics.planet_copies import as_one, has_copies, with_copies
+from geartrain.kinematics.train_kinematics import TrainKinematics
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.kinematics.circuits import Circuit, Tree
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshDriver
+    from geartrain.train import StateCase, Train
+
+DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
+"""By pair, the ways it is driven, each with the names of its states."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TrainMechanics:
+    """Everything about a train that follows from its teeth and loads.
+
+    Attributes
+    ----------
+    kinematics : TrainKinematics
+        The same train without them.
+
+    See Also
+    --------
+    geartrain.GearTrain.mechanics : gives it.
+    """
+
+    kinematics: TrainKinematics
+    _settings: dict[str | None, LoadCase | None] = field(default_factory=dict, init=False, repr=False)
+    _drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = field(
+        default_factory=dict, init=False, repr=False
+    )
+
+    @property
+    def declaration(self) -> Train:
+        """What is declared."""
+        return self.kinematics.declaration
+
+    @property
+    def tree(self) -> Tree:
+        """The turning pairs as a spanning tree rooted at the frame."""
+        return self.kinematics.tree
+
+    @property
+    def circuits(self) -> tuple[Circuit, ...]:
+        """One fundamental circuit for each gear pair and coupling."""
+        return self.kinematics.circuits
+
+    @property
+    def signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels."""
+        return self.kinematics.signs
+
+    # ------------------------------------------------------------------------------------------------- equal planets
+
+    @property
+    def unfolded(self) -> TrainMechanics:
+        """The train with each of its equal planets declared, which share loads; itself where there are none."""
+        # not kept where it is the train itself: that would hold itself
+        return self._with_copies if has_copies(self.declaration) else self
+
+    @cached_property
+    def _with_copies(self) -> TrainMechanics:
+        return TrainMechanics(TrainKinematics(with_copies(self.declaration, self.tree)))
+
+    @property
+    def planets_as_one(self) -> TrainMechanics:
+        """The train in which one planet is as heavy and as stiff as all its copies; itself where there are none."""
+        return self._as_one if has_copies(self.declaration) else self
+
+    @cached_property
+    def _as_one(self) -> TrainMechanics:
+        return TrainMechanics(TrainKinematics(as_one(self.declaration)))
+
+    # --------------------------------------------------------------------------------------------------------- teeth
+
+    @cached_property
+    def undriven(self) -> Mapping[str, GearMesh]:
+        """The gear pairs with real teeth by name, whichever side drives, each made when it is first read."""
+        from geartrain.dynamics.gear_meshes import find_meshes
+        from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+
+        # the mapping must not hold the train: the two would wait for the garbage collector
+        train, tree, circuits = self.declaration, self.tree, {circuit.id: circuit for circuit in self.circuits}
+        return find_meshes(train, lambda gear: shaft_angle(train, tree, circuits[gear.name]))
+
+    @cached_property
+    def teeth(self) -> tuple[GearMesh, ...]:
+        """All pairs of `undriven`, made.
+
+        Raises
+        ------
+        GearTrainError
+            With all pairs whose teeth cannot be built.
+        """
+        from geartrain.dynamics.gear_meshes import all_meshes
+
+        return all_meshes(self.undriven)
+
+    @cached_property
+    def meshes(self) -> tuple[GearMesh, ...]:
+        """The gear pairs with real teeth, each driven as in the first state that tells who drives it."""
+        ways = self.driven_ways.values()
+        return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
+
+    @cached_property
+    def driven_ways(self) -> DrivenWays:
+        """By pair with real teeth, the ways it is driven, each with the names of its states; open ones count both."""
+        states = self.kinematics.usable_states
+        return _find_driven_ways(self.teeth, ((state, self.meshes_in(state)) for state in states))
+
+    @cached_property
+    def faults(self) -> tuple[Problem, ...]:
+        """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
+        from geartrain.teeth.gear_mesh import find_faults
+
+        return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
+
+    def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
+        """The gear pairs with real teeth as they are driven in one state.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        if not self.teeth:
+            return ()
+        drivers = self.drivers(state)
+        driven = tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self.teeth)
+        if all(mesh.wheels.friction_law is None for mesh in driven):
+            return driven
+        from geartrain.dynamics.pair_speeds import at_own_speeds
+
+        return at_own_speeds(driven, self.load_case(state))
+
+    @cached_property
+    def pins(self) -> tuple[PinMesh, ...]:
+        """The pins in slots whose dimensions are declared, each with its law."""
+        from geartrain.dynamics.gear_meshes import find_pins
+
+        return find_pins(self.declaration)
+
+    # ------------------------------------------------------------------------------------------------ loads and motion
+
+    def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
+        """Who drives each pair and coupling in one state: declared, or by the flow of power in its carrier's frame.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        without : sequence of str
+            Pairs left out.
+        """
+        from geartrain.dynamics.torques.drivers import find_drivers
+
+        state = self.kinematics.case(state).state
+        key = state, tuple(without)
+        if key not in self._drivers:
+            circuits = self.kinematics.circuits_without(without)
+            self._drivers[key] = find_drivers(self.declaration, circuits, self.load_case(state))
+        return self._drivers[key]
+
+    def load_case(self, state: str | None = None) -> LoadCase | None:
+        """One state with its speeds, teeth and loads; None where its speeds are neither known nor free.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        case = self.kinematics.case(state)
+        if case.state not in self._settings:
+            self._settings[case.state] = self._make_load_case(case)
+        return self._settings[case.state]
+
+    def _make_load_case(self, case: StateCase) -> LoadCase | None:
+        from geartrain.dynamics.torques.load_case import LoadCase
+        from geartrain.dynamics.torques.virtual_work import speed_forms
+
+        own = self.kinematics
+        solution = own.solution(case)
+        if solution.verdict.kind not in ("determined", "free"):
+            return None
+        forms = speed_forms(own.equations(case.state)) if solution.verdict.kind == "free" else {}
+        return LoadCase(
+            self.declaration, own.tree, own.circuits, own.signs, case, solution.speeds, self.undriven, self.pins, forms
+        )
+
+
+def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | None, Sequence[GearMesh]]]) -> DrivenWays:
+    """The ways in which pairs are driven; one whose driver is open counts both.
+
+    driven   by state, the pairs as they are driven in it; None for a train without states
+    """
+    found: dict[str, list[tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in teeth}
+    for state, meshes in driven:
+        for mesh in meshes:
+            for way in mesh.ways:
+                _count(found[mesh.name], way, state)
+    return found
+
+
+def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: str | None) -> None:
+    """Count a state for one way in which a pair is driven; a way that is certain somewhere is so in the list."""
+    own = () if state is None else (state,)
+    for at, (known, states) in enumerate(ways):
+        if known.driver == mesh.driver:
+            ways[at] = (known if known.who.known else mesh), states + own
+            return
+    ways.append((mesh, own))

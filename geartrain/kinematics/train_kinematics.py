@@ -1,0 +1,556 @@
+"""The kinematics of a train: its tree, circuits, mobility and speeds, each found once, when it is first requested.
+
+An answer goes from what is prescribed in a state to the train or the part of it that matters, the method, and judged
+outputs. Remarks are conventions and means that the answers of a sound declaration depend on: notes, never errors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from math import isfinite
+from typing import TYPE_CHECKING, Any, Literal, final, get_args
+
+from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
+from geartrain.kinematics.answer import Answer, SpeedAccuracy
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.components import SolvedPart, relevant_circuits
+from geartrain.kinematics.judged_outputs import OutputResult, Relative, SpeedValue, judge_outputs
+from geartrain.kinematics.planet_copies import check_copies, has_copies
+from geartrain.kinematics.relative_speeds import relative_speed
+from geartrain.kinematics.speeds import (
+    EXACT_BUDGET,
+    Mobility,
+    Solution,
+    determined_verdict,
+    exact_verdict,
+    find_mobility,
+    solve,
+)
+from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
+from geartrain.kinematics.verdict import Verdict
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.numerics.containers import LazyMapping
+from geartrain.numerics.elimination import TooDenseError
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.long_float import rounded, scaled
+from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
+from geartrain.train import GearPair, StateCase, Train
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.gridlock.removal import Gridlock
+    from geartrain.kinematics.speeds import FloatSpeeds
+
+
+# ----------------------------------------------------------------------------------------------------------------- lint
+
+
+def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
+    """Pairs whose sense is a convention, for nothing declared fixes it, and pairs whose drive is intermittent."""
+    at = {gear.name: position for position, gear in enumerate(train.gears)}
+    for circuit in circuits:
+        if circuit.note:
+            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
+    for position, gear in enumerate(train.gears):
+        yield from (_intermittent(train, wheel, position) for wheel in gear.pair if _is_finger(train, gear, wheel))
+
+
+def _is_finger(train: Train, gear: GearPair, name: str) -> bool:
+    """True of a spur wheel of one tooth, but for helical teeth, which overlap, and for a form that shapes the tooth."""
+    wheel = train.wheels[name][1]
+    return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
+
+
+def _intermittent(train: Train, wheel: str, position: int) -> Problem:
+    what = f"wheel '{wheel}' has one tooth, which cannot drive continuously"
+    why = "the mean ratio is exact; the motion is intermittent"
+    return Problem(what, why, "", train.place("gears", position))
+
+
+# ----------------------------------------------------------------------------------------------------- train kinematics
+
+
+Method = Literal["auto", "exact", "sparse", "floats"]
+"""How to solve; "floats" is an older name of "sparse"."""
+
+_CONDITIONED = 400  # links up to which each has its condition number; beyond, those of the outputs
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TrainKinematics:
+    """Everything about a declared train that follows without teeth.
+
+    Attributes
+    ----------
+    declaration : Train
+        What is declared.
+
+    See Also
+    --------
+    geartrain.GearTrain.kinematics : gives it.
+    """
+
+    declaration: Train
+
+    # ------------------------------------------------------------------------------------------ joints and circuits
+
+    @cached_property
+    def tree(self) -> Tree:
+        """The turning pairs as a spanning tree rooted at the frame."""
+        tree = find_tree(self.declaration)
+        if has_copies(self.declaration):
+            check_copies(self.declaration, tree)
+        return tree
+
+    @cached_property
+    def circuits(self) -> tuple[Circuit, ...]:
+        """One fundamental circuit for each gear pair and coupling."""
+        return find_circuits(self.declaration, self.tree)
+
+    def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
+        """The circuits but those of some pairs.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Pairs left out.
+
+        Raises
+        ------
+        QuestionError
+            For a pair that is not declared.
+        """
+        known = [circuit.id for circuit in self.circuits]
+        for name in (name for name in names if name not in known):
+            what = f"'{self.declaration.name}' has no pair '{name}'"
+            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
+        return tuple(circuit for circuit in self.circuits if circuit.id not in names)
+
+    @cached_property
+    def _axes(self) -> Axes:
+        return Axes(self.declaration, self.tree)
+
+    @cached_property
+    def signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels."""
+        return self._axes.link_signs
+
+    @cached_property
+    def joint_sums(self) -> frozenset[str]:
+        """Links whose speed is a sum over non-parallel joints, and not a rotation."""
+        return self._axes.joint_sums
+
+    def is_rotation(self, of: str, base: str) -> bool:
+        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation.
+
+        Parameters
+        ----------
+        of, base : str
+            Two links; the order does not matter.
+        """
+        return not self.joint_sums or self._axes.is_rotation(of, base)
+
+    # -------------------------------------------------------------------------------------------------------- states
+
+    @cached_property
+    def cases(self) -> Mapping[str | None, StateCase]:
+        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
+        declared = self.declaration.cases
+        return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
+
+    @property
+    def usable_states(self) -> tuple[str | None, ...]:
+        """States in which speeds can be calculated; None for a train without states."""
+        return tuple(state for state, case in self.cases.items() if not case.problems)
+
+    def case(self, state: str | None = None) -> StateCase:
+        """What is prescribed in one state.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Raises
+        ------
+        DeclarationError
+            Where speeds cannot be calculated in it.
+        """
+        case = self.cases[self.declaration.single_state(state)]
+        if case.problems:
+            raise DeclarationError(case.problems)
+        return case
+
+    # ------------------------------------------------------------------------------------------- mobility and speeds
+
+    @cached_property
+    def whole(self) -> SolvedPart:
+        """All links and circuits, ready to be solved."""
+        return self._part(self.circuits, tuple(self.declaration.links))
+
+    @cached_property
+    def mobility(self) -> Mobility:
+        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
+
+    @cached_property
+    def is_placed(self) -> bool:
+        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
+        return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
+
+    @cached_property
+    def gridlock(self) -> Gridlock:
+        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
+        from geartrain.kinematics.gridlock import find_gridlock
+
+        return find_gridlock(self.whole, self.mobility)
+
+    @cached_property
+    def remarks(self) -> tuple[Problem, ...]:
+        """Conventions that the answers of a sound declaration depend on: notes, never errors."""
+
+        return tuple(lint_train(self.declaration, self.circuits))
+
+    def solution(self, case: StateCase) -> Solution:
+        """Exact speeds and the verdict, however long they take.
+
+        Parameters
+        ----------
+        case : StateCase
+            One of `cases`.
+        """
+        return solve(self.whole, case, self.signs, None)
+
+    def equations(self, state: str | None = None) -> WillisSystem:
+        """The labelled Willis system of one state (docs/theory.md, 6).
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        return self._system(self.whole, self.case(state))
+
+    def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
+        """Speeds and judged outputs in one state: see `GearTrain.solve`.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        output : str, optional
+            An output or a link: only the circuits that drive it are solved.
+        method : {"auto", "exact", "sparse"}
+            How to solve.
+        """
+        wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
+        if output is not None:
+            case, wanted = self.single_output(case, output)
+            part = self._pruned(case, wanted)
+        check_choice("method", method, get_args(Method))
+        if case.problems:
+            verdict = Verdict("refused", "; ".join(problem.text for problem in case.problems))
+            return self._judged(case, verdict, {}, _unknown, wanted, 0, {})
+        solution, in_floats = None, method in ("sparse", "floats")
+        with suppress(TooDenseError):
+            solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
+        if solution is None or in_floats:
+            try:
+                return self._answer_in_floats(part, case, wanted, solution)
+            except RangeError:  # no digit of some speed is known in floats
+                if in_floats:
+                    raise
+            solution = solve(part, case, self.signs, None)
+        if not case.exact:  # radians beside turns are no fractions, and none are shown
+            return self._rounded(part, case, wanted, solution)
+        verdict, speeds = solution.verdict, solution.speeds
+        return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
+
+    def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
+        """What one tooth fewer or more on each uncertain wheel does to each output of an answer.
+
+        Parameters
+        ----------
+        answer : Answer
+            As `solve` gives it.
+        """
+        case = self.case(answer.state)
+
+        def solve_with(circuits: Sequence[Circuit]) -> Any:
+            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+
+        return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
+
+    def floats(
+        self,
+        state: str | None = None,
+        inputs: Mapping[str, Sequence[float]] | None = None,
+        condition_of: Sequence[str] = (),
+    ) -> FloatSpeeds:
+        """Float64 speeds through a sparse LU, with error estimates; many input speeds share one factorisation.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        inputs : mapping of str to sequence of float, optional
+            Link -> speeds, one a case, in place of the declared ones [unit of the train].
+        condition_of : sequence of str
+            Links whose component-wise condition number is wanted (docs/theory.md, equation 25).
+
+        Returns
+        -------
+        FloatSpeeds
+            Speeds and error estimates, arrays (link, case).
+        """
+        from geartrain.kinematics.speeds import solve_floats
+
+        system, case = self.equations(state), self.case(state)
+        if inputs is not None:
+            _check_inputs(inputs, tuple(case.inputs))
+        for link in condition_of:
+            check_choice("link", link, system.links)
+        return solve_floats(system, inputs, condition_of)
+
+    def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
+        """The case with one output, and the links that output is made of: what turns, and from where it is seen.
+
+        Parameters
+        ----------
+        case : StateCase
+            One of `cases`.
+        output : str
+            An output or a link.
+
+        Raises
+        ------
+        QuestionError
+            For an output that is not declared.
+        """
+        train = self.declaration
+        declared = case.outputs.get(output)
+        if declared is None and output not in train.links:
+            known = dict.fromkeys([*case.outputs, *train.links])
+            raise QuestionError(
+                Problem(
+                    f"'{train.name}' has no output or link '{output}'", "it is not declared", suggest(output, known)
+                )
+            )
+        outputs = {output: declared} if declared else {}
+        links = declared.links(output, train.frame) if declared else (output, train.frame)
+        return replace(case, outputs=outputs), links
+
+    def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
+        """By output or link: what turns, and the link from which it is seen.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None only of a train that has none.
+        names : sequence of str
+            Outputs or links; by default all outputs, and all links of a train without any.
+        """
+        case = self.case(state)
+        chosen = names or tuple(case.outputs) or tuple(self.declaration.links)
+        return {name: self.single_output(case, name)[1] for name in chosen}
+
+    # ------------------------------------------------------------------------------------------ the part that matters
+
+    def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
+        declared = self.declaration
+        # inputs of all states: components are walked once, and serve every state
+        first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
+        return SolvedPart(links, declared.frame, circuits, first)
+
+    def _pruned(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
+        """The part of the train that can matter to some links."""
+        held = {link for lock in case.locks for link in lock}
+        kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
+        circuits = relevant_circuits(self.circuits, kept)
+        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
+        return self._part(circuits, tuple(link for link in self.declaration.links if link in kept))
+
+    def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
+        components = part.reduced.components
+        redundant = [components.circuits[circuit].id for circuit in components.closing]
+        return assemble_willis_system(part.links, part.frame, part.circuits, case, self.signs, redundant)
+
+    # --------------------------------------------------------------------------------------------------- three methods
+
+    def _answer_in_floats(
+        self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
+    ) -> Answer:
+        """Floats with their estimate, and with their true error where the exact solution is known."""
+        from geartrain.kinematics.speeds import solve_floats
+
+        truth = solution.speeds if solution is not None else {}
+        system = self._system(part, case)
+        if solution is None:
+            solution = self._without_speeds(part, case, system)
+        if not solution.verdict:  # no square system to factorise
+            return self._rounded(part, case, wanted, solution)
+        found = solve_floats(system, condition_of=self._conditioned(part, case, wanted))
+        powers = found.exponents.values[:, 0].tolist()
+        speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
+
+        def accuracy() -> dict[str, SpeedAccuracy]:
+            estimates = map(scaled, found.estimate.values[:, 0].tolist(), powers)
+            return {
+                link: SpeedAccuracy(
+                    estimate,
+                    rounded(abs(Fraction(speed) - truth[link])) if link in truth else None,
+                    found.condition.get(link),
+                )
+                for (link, speed), estimate in zip(speeds.items(), estimates, strict=True)
+            }
+
+        def residual() -> dict[str, float]:
+            return dict(zip(found.residual.labels[0], found.residual.values[:, 0].tolist(), strict=True))
+
+        def relative(of: str, base: str) -> SpeedValue | None:
+            return relative_speed(of, base, speeds.get, self.signs)
+
+        told, work = LazyMapping(accuracy), len(part.circuits)
+        answer = self._judged(case, solution.verdict, speeds, relative, wanted, work, None, told)
+        return replace(answer, residual=LazyMapping(residual))
+
+    def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
+        """The verdict on a dense system: by its float factors where they leave no doubt, else modulo a prime."""
+        from geartrain.kinematics.speeds import is_regular
+
+        moved = any(case.inputs.values())
+        if moved and is_regular(system):
+            return Solution(determined_verdict(case, part.reduced), {}, {}, self.signs)
+        verdict = exact_verdict(part.reduced, case, self.signs)
+        still = verdict.kind == "locked" and not moved
+        return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
+
+    def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
+        """Links whose condition number is told: each costs a solve, so of long trains those of the outputs."""
+        if wanted is None and len(part.links) <= _CONDITIONED:
+            return part.links
+        frame = self.declaration.frame
+        outputs = (wanted,) if wanted else (each.links(name, frame) for name, each in case.outputs.items())
+        return tuple(dict.fromkeys(link for pair in outputs for link in pair))
+
+    def _rounded(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
+        """Exact speeds as floats."""
+
+        def relative(of: str, base: str) -> float | None:
+            speed = solution.relative(of, base)
+            return None if speed is None else _nearest(speed)
+
+        floats = {link: _nearest(speed) for link, speed in solution.speeds.items()}
+        accuracy = {link: SpeedAccuracy(abs(speed) * UNIT_ROUNDOFF, None) for link, speed in floats.items()}
+        return self._judged(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
+
+    def _judged(
+        self,
+        case: StateCase,
+        verdict: Verdict,
+        speeds: Mapping[str, SpeedValue],
+        relative: Relative,
+        wanted: tuple[str, str] | None,
+        work: int,
+        ratios: Mapping[str, Mapping[str, Fraction]] | None,
+        accuracy: Mapping[str, SpeedAccuracy] | None = None,
+    ) -> Answer:
+        """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
+        declared = self.declaration
+        if verdict.kind in ("locked", "contradictory"):
+            verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))
+        if wanted is not None:
+            verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
+            shown = wanted if case.outputs else wanted[:1]
+            speeds = {link: speeds[link] for link in shown if link in speeds}
+            accuracy = None if accuracy is None else _restricted(accuracy, shown)
+
+        def outputs() -> dict[str, OutputResult]:
+            return {each.name: each for each in judge_outputs(declared, case, relative, self.is_rotation)}
+
+        return Answer(
+            declared.name,
+            case.state,
+            "" if verdict and case.expect == "determined" else declared.place(*case.loc),
+            declared.unit_name,
+            verdict,
+            speeds,
+            LazyMapping(outputs),
+            ratios or {},
+            "floats" if ratios is None else "exact",
+            {} if accuracy is None else accuracy,
+            work,
+            expected=case.expect,
+        )
+
+    @cached_property
+    def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:
+        from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side
+
+        return tuple(bevels_on_one_side(self.declaration, self.circuits, self.is_rotation))
+
+    # -------------------------------------------------------------------------------------------- the verdict on a part
+
+    def _narrowed(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
+        """The verdict on one output: it may be determined, or held still, in a train that is free.
+
+        known   whether the output's speed is determined
+        """
+        if not known:
+            return verdict
+        if not any(case.inputs.values()) and (whole := self._verdict(case)).kind == "locked":
+            return whole  # nothing is driven, and nothing could be
+        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
+        seen = f"{wanted[0]} seen from {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
+        return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
+
+    def _verdict(self, case: StateCase) -> Verdict:
+        """The verdict on the whole train."""
+        try:
+            return solve(self.whole, case, self.signs).verdict
+        except TooDenseError:
+            return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _side(bevels: Sequence[str]) -> str:
+    """What is to be changed about two bevels that meet a third from the same side."""
+    one, other, shared = bevels
+    return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
+
+
+def _unknown(of: str, base: str) -> None:
+    """No speed is known, whichever link is seen from another."""
+
+
+def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
+    """The accuracy of some links, made when read."""
+    return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
+
+
+def _nearest(speed: Fraction) -> float:
+    """The nearest float; `RangeError` where there is none."""
+    value = as_float(speed)
+    if value is None:
+        why = "its ratio would come out as 0 or infinity"
+        raise RangeError(Problem("a speed leaves the range of float64", why, "use the exact method, and no radians"))
+    return value
+
+
+def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
+    """Raise `QuestionError` unless each input, and no other link, has one finite speed a case."""
+    for link in inputs:
+        check_choice("input", link, declared)
+    for link in declared:
+        if link not in inputs:
+            why = "every input of the state needs its speeds"
+            raise QuestionError(Problem(f"input '{link}' is missing", why, f"give speeds of '{link}' too"))
+    if len({len(speeds) for speeds in inputs.values()}) > 1:
+        why = "there is one speed a case for each input"
+        raise QuestionError(Problem("the inputs have unequal numbers of cases", why, "give each as many"))
+    for link, speeds in inputs.items():
+        if not all(map(isfinite, speeds)):
+            raise QuestionError(Problem(f"a speed of '{link}' is not finite", "nothing follows from it", "mend it"))

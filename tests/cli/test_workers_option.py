@@ -1,0 +1,94 @@
+"""`--workers` and `--dask`: the same bytes whoever works, and one line on standard error that says who does."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from clusters import PATIENCE, alive, small_cluster, until
+
+Write = Callable[..., Path]
+
+PAIR = """
+    name: pair
+    links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: 15}}}
+    revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    gears: [{pair: [p, w]}]
+    inputs: {a: 1}
+    outputs: {b: {}}
+    tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
+    cutting: {placement: {normal: 2 %}, tip: {normal: 3 %}}
+"""
+PIN = """
+    links: {frame: {}, a: {}, b: {}}
+    revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    couplings:
+      - {kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm,
+         friction: {sliding: 0.3, deviation: 0.05}}
+    inputs: {a: 1}
+    loads: {b: -10 N m}
+"""
+MONTE_CARLO = ("--trials", "400", "--clearance", "1.01:1.03:2", "--sobol", "--json")
+
+
+def command(*words: object) -> list[str]:
+    return [sys.executable, "-m", "geartrain", *map(str, words)]
+
+
+def ended(*words: object) -> tuple[str, str]:
+    """What a command prints, and what it says on standard error."""
+    done = subprocess.run(command(*words), capture_output=True, text=True, check=True, timeout=5 * PATIENCE)
+    return done.stdout, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (PAIR, ("montecarlo", *MONTE_CARLO)),
+        (PIN, ("torques", "--turns", "1", "--samples", "50", "--trials", "40", "--json")),
+    ],
+    ids=["montecarlo", "torques"],
+)
+def test_one_two_and_eight_workers_print_the_same_bytes(train_file: Write, text: str, words: tuple[str, ...]) -> None:
+    verb, *options = words
+    asked = (verb, train_file(text), *options)
+    (one, quiet), (two, said), (eight, _) = (ended(*asked, "--workers", count) for count in (1, 2, 8))
+    assert one == two == eight != ""
+    assert quiet == ""
+    assert re.fullmatch(rf"{verb}: \d+ tasks on 2 worker processes\n", said)
+
+
+def test_a_small_run_starts_no_processes(train_file: Write) -> None:
+    out, said = ended("montecarlo", train_file(PAIR), "--trials", 32, "--json")
+    assert out
+    assert said == ""
+
+
+def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(train_file: Write, tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    train = train_file(PAIR)
+    local, _ = ended("montecarlo", train, *MONTE_CARLO, "--workers", 1)
+    with small_cluster() as cluster:
+        asked = command("montecarlo", train, *MONTE_CARLO, "--dask", cluster.scheduler_address)
+        victim = next(iter(cluster.workers.values())).pid
+        running = subprocess.Popen(asked, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
+        until(lambda: any(tmp_path.glob("*.partial.jsonl")), "the run to begin")
+        os.kill(victim, signal.SIGKILL)
+        out, said = running.communicate(timeout=5 * PATIENCE)
+        until(lambda: not alive(victim), "the worker to die")
+    assert (running.returncode, out) == (0, local)
+    assert re.fullmatch(r"montecarlo: \d+ tasks on 2 worker processes\n", said)
+    assert not list(tmp_path.glob("*.partial.jsonl"))
+
+
+def test_both_workers_and_a_cluster_are_refused(train_file: Write) -> None:
+    asked = command("montecarlo", train_file(PAIR), "--workers", 2, "--dask", "tcp://127.0.0.1:1")
+    done = subprocess.run(asked, capture_output=True, text=True, check=False, timeout=PATIENCE)
+    assert done.returncode == 2
+    assert "both workers and a dask scheduler are given" in done.stderr

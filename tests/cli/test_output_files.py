@@ -88,6 +88,7 @@ FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstru
 TRAINS: dict[str, Path] = {}
 
 Case = tuple[str, str, str]
+PARQUET = pytest.mark.needs("pyarrow")
 CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED.items() for suffix in suffixes]
 FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in ASKED.items()]
 OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh involute", "mesh uniform_stress"}
@@ -99,7 +100,10 @@ def few_forms(cases: list[Case], quick: list[Case]) -> list[Any]:
     So do cases that are not among the quick ones.
     """
     slow = {case for case in cases if case[0] in OTHER_FORMS or case not in quick}
-    return [pytest.param(*case, marks=[pytest.mark.slow] if case in slow else []) for case in cases]
+    return [
+        pytest.param(*case, marks=[pytest.mark.slow] * (case in slow) + [PARQUET] * (case[2] == ".parquet"))
+        for case in cases
+    ]
 
 
 def writing() -> Iterator[tuple[str, str]]:

@@ -48,8 +48,17 @@ PLACES = CuttingErrorModel(ErrorDistribution(0.04))
 
 
 @pytest.mark.parametrize("number", [pytest.param(5), pytest.param(60, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("ring", [0, 1, 2])
-@pytest.mark.parametrize("cutting", [EVERY, PLACES], ids=["every error", "places"])
+@pytest.mark.parametrize(
+    ("cutting", "ring"),
+    [
+        pytest.param(EVERY, 0, id="every error-0"),
+        pytest.param(EVERY, 1, id="every error-1", marks=pytest.mark.slow),
+        pytest.param(EVERY, 2, id="every error-2"),
+        pytest.param(PLACES, 0, id="places-0"),
+        pytest.param(PLACES, 1, id="places-1"),
+        pytest.param(PLACES, 2, id="places-2", marks=pytest.mark.slow),
+    ],
+)
 def test_a_batch_says_of_each_what_its_own_law_says(
     cutting: CuttingErrorModel, ring: Literal[0, 1, 2], number: int
 ) -> None:

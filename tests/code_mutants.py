@@ -165,7 +165,7 @@ class Trial:
         taken = time.monotonic() - begun
         if done.returncode == 0:
             return "", taken
-        failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.M)
+        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", done.stdout, re.M)
         return (failed[0] if failed else "collection"), taken
 
     def killer(self, fault: Fault, patience: float, near_only: bool) -> str:

@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.analysis.train_variants import TrainVariants
-    from geartrain.dynamics import Motion, TorqueCycle, Torques, TrainStrength
-    from geartrain.dynamics.time.stepwise_simulation import Simulation
-    from geartrain.dynamics.time.time_run import TimeRun
+    from geartrain.dynamics import Motion, TorqueCycle, Torques
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.buildability import BuildFinding
@@ -33,6 +31,9 @@ if TYPE_CHECKING:
     from geartrain.kinematics.speeds import Mobility
     from geartrain.kinematics.train_kinematics import Method
     from geartrain.kinematics.willis_system import WillisSystem
+    from geartrain.simulation import TrainStrength
+    from geartrain.simulation.time.stepwise_simulation import Simulation
+    from geartrain.simulation.time.time_run import TimeRun
     from geartrain.teeth.gear_mesh import GearMesh
 
 
@@ -500,7 +501,7 @@ class GearTrain:
         QuestionError
             If loads have no unit, time is given twice or cannot be calculated, or K is not a range.
         """
-        from geartrain.dynamics.strength.train_strength import Service, solve_strength
+        from geartrain.simulation.strength.train_strength import Service, solve_strength
 
         return solve_strength(self.mechanics, state, Service(turns, years, wear), over)
 
@@ -569,7 +570,7 @@ class GearTrain:
         GearTrainError
             If redundant loops have teeth that cannot turn together, or friction locks teeth.
         """
-        from geartrain.dynamics.time.train_in_time import DrivenTrain
+        from geartrain.simulation.time.train_in_time import DrivenTrain
 
         driven = DrivenTrain(self.mechanics, state, rate, restitution, outputs, without)
         return driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
@@ -608,7 +609,7 @@ class GearTrain:
         GearTrainError
             As from `dynamics`.
         """
-        from geartrain.dynamics.time.train_in_time import DrivenTrain
+        from geartrain.simulation.time.train_in_time import DrivenTrain
 
         return DrivenTrain(self.mechanics, state, rate, restitution, outputs, without).simulation(step, fast)
 

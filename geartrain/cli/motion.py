@@ -35,7 +35,8 @@ from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import ErrorSamples, Motion, MotionRun, SeparationRates
+    from geartrain.dynamics import ErrorSamples, Motion, MotionRun
+    from geartrain.simulation import SeparationRates
 
 
 def run(
@@ -87,7 +88,7 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+        from geartrain.simulation.contacts.train_separation import find_separation, has_separation
 
         own = train.mechanics
         separation = partial(find_separation, own, state, without or ()) if has_separation(own, state) else None

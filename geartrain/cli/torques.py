@@ -37,7 +37,7 @@ from geartrain.errors import GearTrainError, Problem
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TorqueCycle, Torques
-    from geartrain.uncertainty import FrictionTrials
+    from geartrain.workshop import FrictionTrials
 
 
 def run(
@@ -132,8 +132,8 @@ def _tried(
     options: RunOptions,
 ) -> FrictionTrials:
     """The same run in trials of friction; `run` are its samples and the link, `drawn` trials and seed."""
-    from geartrain.uncertainty import find_friction_plan, try_frictions
-    from geartrain.uncertainty.monte_carlo.trial_run import check_trials
+    from geartrain.workshop import find_friction_plan, try_frictions
+    from geartrain.workshop.monte_carlo.trial_run import check_trials
 
     check_trials(drawn[0])
     plan = find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])

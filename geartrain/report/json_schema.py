@@ -41,11 +41,11 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.formula_report import FormulaReport
     from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.motion_figures import MotionFigures
-    from geartrain.report.strength_report import StrengthReport
-    from geartrain.report.time_report import TimeReport
     from geartrain.report.torque_figures import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
-    from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes
+    from geartrain.simulation.strength.strength_report import StrengthReport
+    from geartrain.simulation.time.time_report import TimeReport
+    from geartrain.workshop.sizes.train_sizes import BestTrainSizes
 
     report = shape_of(TrainReport)
     report = report | {"properties": report["properties"] | {"teeth": _list(_of_any_form(DrivenPair))}}
@@ -69,9 +69,9 @@ def _of_trains() -> dict[str, Schema]:
 
 
 def _of_doubt() -> dict[str, Schema]:
-    from geartrain.uncertainty.budget.pointer_budget import TrainBudget
-    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.uncertainty.posterior.posterior_result import ToothCountPosterior
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior
+    from geartrain.workshop.budget.pointer_budget import TrainBudget
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
 
     return {
         "montecarlo": shape_of(MonteCarloResult),
@@ -93,13 +93,13 @@ def _of_spheres() -> dict[str, Schema]:
 
 
 def _of_tooth_numbers() -> dict[str, Schema]:
-    from geartrain.synthesis.epicyclic.epicyclic_sets import SetFindings
-    from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
-    from geartrain.synthesis.orrery.orrery_result import Orrery
-    from geartrain.synthesis.ratio.stage_search import StageFindings
-    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionAnswer
-    from geartrain.synthesis.stern_brocot import Approximants
-    from geartrain.synthesis.train.train_findings import TrainFindings
+    from geartrain.search.epicyclic.epicyclic_sets import SetFindings
+    from geartrain.search.epicyclic.set_kinds import EpicyclicKind
+    from geartrain.search.orrery.orrery_result import Orrery
+    from geartrain.search.ratio.stage_search import StageFindings
+    from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
+    from geartrain.search.stern_brocot import Approximants
+    from geartrain.search.train.train_findings import TrainFindings
 
     return {
         "teeth ratio": shape_of(StageFindings),
@@ -127,10 +127,10 @@ def _of_any_form(kind: type) -> Schema:
 
 def _of_pairs() -> dict[str, Schema]:
     from geartrain.report.pair_page import FormedPair, TriangularPair
-    from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
     from geartrain.teeth.conjugate.pair_design import PairDesign
     from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.pin_figures import PinFigures
+    from geartrain.workshop.sizes.best_sizes import BestToothSizes
 
     return {
         "mesh triangular": shape_of(TriangularPair),

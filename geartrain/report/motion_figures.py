@@ -12,7 +12,8 @@ from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SeparationRates, SpectrumLine
+    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.simulation import SeparationRates
     from geartrain.teeth.meshing_wheels import MeshDriver
 
 _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
@@ -209,7 +210,7 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
-    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+    from geartrain.simulation.contacts.train_separation import find_separation, has_separation
 
     own = train.mechanics
     for state in train.states or (None,):

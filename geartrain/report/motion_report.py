@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion, ripples
-from geartrain.report.separation_text import separation_section, separation_text
+from geartrain.simulation.inertia.separation_text import separation_section, separation_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain

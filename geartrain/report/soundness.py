@@ -101,7 +101,7 @@ def _left_out(train: GearTrain) -> Iterator[str]:
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
     """States whose rate is beyond that at which teeth first part."""
-    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+    from geartrain.simulation.contacts.train_separation import find_separation, has_separation
 
     own = train.mechanics
     for state in train.kinematics.usable_states:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
     from geartrain.dynamics.torques.torque_results import DrivenWay
-    from geartrain.uncertainty import FrictionTrials
+    from geartrain.workshop import FrictionTrials
 
 
 class Impact(NamedTuple):
@@ -167,9 +167,9 @@ def collect_torque_report(
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     """Torques of one state, with the flow of power and the efficiency there and back."""
-    from geartrain.dynamics.contacts.train_separation import find_tooth_impacts
     from geartrain.dynamics.torques.power_flow import find_power_flow, has_torque_units, watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
+    from geartrain.simulation.contacts.train_separation import find_tooth_impacts
 
     declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
     return TorqueFigures(

@@ -56,7 +56,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
-        from geartrain.report.friction_trials_report import trial_sections
+        from geartrain.workshop.monte_carlo.friction_trials_report import trial_sections
 
         sections += trial_sections(found.friction_trials)
     lead = [f"Train '{found.name}'. {_units(found.states)}"]

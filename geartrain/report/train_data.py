@@ -10,7 +10,6 @@ from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TrainStrength
     from geartrain.errors import Problem
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.buildability import BuildFinding
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_figures import TorqueFigures
+    from geartrain.simulation import TrainStrength
     from geartrain.train import Train
     from geartrain.train.states import Erratum
 

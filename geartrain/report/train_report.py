@@ -115,7 +115,7 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 def _strength(found: TrainReport) -> Iterator[Section]:
     """Strength, where the train declares what bears it; its words are read only then."""
     for strength in found.strength:
-        from geartrain.report.strength_report import strength_sections
+        from geartrain.simulation.strength.strength_report import strength_sections
 
         yield from strength_sections(strength)
 

@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
     from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel
     from geartrain.scene.movement import MovementStart
     from geartrain.scene.scene_run import SceneRun
     from geartrain.scene.train_scene import Pointer
+    from geartrain.simulation import TimeRun
     from geartrain.train import Train
 
 

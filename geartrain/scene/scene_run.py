@@ -18,8 +18,8 @@ from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.vectors import Vector
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import OutputLead
     from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.simulation import OutputLead
 
 
 @dataclass(frozen=True, slots=True)

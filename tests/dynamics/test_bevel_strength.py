@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import geartrain
-from geartrain.dynamics import PairStrength, TrainStrength
+from geartrain.simulation import PairStrength, TrainStrength
 
 ANGLE = radians(20)
 

@@ -8,10 +8,10 @@ from math import tau
 import numpy as np
 import pytest
 
-from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
-from geartrain.dynamics.contacts.law_tables import tabled_angle
-from geartrain.dynamics.steps.contact_solution import solve_guess
-from geartrain.dynamics.steps.simulation import empty_equations, start_state
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.simulation.contacts.law_tables import tabled_angle
+from geartrain.simulation.steps.contact_solution import solve_guess
+from geartrain.simulation.steps.simulation import empty_equations, start_state
 from geartrain.teeth.transmission import ExactRatio
 
 EVEN = tabled_angle(ExactRatio(Fraction(1), tau))

@@ -11,13 +11,14 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
-from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.dynamics.contacts.contact_system import ContactSystem
-from geartrain.dynamics.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
-from geartrain.dynamics.contacts.train_model import SlackPin
-from geartrain.dynamics.steps import simulation
-from geartrain.dynamics.steps.contact_solution import StepRules
-from geartrain.dynamics.steps.run_record import (
+from geartrain.numerics.kernels import kernel
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
+from geartrain.simulation.contacts.train_model import SlackPin
+from geartrain.simulation.steps import simulation
+from geartrain.simulation.steps.contact_solution import StepRules
+from geartrain.simulation.steps.run_record import (
     BEARINGS,
     BLOW_COUNT,
     BLOWS,
@@ -27,9 +28,8 @@ from geartrain.dynamics.steps.run_record import (
     VISCOUS,
     ContactState,
 )
-from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
-from geartrain.dynamics.steps.time_steps import run_steps
-from geartrain.numerics.kernels import kernel
+from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
+from geartrain.simulation.steps.time_steps import run_steps
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.constant_lag import ConstantLag
 from geartrain.teeth.transmission import ExactRatio

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import geartrain
-from geartrain.dynamics import PairStrength
-from geartrain.teeth.strength.iso_6336 import RackWheel, ToothLean, root_stress
-from geartrain.teeth.strength.leaning_contact import least_couples
+from geartrain.simulation import PairStrength
+from geartrain.simulation.strength.formulas.iso_6336 import RackWheel, ToothLean, root_stress
+from geartrain.simulation.strength.formulas.leaning_contact import least_couples
 
 Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geartrain import load
-from geartrain.dynamics import find_link_inertias, find_separation
+from geartrain.simulation import find_link_inertias, find_separation
 from geartrain.teeth.outlines.contour import Contour
 
 

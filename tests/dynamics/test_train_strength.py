@@ -13,10 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain
-from geartrain.dynamics.strength.arbor_strength import greatest_moment
-from geartrain.dynamics.strength.strength_results import PairStrength
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.report import collect_report, collect_strength_report, describe_strength
+from geartrain.report import collect_report
+from geartrain.simulation import collect_strength_report, describe_strength
+from geartrain.simulation.strength.arbor_strength import greatest_moment
+from geartrain.simulation.strength.strength_results import PairStrength
 
 PAIR = """
 links:

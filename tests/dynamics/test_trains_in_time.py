@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrain, load
-from geartrain.dynamics import TimeRun, find_separation, step_to_separation
-from geartrain.dynamics.steps.simulation import StepPlan, simulate
-from geartrain.dynamics.time.train_in_time import model_in_time
 from geartrain.errors import QuestionError
 from geartrain.report import to_markdown
-from geartrain.report.time_report import collect_time_report, describe_time_run
+from geartrain.simulation import TimeRun, find_separation, step_to_separation
+from geartrain.simulation.steps.simulation import StepPlan, simulate
+from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
+from geartrain.simulation.time.train_in_time import model_in_time
 from geartrain.train.drives import GRAVITY
 
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}

@@ -15,12 +15,12 @@ from sampling import first_few
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import export_files, notices
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.parts.arbor_columns import AxisBearing, ColumnProblem, FramePlaces
 from geartrain.scene.parts.processes import PROCESSES, process_named
 from geartrain.scene.parts.stack_discs import StackDisc
 from geartrain.scene.parts.turned_parts import Band, revolved
+from geartrain.workshop import export_files, notices
 
 manifold3d = pytest.importorskip("manifold3d")
 

@@ -22,7 +22,7 @@ from fmpy.validation import validate_fmu
 
 from geartrain import load
 from geartrain.errors import GearTrainError
-from geartrain.export import CoSimulationCase, fmu_file
+from geartrain.simulation import CoSimulationCase, fmu_file
 from geartrain.train.declaration_files import read_declaration, shipped, write_declaration
 
 TRAIN, STEP = "moon-triangular-inertia", 2.5e-4

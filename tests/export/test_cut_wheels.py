@@ -19,12 +19,12 @@ from shapely.affinity import affine_transform
 
 import geartrain
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import export_files, notices, wheel_file
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.teeth import Involute
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outline_mesh import OutlineMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
+from geartrain.workshop import export_files, notices, wheel_file
 
 TRAINS = sorted(path.stem for path in Path(geartrain.__file__).parent.parent.glob("trains/**/*.yaml"))
 PLAYED = [

@@ -14,13 +14,13 @@ import pytest
 import shapely
 from shipped import train as load
 
-from geartrain.export import export_files
-from geartrain.export.assembly_pictures import step_pictures
-from geartrain.export.assembly_steps import assembly_steps
-from geartrain.export.parts_list import parts_list
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.palette import THEMES
+from geartrain.workshop import export_files
+from geartrain.workshop.export.assembly_pictures import step_pictures
+from geartrain.workshop.export.assembly_steps import assembly_steps
+from geartrain.workshop.export.parts_list import parts_list
 
 
 def model(name: str) -> SolidModel:

@@ -19,10 +19,10 @@ from hypothesis import strategies as st
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import export_files, notices, train_file, wheel_file
-from geartrain.export.cut_sheets import file_names
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bearing_plates import around
+from geartrain.workshop import export_files, notices, train_file, wheel_file
+from geartrain.workshop.export.cut_sheets import file_names
 
 shapely = pytest.importorskip("shapely")
 

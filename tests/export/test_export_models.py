@@ -18,11 +18,11 @@ from places import TRAINS
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import train_file, wheel_file
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.triangle_solids import Solid
 from geartrain.scene.solids.triangulation import fill
+from geartrain.workshop import train_file, wheel_file
 
 shapely = pytest.importorskip("shapely")
 

@@ -14,12 +14,12 @@ from shipped import train as load
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError
-from geartrain.export import wheel_file
-from geartrain.export.cut_sheets import compensated
-from geartrain.export.parts_list import parts_list
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.workshop import wheel_file
+from geartrain.workshop.export.cut_sheets import compensated
+from geartrain.workshop.export.parts_list import parts_list
 
 shapely = pytest.importorskip("shapely")
 

@@ -16,14 +16,14 @@ import yaml
 
 import geartrain
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import export_files, wheel_file
-from geartrain.export.proof import TrainProof, prove_train
-from geartrain.export.proof.cut_outlines import cut_lines, read_material
-from geartrain.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
-from geartrain.export.proof.solid_proof import prove_solids
-from geartrain.export.proof.turned_pair import NOTHING, TurnedPair
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline, solve
+from geartrain.workshop import export_files, wheel_file
+from geartrain.workshop.export.proof import TrainProof, prove_train
+from geartrain.workshop.export.proof.cut_outlines import cut_lines, read_material
+from geartrain.workshop.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
+from geartrain.workshop.export.proof.solid_proof import prove_solids
+from geartrain.workshop.export.proof.turned_pair import NOTHING, TurnedPair
 
 
 @cache
@@ -350,7 +350,7 @@ def test_what_is_made_by_hand_is_listed_apart() -> None:
 
 
 def test_a_readme_that_proves_nothing_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.export.file_set.proof_is_installed", lambda: False)
+    monkeypatch.setattr("geartrain.workshop.export.file_set.proof_is_installed", lambda: False)
     text = export_files(work("planetary-24-18-60", module=2.0), ["svg"])[-1].make().decode()
     assert "**Not proved**" in text
     assert "`pip install 'manifold3d>=3.1' 'shapely>=2.0'`" in text

@@ -12,11 +12,11 @@ import shapely
 from shapely.affinity import affine_transform, rotate, translate
 
 import geartrain
-from geartrain.export import export_files
-from geartrain.export.proof import TrainProof, prove_train
-from geartrain.export.proof.cut_outlines import cut_lines
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
+from geartrain.workshop import export_files
+from geartrain.workshop.export.proof import TrainProof, prove_train
+from geartrain.workshop.export.proof.cut_outlines import cut_lines
 
 Point = tuple[float, float]
 
@@ -300,8 +300,8 @@ def test_a_flexible_cup_is_no_obstacle_and_is_told() -> None:
 def test_a_wave_that_does_not_bend_the_wheel_into_its_ring_is_seen() -> None:
     from dataclasses import replace
 
-    from geartrain.export.proof.mesh_proof import read_wheels
-    from geartrain.export.proof.wave_proof import overlaps
+    from geartrain.workshop.export.proof.mesh_proof import read_wheels
+    from geartrain.workshop.export.proof.wave_proof import overlaps
 
     model = work("strain-wave")
     assert model.frame is not None

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from shipped import train as load
 
-from geartrain.export.assembly_steps import assembly_steps
 from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.workshop.export.assembly_steps import assembly_steps
 
 manifold3d = pytest.importorskip("manifold3d")
 

@@ -10,9 +10,9 @@ import pytest
 from shapely.geometry import Polygon, box
 
 from geartrain.errors import QuestionError
-from geartrain.export.cut_sheets import FlatPart, stock_sheets
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.workshop.export.cut_sheets import FlatPart, stock_sheets
 
 
 def part(name: str, contour: Contour, count: int = 1, thickness: float = 2.0, hole: float = 0.5) -> FlatPart:

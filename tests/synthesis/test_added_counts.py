@@ -9,8 +9,8 @@ from math import prod
 
 import pytest
 
-from geartrain.synthesis.reconstruction.added_counts import AddedCounts, Wanted
-from geartrain.synthesis.reconstruction.train_topology import AddedWheels
+from geartrain.search.reconstruct.added_counts import AddedCounts, Wanted
+from geartrain.search.reconstruct.train_topology import AddedWheels
 
 LEAST, GREATEST = 5, 9
 DIALS = "pqrs"

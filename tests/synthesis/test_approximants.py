@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis import TargetRatio, approximants, read_counts, read_ratio
-from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
-from geartrain.synthesis.stern_brocot import nearest_first, neighbours, runs
+from geartrain.search import TargetRatio, approximants, read_counts, read_ratio
+from geartrain.search.gear_pair_search import count_pairs, find_pairs
+from geartrain.search.stern_brocot import nearest_first, neighbours, runs
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 
@@ -338,8 +338,8 @@ def test_impossible_questions_are_refused() -> None:
 def test_pairs_are_found_without_an_array_library() -> None:
     code = """
 import sys
-from geartrain.synthesis.gear_pair_search import find_pairs
-from geartrain.synthesis.target_ratio import read_ratio
+from geartrain.search.gear_pair_search import find_pairs
+from geartrain.search.target_ratio import read_ratio
 assert find_pairs(read_ratio("235/19"), range(30, 300), range(12, 60))[0].teeth == (235, 19)
 assert not {"numpy", "scipy", "networkx", "matplotlib"} & set(sys.modules)
 """

@@ -11,12 +11,12 @@ from commands import ended
 from concrete_trees import exact_dial, sure_arbor
 
 from geartrain import GearTrainError
-from geartrain.synthesis.reconstruction import expected_cost, path_lists
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.expected_cost import done_shares, expect_cost, rough
-from geartrain.synthesis.reconstruction.reconstruction_problem import Additions, AskedQuestion, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.search_tasks import TopologyTask, topology_tasks
+from geartrain.search.reconstruct import expected_cost, path_lists
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.expected_cost import done_shares, expect_cost, rough
+from geartrain.search.reconstruct.reconstruction_problem import Additions, AskedQuestion, ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.search_tasks import TopologyTask, topology_tasks
 from geartrain.train.declaration_files import read_evidence
 
 TOY = ReconstructionProblem(

@@ -20,11 +20,11 @@ from teeth3d import best, in_space
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.numerics import Quantity
-from geartrain.synthesis import ConstraintOptions
-from geartrain.synthesis.constraints.assembly_constraints import find_constraints
-from geartrain.synthesis.constraints.constraint_options import read_constraint_options
-from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
-from geartrain.synthesis.constraints.planet_constraints import bezout
+from geartrain.search import ConstraintOptions
+from geartrain.search.constraints.assembly_constraints import find_constraints
+from geartrain.search.constraints.constraint_options import read_constraint_options
+from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
+from geartrain.search.constraints.planet_constraints import bezout
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 

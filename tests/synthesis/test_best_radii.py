@@ -8,7 +8,7 @@ from math import exp, pi
 import pytest
 from places import DOCS
 
-from geartrain.synthesis import ToothSizes, find_tooth_sizes
+from geartrain.workshop import ToothSizes, find_tooth_sizes
 
 PAGE = (DOCS / "best-radii.md").read_text(encoding="utf-8")
 A, B = (float(each) for each in re.findall(r"-\s*([\d.]+)\\left\(", PAGE.split("$$")[1]))

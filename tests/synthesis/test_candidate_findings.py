@@ -10,12 +10,12 @@ from math import log2
 import pytest
 from concrete_trees import concrete, meshes, nodes, random_problem
 
-from geartrain.synthesis.reconstruction.candidate_findings import grow_family_tree
-from geartrain.synthesis.reconstruction.candidate_names import name_train
-from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, WeighedTrains
-from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_result import Candidate
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.candidate_findings import grow_family_tree
+from geartrain.search.reconstruct.candidate_names import name_train
+from geartrain.search.reconstruct.explained_facts import ExplainedFacts, WeighedTrains
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_result import Candidate
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 Question = tuple[ReconstructionProblem, tuple[Candidate, ...], WeighedTrains, list[Fraction]]
 

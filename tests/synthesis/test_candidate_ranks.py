@@ -8,10 +8,10 @@ from fractions import Fraction
 import pytest
 from concrete_trees import explanations, package_arbor, random_problem
 
-from geartrain.report.reconstruction_report import describe_reconstruction
-from geartrain.synthesis.reconstruction.reconstruction import RankedTrain, ReconstructionAnswer
-from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount, mechanism, prior
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
+from geartrain.search.reconstruct.reconstruction_result import ExplanationCount, mechanism, prior
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 
 @pytest.mark.parametrize("seed", range(60, 100))

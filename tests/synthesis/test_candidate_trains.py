@@ -8,9 +8,9 @@ import pytest
 from concrete_trees import concrete, exact_dial, explanations, package_arbor, random_problem, with_rings
 
 from geartrain import GearTrain, load
-from geartrain.synthesis.reconstruction.candidate_train import candidate_data, candidate_text
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.search.reconstruct.candidate_train import candidate_data, candidate_text
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.train import Train, declare
 from geartrain.train.declaration_files import read_declaration, read_evidence, shipped_evidence
 

@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 from geartrain.train import declare
 from geartrain.train.declaration_files import read_evidence
 

@@ -9,22 +9,22 @@ import pytest
 from concrete_trees import exact_dial, explanations, random_problem, sure_arbor
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.reconstruction.dropped_facts import (
+from geartrain.search.reconstruct.dropped_facts import (
     LoneDial,
     count_changed,
     explain_missing,
     without_each_dial,
     without_each_fact,
 )
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_problem import (
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     Additions,
     ReconstructionProblem,
     SurvivingWheel,
 )
-from geartrain.synthesis.reconstruction.reconstruction_result import ExplanationCount, Reconstructions
-from geartrain.synthesis.reconstruction.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
+from geartrain.search.reconstruct.reconstruction_result import ExplanationCount, Reconstructions
+from geartrain.search.reconstruct.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
 from geartrain.train.declaration_files import read_evidence
 
 

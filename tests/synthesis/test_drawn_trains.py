@@ -8,9 +8,9 @@ from random import Random
 import pytest
 from concrete_trees import Node, concrete, explanations, random_problem, with_rings
 
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_search import draw_candidates, find_reconstructions
-from geartrain.synthesis.reconstruction.search_tasks import TopologyTrains
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_search import draw_candidates, find_reconstructions
+from geartrain.search.reconstruct.search_tasks import TopologyTrains
 from geartrain.train.declaration_files import read_evidence
 
 DRAWS = 60

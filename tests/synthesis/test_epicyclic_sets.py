@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis import EpicyclicSet, find_sets, read_ratio, search_train
-from geartrain.synthesis.epicyclic.epicyclic_sets import declare
-from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind, kinds
+from geartrain.search import EpicyclicSet, find_sets, read_ratio, search_train
+from geartrain.search.epicyclic.epicyclic_sets import declare
+from geartrain.search.epicyclic.set_kinds import EpicyclicKind, kinds
 
 F = Fraction
 NAMES = list(kinds())

@@ -9,9 +9,9 @@ from fractions import Fraction
 import pytest
 from concrete_trees import concrete, explanations, random_problem
 
-from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys
-from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.quotient_keys import QuotientKeys
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 
 def exact_problem(seed: int) -> ReconstructionProblem:
@@ -62,7 +62,7 @@ def test_no_answer_depends_on_keys(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_no_answer_depends_on_how_many_paths_are_grown_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = "geartrain.synthesis.reconstruction"
+    module = "geartrain.search.reconstruct"
     monkeypatch.setattr(f"{module}.path_lists._PIECE", 3)
     monkeypatch.setattr(f"{module}.path_choice._PIECE", 3)
     for seed in range(2020, 2040):

@@ -7,10 +7,10 @@ from math import log2
 
 import pytest
 
-from geartrain.synthesis.reconstruction.candidate_findings import grow_family_tree
-from geartrain.synthesis.reconstruction.candidate_names import NamedArbor, name_train
-from geartrain.synthesis.reconstruction.explained_facts import ExplainedFacts, Fact, FactMarginal, WeighedTrains
-from geartrain.synthesis.reconstruction.reconstruction_problem import (
+from geartrain.search.reconstruct.candidate_findings import grow_family_tree
+from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
+from geartrain.search.reconstruct.explained_facts import ExplainedFacts, Fact, FactMarginal, WeighedTrains
+from geartrain.search.reconstruct.reconstruction_problem import (
     Additions,
     Arbor,
     PlacedWheel,

@@ -10,10 +10,10 @@ import pytest
 from concrete_trees import exact_dial, explanations, package_arbor, random_problem, sure_arbor, with_rings
 from studies.followed_train import is_reached
 
-from geartrain.synthesis.reconstruction.path_choice import PathChoice
-from geartrain.synthesis.reconstruction.path_lists import PathGrowth, PathList
-from geartrain.synthesis.reconstruction.path_trees import PathTrees
-from geartrain.synthesis.reconstruction.reconstruction_problem import (
+from geartrain.search.reconstruct.path_choice import PathChoice
+from geartrain.search.reconstruct.path_lists import PathGrowth, PathList
+from geartrain.search.reconstruct.path_trees import PathTrees
+from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     Additions,
     ReconstructionProblem,

@@ -13,12 +13,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from test_exact_join import SLOW, Quotient, joins, solutions
 
-import geartrain.synthesis.join.exact_join as joining
-from geartrain.synthesis.constraints.count_conditions import CountConstraint
-from geartrain.synthesis.join.exact_join import BudgetSpentError, ExactJoin
-from geartrain.synthesis.join.inside_outside import AssignmentSums, BestFirst, record_join
-from geartrain.synthesis.join.join_plan import find_join_problem
-from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
+import geartrain.search.join.exact_join as joining
+from geartrain.search.constraints.count_conditions import CountConstraint
+from geartrain.search.join.exact_join import BudgetSpentError, ExactJoin
+from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, record_join
+from geartrain.search.join.join_plan import find_join_problem
+from geartrain.search.join.wheel_monomials import IntervalConstraint
 
 Asked = tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountConstraint]]
 LONG = 10**30

@@ -10,10 +10,10 @@ from joined_trees import explanations_with_couplings, group, parted
 from sampling import all_but
 
 from geartrain import GearTrainError, load
-from geartrain.synthesis.reconstruction.candidate_train import candidate_text
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.link_roles import join_arbors
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.candidate_train import candidate_text
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.link_roles import join_arbors
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
 

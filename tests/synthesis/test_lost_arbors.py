@@ -9,12 +9,12 @@ from concrete_trees import concrete, explanations, nodes, speeds
 from shipped import every_train
 
 from geartrain import GearTrainError, load
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_evidence_data, rank_of
-from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_tree, find_spur_trees
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_evidence_data, rank_of
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
+from geartrain.search.reconstruct.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_tree, find_spur_trees
 from geartrain.train.declaration_files import read_declaration
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel

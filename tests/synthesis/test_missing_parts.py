@@ -11,8 +11,8 @@ import pytest
 from places import DOCS
 
 from geartrain import GearTrain, load
-from geartrain.synthesis import TrainFindings, search_train
-from geartrain.synthesis.train.train_findings import PartFindings
+from geartrain.search import TrainFindings, search_train
+from geartrain.search.train.train_findings import PartFindings
 
 F = Fraction
 Row = tuple[int, int, int]

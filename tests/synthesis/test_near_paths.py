@@ -10,8 +10,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.synthesis.reconstruction.path_choice import distances, end_pair, shortest_tour, tours_with_one_more
-from geartrain.synthesis.reconstruction.quotient_keys import QuotientKeys, QuotientRanges
+from geartrain.search.reconstruct.path_choice import distances, end_pair, shortest_tour, tours_with_one_more
+from geartrain.search.reconstruct.quotient_keys import QuotientKeys, QuotientRanges
 
 COUNTS = range(5, 10)
 NAMES = ("", "games", "metonic", "moon", "saros", "year")

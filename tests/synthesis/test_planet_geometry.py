@@ -22,8 +22,8 @@ from shapely import affinity
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.numerics import Quantity
-from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
-from geartrain.synthesis.constraints.involute_interference import (
+from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
+from geartrain.search.constraints.involute_interference import (
     InRing,
     OnInvolute,
     external_terms,

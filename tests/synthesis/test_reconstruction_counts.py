@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_problem import (
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     Additions,
     ReconstructionProblem,
@@ -24,7 +24,7 @@ from geartrain.synthesis.reconstruction.reconstruction_problem import (
     SurvivingArbor,
     SurvivingWheel,
 )
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
 LONG = {"b byzantine", "random 1016", "medium 7004"}  # each some seconds

@@ -6,8 +6,8 @@ import pytest
 from concrete_trees import Found, concrete, explanations, meshes, random_problem, with_rings
 from sampling import all_but
 
-from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 
 @pytest.mark.parametrize("start", all_but({0, 80, 220}, range(0, 400, 20)))

@@ -9,8 +9,8 @@ from dataclasses import replace
 import pytest
 from concrete_trees import concrete, explanations, meshes, random_problem, with_rings
 
-from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 
 def seen(problem: ReconstructionProblem, seed: int) -> ReconstructionProblem | None:

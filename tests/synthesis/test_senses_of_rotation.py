@@ -20,8 +20,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.kinematics.formulas import with_counts
 from geartrain.report import collect_report, describe_comparison, describe_train, to_markdown
-from geartrain.synthesis import search_train
-from geartrain.uncertainty import infer_counts
+from geartrain.search import infer_counts, search_train
 
 Counts = tuple[int, int]
 HELD, SUN = 20, 21

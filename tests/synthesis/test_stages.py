@@ -19,11 +19,11 @@ from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
-from geartrain.synthesis import StageConstraints, StageFindings, TargetRatio, find_stages
-from geartrain.synthesis.ratio import search_segments as stages_work
-from geartrain.synthesis.ratio.product_windows import cuts, errors, expand, products_of, rounded_up
-from geartrain.synthesis.ratio.stage_pairs import best_pairing, suited
-from geartrain.synthesis.stern_brocot import farey_neighbours
+from geartrain.search import StageConstraints, StageFindings, TargetRatio, find_stages
+from geartrain.search.ratio import search_segments as stages_work
+from geartrain.search.ratio.product_windows import cuts, errors, expand, products_of, rounded_up
+from geartrain.search.ratio.stage_pairs import best_pairing, suited
+from geartrain.search.stern_brocot import farey_neighbours
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 Set = tuple[int, ...]
@@ -554,7 +554,7 @@ def test_an_interrupt_keeps_what_was_found_and_a_journal_takes_it_up(
             raise KeyboardInterrupt
         return real(task)
 
-    monkeypatch.setattr("geartrain.synthesis.ratio.segment_sweep.search_segment", some)
+    monkeypatch.setattr("geartrain.search.ratio.segment_sweep.search_segment", some)
     with Journal(tmp_path / "journal", {"month": 1}) as journal:
         part = find_stages(*QUESTION, tolerance=Fraction(1, 10**5), journal=journal)
         assert 0 < len(journal) < 9

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
-from geartrain.synthesis import CountRuns, TargetRatio, read_counts, read_ratio
-from geartrain.synthesis.tooth_count_ranges import as_array
+from geartrain.search import CountRuns, TargetRatio, read_counts, read_ratio
+from geartrain.search.tooth_count_ranges import as_array
 
 YEAR, MONTH = Fraction("365.242190402"), Fraction("29.530588853")  # days, as the table prints them
 

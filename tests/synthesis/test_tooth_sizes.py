@@ -12,10 +12,10 @@ import pytest
 from scipy.optimize import differential_evolution
 
 from geartrain.errors import QuestionError
-from geartrain.synthesis import ChanceLimit, SizeLimit, ToothSizes, find_tooth_sizes
-from geartrain.synthesis.tooth_sizes.outline_agreement import confirm_by_outlines
-from geartrain.synthesis.tooth_sizes.size_design import AIMS, equal_depth_radii
-from geartrain.synthesis.tooth_sizes.size_search import USUAL_RANGES, SizeSearch, undominated
+from geartrain.workshop import ChanceLimit, SizeLimit, ToothSizes, find_tooth_sizes
+from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
+from geartrain.workshop.sizes.size_design import AIMS, equal_depth_radii
+from geartrain.workshop.sizes.size_search import USUAL_RANGES, SizeSearch, undominated
 
 THIRTY = (pi / 6, pi / 6)
 

@@ -18,16 +18,16 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from strategies import driven_trains, ordinary_trains
 
-import geartrain.synthesis.train.search_passes as merging
-import geartrain.synthesis.train.search_passes as passes
-import geartrain.synthesis.train.search_passes as tasks
+import geartrain.search.train.search_passes as merging
+import geartrain.search.train.search_passes as passes
+import geartrain.search.train.search_passes as tasks
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import QuestionError
 from geartrain.kinematics.formulas.output_formulas import find_formulas, with_counts
 from geartrain.numerics import Journal, open_executor
-from geartrain.synthesis import ConstraintOptions, TrainFindings, search_train
-from geartrain.synthesis.constraints.count_conditions import Condition, CountEquation
-from geartrain.synthesis.train.train_findings import By
+from geartrain.search import ConstraintOptions, TrainFindings, search_train
+from geartrain.search.constraints.count_conditions import Condition, CountEquation
+from geartrain.search.train.train_findings import By
 from geartrain.train import Train
 from geartrain.train.yaml_nodes import as_yaml
 

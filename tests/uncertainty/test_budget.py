@@ -12,9 +12,9 @@ from sorge import Pair, first_of_all
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.uncertainty import BudgetQuestion, PointerBudget, TrainBudget, find_budget
-from geartrain.uncertainty.budget.crank_load import find_crank_load
-from geartrain.uncertainty.budget.pin_theory import equation_of_centre, least_difference
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
+from geartrain.workshop.budget.crank_load import find_crank_load
+from geartrain.workshop.budget.pin_theory import equation_of_centre, least_difference
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}
@@ -320,7 +320,7 @@ def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget)
 
 
 def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
-    from geartrain.drawing import budget_figure
+    from geartrain.workshop import budget_figure
 
     asked = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
     budget = find_budget(geartrain.load("freeth-2021-teeth"), asked)
@@ -342,7 +342,8 @@ def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
 
 
 def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:
-    from geartrain.report import describe_budget, to_markdown
+    from geartrain.report import to_markdown
+    from geartrain.workshop import describe_budget
 
     text = to_markdown([describe_budget(freeth)])
     missing = freeth.not_declared
@@ -353,7 +354,7 @@ def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(fr
 
 
 def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
-    from geartrain.drawing import budget_figure
+    from geartrain.workshop import budget_figure
 
     with pytest.raises(geartrain.GearTrainError, match="no budget"):
         budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))

@@ -21,12 +21,11 @@ from geartrain.analysis import GearTrain
 from geartrain.errors import DeclarationError, GearTrainError, QuestionError, RangeError
 from geartrain.kinematics.formulas import with_counts
 from geartrain.numerics import Journal, open_executor
-from geartrain.report import describe_posterior
-from geartrain.uncertainty import ToothCountPosterior, infer_counts
-from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
-from geartrain.uncertainty.posterior.observations import ObservedOutput
-from geartrain.uncertainty.posterior.priors import find_priors
-from geartrain.uncertainty.posterior.sampled_posterior import LikelihoodBatch, sample_task
+from geartrain.search import ToothCountPosterior, describe_posterior, infer_counts
+from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem
+from geartrain.search.posterior.observations import ObservedOutput
+from geartrain.search.posterior.priors import find_priors
+from geartrain.search.posterior.sampled_posterior import LikelihoodBatch, sample_task
 
 CHAIN: dict[str, Any] = {
     "name": "chain",
@@ -402,7 +401,7 @@ def test_a_target_beyond_float64_is_refused_in_words() -> None:
 
 def test_sampled_shares_come_near_the_exact_ones(monkeypatch: pytest.MonkeyPatch) -> None:
     exact = run(PLANETARY).shares["carrier"]
-    monkeypatch.setattr("geartrain.uncertainty.posterior.variance_shares._LISTED", 1)
+    monkeypatch.setattr("geartrain.search.posterior.variance_shares._LISTED", 1)
     about = run(PLANETARY).shares["carrier"]
     assert not about.exact
     for wheel, share in exact.whole.items():
@@ -520,7 +519,7 @@ def test_an_interrupted_run_says_what_it_knows(monkeypatch: pytest.MonkeyPatch) 
             raise KeyboardInterrupt
         return sample_task(shared, task)
 
-    monkeypatch.setattr("geartrain.uncertainty.posterior.inference.sample_task", first_only)
+    monkeypatch.setattr("geartrain.search.posterior.inference.sample_task", first_only)
     found = run(CHAIN, method="sample", samples=60_000)
     assert found.cut
     assert 0 < found.looked < 60_000
@@ -536,7 +535,7 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
     def interrupted(*_: Any) -> Any:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("geartrain.uncertainty.posterior.inference.find_exact_posterior", interrupted)
+    monkeypatch.setattr("geartrain.search.posterior.inference.find_exact_posterior", interrupted)
     for method in (None, "exact"):
         found = run(CHAIN, method=method)
         assert found.cut
@@ -630,6 +629,6 @@ def test_counts_of_no_weight_are_left_out() -> None:
 
 
 def test_the_room_is_imported_without_any_large_library() -> None:
-    asked = "import sys, geartrain.uncertainty; print(*{'numpy', 'scipy', 'networkx'} & set(sys.modules))"
+    asked = "import sys, geartrain.workshop; print(*{'numpy', 'scipy', 'networkx'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""

@@ -18,8 +18,8 @@ from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
 from geartrain.teeth.contact.outline_contact import solve
 from geartrain.teeth.contact.outline_curve import OutlineCurve
 from geartrain.teeth.displaced_outlines import displaced_outlines
-from geartrain.uncertainty import find_trial_plan, read_error_overrides, run_trials
-from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
+from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
+from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 
 FORM = CircularArc(form="circular_arc")
 TEETH = {(counts, driver): FORM.law(*counts, driver=driver) for counts in ((60, 8), (48, 12)) for driver in (1, 2)}

@@ -9,8 +9,8 @@ from models import load
 from geartrain import GearTrain
 from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.train import Train
-from geartrain.uncertainty import find_friction_plan, try_frictions
-from geartrain.uncertainty.monte_carlo.friction_trials import draw_friction
+from geartrain.workshop import find_friction_plan, try_frictions
+from geartrain.workshop.monte_carlo.friction_trials import draw_friction
 
 TRAIN = """
 extends: moon-triangular

@@ -16,9 +16,9 @@ from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
-from geartrain.uncertainty.manufacturing_errors.least_backlash import even_tooth_pair, jamming_bound, nominal_backlash
-from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
+from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.least_backlash import even_tooth_pair, jamming_bound, nominal_backlash
+from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
 
 THIRTY = radians(30)
 

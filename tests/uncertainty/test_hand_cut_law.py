@@ -15,7 +15,7 @@ from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
+from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 THIRTY = radians(30)
 KINDS = ("place", "tip", "leading", "trailing")

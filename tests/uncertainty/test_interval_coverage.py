@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrain
-from geartrain.uncertainty import IntervalEstimate, TrialPlan, find_trial_plan, run_trials
-from geartrain.uncertainty.confidence_intervals import PERCENTILES, deviation_of, percentile_of, wilson
+from geartrain.numerics import IntervalEstimate
+from geartrain.numerics.confidence_intervals import PERCENTILES, deviation_of, percentile_of, wilson
+from geartrain.workshop import TrialPlan, find_trial_plan, run_trials
 
 REPEATS, TRIALS = 400, 256
 TEETH, MODULE, ANGLE = 12, 1.0, radians(20)  # mm

@@ -17,10 +17,10 @@ from studies.cut_pair_law import CutPairLaw
 from test_hand_cut_batch import chance_that_none_rises
 
 from geartrain import GearTrain, load
-from geartrain.numerics import Execution, Journal, open_executor
+from geartrain.numerics import Execution, IntervalEstimate, Journal, open_executor
+from geartrain.numerics.confidence_intervals import deviation_of, mean_of, percentile_of, wilson
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.uncertainty import (
-    IntervalEstimate,
+from geartrain.workshop import (
     TrialPlan,
     TrialResults,
     find_sobol_indices,
@@ -29,13 +29,12 @@ from geartrain.uncertainty import (
     run_course,
     run_trials,
 )
-from geartrain.uncertainty.confidence_intervals import deviation_of, mean_of, percentile_of, wilson
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
-from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
-from geartrain.uncertainty.monte_carlo.clearance_study import run_clearances
-from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
-from geartrain.uncertainty.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers
-from geartrain.uncertainty.monte_carlo.trial_run import journal_key, trial_tasks
+from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
+from geartrain.workshop.monte_carlo.clearance_study import run_clearances
+from geartrain.workshop.monte_carlo.random_streams import RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers
+from geartrain.workshop.monte_carlo.trial_run import journal_key, trial_tasks
 
 
 def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> GearTrain:

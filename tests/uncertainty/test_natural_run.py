@@ -8,7 +8,7 @@ import pytest
 from models import load
 
 from geartrain.dynamics import find_torque_period
-from geartrain.uncertainty.budget.crank_load import YEAR, natural_turns
+from geartrain.workshop.budget.crank_load import YEAR, natural_turns
 
 TEETH = """
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}

@@ -17,7 +17,7 @@ from random_trains import driven_train
 from reference_solver import rank_of, solve_naively, willis_rows
 
 from geartrain import GearTrain
-from geartrain.uncertainty import infer_counts
+from geartrain.search import infer_counts
 
 Data = dict[str, Any]
 Priors = dict[str, dict[int, Fraction]]

@@ -17,14 +17,14 @@ from typing import Any
 import pytest
 from concrete_trees import random_problem
 
-from geartrain.synthesis.reconstruction.candidate_names import NamedArbor, NamedWheel, name_train
-from geartrain.synthesis.reconstruction.explained_facts import Fact, FactTally, sum_facts
-from geartrain.synthesis.reconstruction.reconstruction_problem import PriorFactors, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_result import topology_prior
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.search_tasks import CountedTopology, TopologyTrains
+from geartrain.search import ToothCountPosterior, infer_counts
+from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, name_train
+from geartrain.search.reconstruct.explained_facts import Fact, FactTally, sum_facts
+from geartrain.search.reconstruct.reconstruction_problem import PriorFactors, ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_result import topology_prior
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.search_tasks import CountedTopology, TopologyTrains
 from geartrain.train import Train, declare
-from geartrain.uncertainty import ToothCountPosterior, infer_counts
 
 NO_FACTORS = PriorFactors(Fraction(1), Fraction(1), Fraction(1))
 

@@ -9,7 +9,7 @@ import pytest
 import scipy.stats
 from numpy.typing import NDArray
 
-from geartrain.uncertainty.monte_carlo.sobol_indices import saltelli_indices
+from geartrain.workshop.monte_carlo.sobol_indices import saltelli_indices
 
 Floats = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from models import load
 
-from geartrain.report import describe_budget, to_markdown
-from geartrain.uncertainty import BudgetQuestion, find_budget
+from geartrain.report import to_markdown
+from geartrain.workshop import BudgetQuestion, describe_budget, find_budget
 
 ASKED = BudgetQuestion(turns=1, samples=20, trials=4)
 CLOCK = """

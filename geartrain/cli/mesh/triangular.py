@@ -29,7 +29,6 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.mesh.best_sizes import SizeQuestion, read_start
 from geartrain.cli.mesh.form_options import (
     FormOptions,
     Internal,
@@ -53,6 +52,7 @@ from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError
 from geartrain.teeth.triangular.triangular_form import FEWEST, Triangular
+from geartrain.workshop.sizes.pair_verb import SizeQuestion, read_start
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairOperation

@@ -22,10 +22,10 @@ from geartrain.scene.solids.standing_pins import with_pins_apart
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneWheel
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
+    from geartrain.simulation import TimeRun
 
 _FINE = 0.05  # mm that chords of plates may leave their curves
 _FIT = 0.01  # mm that those of holes may, of which a running fit leaves 0.04 mm all round

@@ -14,6 +14,7 @@ from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.result_picture import picture_maker
 from geartrain.train import Train, declare
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.speeds import Mobility
     from geartrain.kinematics.train_kinematics import Method
     from geartrain.kinematics.willis_system import WillisSystem
-    from geartrain.simulation import TrainStrength
-    from geartrain.simulation.time.stepwise_simulation import Simulation
-    from geartrain.simulation.time.time_run import TimeRun
     from geartrain.teeth.gear_mesh import GearMesh
 
 
@@ -474,7 +472,7 @@ class GearTrain:
         years: float | None = None,
         wear: tuple[float, float] | None = None,
         over: float | None = None,
-    ) -> TrainStrength:
+    ) -> Any:
         """Pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
 
         Parameters
@@ -493,7 +491,7 @@ class GearTrain:
 
         Returns
         -------
-        TrainStrength
+        geartrain.simulation.TrainStrength
             With a verdict: where torques do not follow from the loads there is nothing else.
 
         Raises
@@ -501,9 +499,8 @@ class GearTrain:
         QuestionError
             If loads have no unit, time is given twice or cannot be calculated, or K is not a range.
         """
-        from geartrain.simulation.strength.train_strength import Service, solve_strength
-
-        return solve_strength(self.mechanics, state, Service(turns, years, wear), over)
+        strength = wing("simulation.strength.train_strength")
+        return strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
 
     def dynamics(
         self,
@@ -520,7 +517,7 @@ class GearTrain:
         fast: bool | None = None,
         on_done: Callable[[float], object] = lambda _: None,
         model: Literal["rigid", "compliant"] = "rigid",
-    ) -> TimeRun:
+    ) -> Any:
         """Motion in time: inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
         Rigid teeth by nonsmooth time stepping; teeth that yield by their stiffness and damping, with peaks of torque
@@ -559,7 +556,7 @@ class GearTrain:
 
         Returns
         -------
-        TimeRun
+        geartrain.simulation.TimeRun
             Angles, speeds, torques, shares of time apart, impacts, energy.
 
         Raises
@@ -570,9 +567,9 @@ class GearTrain:
         GearTrainError
             If redundant loops have teeth that cannot turn together, or friction locks teeth.
         """
-        from geartrain.simulation.time.train_in_time import DrivenTrain
-
-        driven = DrivenTrain(self.mechanics, state, rate, restitution, outputs, without)
+        driven = wing("simulation.time.train_in_time").DrivenTrain(
+            self.mechanics, state, rate, restitution, outputs, without
+        )
         return driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
 
     def simulation(
@@ -585,7 +582,7 @@ class GearTrain:
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
         fast: bool | None = False,
-    ) -> Simulation:
+    ) -> Any:
         """A train that moves in time step by step, and may be steered on the way; the steps are those of `dynamics`.
 
         Parameters
@@ -599,7 +596,7 @@ class GearTrain:
 
         Returns
         -------
-        Simulation
+        geartrain.simulation.Simulation
             At time 0.
 
         Raises
@@ -609,9 +606,14 @@ class GearTrain:
         GearTrainError
             As from `dynamics`.
         """
-        from geartrain.simulation.time.train_in_time import DrivenTrain
+        driven = wing("simulation.time.train_in_time").DrivenTrain(
+            self.mechanics, state, rate, restitution, outputs, without
+        )
+        return driven.simulation(step, fast)
 
-        return DrivenTrain(self.mechanics, state, rate, restitution, outputs, without).simulation(step, fast)
+    def _driven(self, *asked: Any) -> Any:
+        """The train driven in time in one state, from the wing `simulation`."""
+        return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *asked)
 
     # ----------------------------------------------------------------------------------------------------- other trains
 

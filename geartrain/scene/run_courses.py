@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.scene.context import SceneContext
     from geartrain.scene.elements import SceneCoupling, ScenePair, SceneWheel
     from geartrain.scene.error_steps import Movement
-    from geartrain.simulation import TimeRun
+    from geartrain.scene.scene_run import TimeRun
 
 TOLERANCE = 1e-4
 """Within which angles of a page are those of the simulation (rad)."""

@@ -1,4 +1,19 @@
-"""Search: tooth numbers for a wanted motion, reconstructions, posteriors of tooth counts."""
+"""Search: tooth numbers for a wanted motion, reconstructions of trains, posteriors of tooth counts.
+
+In: a ratio, a train with wheels to be found, a kind of epicyclic set, the periods of an orrery, surviving wheels, or
+uncertain tooth counts. Out: the tooth counts that fit, ranked, with proof that the search was complete, or why it was
+not; their posterior probabilities. Counts are decided in integers, ratios in Fractions.
+
+ratio          one ratio by stages of gear pairs: meet in the middle on sorted products (`find_stages`)
+train          the free wheels of a declared train: an exact weighted join (`search_train`)
+epicyclic      sets of sun, planets and ring: the Willis equation over all coaxial sets (`find_sets`)
+orrery         many periods that share wheels: branch and bound, beam search (`find_orrery`)
+stern_brocot   fractions near a number: the Stern-Brocot tree (`approximants`)
+reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
+posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
+join           the exact join behind `train` and `posterior`; `constraints`: what else must hold of tooth counts
+teeth_verb     the command `teeth`; `verb_options`, `tooth_numbers_report`: what its searches share
+"""
 
 from __future__ import annotations
 

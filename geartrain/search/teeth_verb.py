@@ -14,7 +14,15 @@ from geartrain.cli.verbs import LazyGroup, Verbs
 class SearchGroup(LazyGroup):
     """What tooth numbers can be searched for."""
 
-    verbs = Verbs(__name__, ("ratio", "approximants", "train", "set", "orrery"))
+    verbs = Verbs(
+        {
+            "ratio": "geartrain.search.ratio.verb",
+            "approximants": "geartrain.search.approximants_verb",
+            "train": "geartrain.search.train.verb",
+            "set": "geartrain.search.epicyclic.verb",
+            "orrery": "geartrain.search.orrery.verb",
+        }
+    )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         """The search that was asked for; for a question without its word, as it was asked once, the word is told."""

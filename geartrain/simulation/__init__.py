@@ -1,4 +1,15 @@
-"""Simulation: inertia, contacts, motion in time, strength and wear, co-simulation units."""
+"""Simulation: motion in time, strength and wear, co-simulation units.
+
+In: a train with inertia, loads, a rate and materials. Out: the rate at which teeth first part, motion in time with
+impacts and energy, vibration modes, contact pressure, root stress and wear, a co-simulation unit.
+
+inertia    moments of inertia of links, loads due to inertia, separation rates
+contacts   the model that is stepped: coordinates and contacts, of rigid or compliant teeth
+steps      the equations of one step, the search for contacts, the energy account
+time       runs and their figures, spectra, modes, step-by-step simulation
+strength   pressures, stresses and wear of a loaded train; `formulas` of ISO 6336, Hertz, Lewis and Archard
+fmu        co-simulation units (FMI)
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""Workshop: files to cut, cutting errors and Monte Carlo, tooth sizes, error budgets."""
+"""Workshop: files to cut, wheels cut by hand, tooth sizes, error budgets of pointers.
+
+export        outlines, plates, solids, graphs and tables of a train as files; proof that the cut parts turn
+cutting       wheels with cutting errors: which pairs jam, clash or lose contact, and their transmission functions
+monte_carlo   trials of a train cut by hand, and of its friction: probabilities with confidence intervals, Sobol indices
+budget        the causes of a pointer's error: ratio, pins, teeth, lost motion, cutting (`find_budget`)
+sizes         radii, clearance and half angle of triangular teeth that minimise loss, error, impact or jamming
+"""
 
 from __future__ import annotations
 

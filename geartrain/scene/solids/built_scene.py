@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneWheel
+    from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
-    from geartrain.simulation import TimeRun
 
 _FINE = 0.05  # mm that chords of plates may leave their curves
 _FIT = 0.01  # mm that those of holes may, of which a running fit leaves 0.04 mm all round
@@ -48,7 +48,7 @@ def build_scene(
         Loaded or declared.
     state : str, optional
         One of its states; by default the first, or that of the run.
-    run : TimeRun, optional
+    run : geartrain.simulation.TimeRun, optional
         What `train.dynamics(...)` gave in that state: then this is what moves.
     formulas : bool
         As `make_scene` has it.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.search import ToothCountPosterior
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior
 
 
 Chances = Mapping[int, float]

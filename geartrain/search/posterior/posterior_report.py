@@ -12,8 +12,13 @@ from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.search.tooth_numbers_report import error_text
 
 if TYPE_CHECKING:
-    from geartrain.search import CountCombination, CountProbability, ToothCountPosterior, WheelPosterior
-    from geartrain.search.posterior.posterior_result import VarianceShares
+    from geartrain.search.posterior.posterior_result import (
+        CountCombination,
+        CountProbability,
+        ToothCountPosterior,
+        VarianceShares,
+        WheelPosterior,
+    )
 
 _LIKELIEST = 4  # counts told of one wheel; the JSON has all
 _STRONGEST = 12

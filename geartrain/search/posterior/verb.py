@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -20,7 +21,9 @@ from geartrain.cli.common import (
     StateName,
     as_json,
     check_distinct_outputs,
+    draw,
     emit,
+    picture_sink,
     read_share,
     show,
     sink,
@@ -31,11 +34,11 @@ from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_jou
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError
-from geartrain.workshop.monte_carlo.uncertainty_plots import Plot, check_plot, draw_counts
 
 if TYPE_CHECKING:
-    from geartrain.search import ToothCountPosterior
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior
 
+Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
 FORMS = (".md", ".html", ".json", ".csv", ".parquet")
 
 
@@ -76,10 +79,10 @@ def run(
 ) -> None:
     """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
     from geartrain.numerics.files import ColumnTable
-    from geartrain.search import infer_counts
+    from geartrain.search.posterior.inference import infer_counts
     from geartrain.train.declaration_files import read_declaration
 
-    to, drawing = sink(out, force, FORMS), check_plot(plot, force, theme)
+    to, drawing = sink(out, force, FORMS), picture_sink(plot, force, theme)
     check_distinct_outputs(to, drawing)
     if to.suffix == ".parquet" and to.path is not None:
         ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
@@ -106,7 +109,7 @@ def run(
         tell(f"nothing fits, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
         held = {**asked, "most": 1}
-        draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**asked["free"], **one}}), drawing)
+        _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**asked["free"], **one}}), drawing)
     _answer(found, json, to)
 
 
@@ -157,3 +160,17 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[s
             tell(f"wrote {to.path}")
         else:
             tell(f"nothing fits, so {to.path} is not written")
+
+
+def _draw_counts(
+    found: ToothCountPosterior, again: Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior], to: Sink
+) -> None:
+    """Counts of the wheels of which the outputs tell most, each and two by two, to a file.
+
+    again   sweeps the same train for the same evidence, with some wheels held to the counts given
+    """
+    from geartrain.search.posterior.corner_plot import counts_figure
+    from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels
+
+    wheels = most_informative_wheels(found)
+    draw(counts_figure(found, joint_posterior(found, wheels, again)), to)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Section, Table
 
 if TYPE_CHECKING:
-    from geartrain.simulation import SeparationRates
+    from geartrain.simulation.inertia.separation_rate import SeparationRates
 
 
 def separation_section(found: SeparationRates) -> Section:

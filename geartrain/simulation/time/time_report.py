@@ -14,14 +14,11 @@ from geartrain.report.torque_cycle_report import turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.simulation import (
-        ContactInTime,
-        LinkInertia,
-        SeparationRates,
-        SettledFigure,
-        SteppedSeparation,
-        TimeRun,
-    )
+    from geartrain.simulation.inertia.link_inertia import LinkInertia
+    from geartrain.simulation.inertia.separation_rate import SeparationRates
+    from geartrain.simulation.time.run_parts import ContactInTime, SettledFigure
+    from geartrain.simulation.time.stepped_separation import SteppedSeparation
+    from geartrain.simulation.time.time_run import TimeRun
 
 _SURE = 1e-9  # an account that closes to less says nothing more
 _STILL = 1e-9  # rad: rounding of angles

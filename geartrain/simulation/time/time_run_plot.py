@@ -30,7 +30,8 @@ from geartrain.simulation.time.angle_spectrum import find_amplitudes
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation import SpectrumPeak, TimeRun
+    from geartrain.simulation.time.run_parts import SpectrumPeak
+    from geartrain.simulation.time.time_run import TimeRun
 
 _PAIRS = 6  # whose gaps are drawn: those most apart
 _STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair

@@ -42,7 +42,8 @@ from geartrain.cli.time_runs import (
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.simulation import SteppedSeparation, TimeRun
+    from geartrain.simulation.time.stepped_separation import SteppedSeparation
+    from geartrain.simulation.time.time_run import TimeRun
 
 
 def run(
@@ -91,7 +92,7 @@ def run(
         report = collect_time_report(train, found, asked["without"], stepped)
         give(to, json, lambda: report, lambda: [describe_time_run(report)])
     if plot is not None:
-        from geartrain.simulation import time_run_figure
+        from geartrain.simulation.time.time_run_plot import time_run_figure
 
         name = train.name if found.state is None else f"{train.name}, state {found.state}"
         draw(time_run_figure(found, f"{name}: in time, {abs(found.rate) / tau:.4g} turn/s of {found.lead}"), picture)

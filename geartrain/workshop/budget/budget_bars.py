@@ -10,7 +10,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:
-    from geartrain.workshop import PointerBudget, TrainBudget
+    from geartrain.workshop.budget.pointer_budget import PointerBudget, TrainBudget
 
 COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
 MOST = 8

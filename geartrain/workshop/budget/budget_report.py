@@ -9,7 +9,8 @@ from geartrain.report.document import Document, Section, Table, cut, ppm
 from geartrain.workshop.monte_carlo.monte_carlo_report import share_text
 
 if TYPE_CHECKING:
-    from geartrain.workshop import BudgetCause, CrankLoad, PointerBudget, TrainBudget
+    from geartrain.workshop.budget.crank_load import CrankLoad
+    from geartrain.workshop.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
 
 NOT_DECLARED = "not declared"
 _PAIRS = 5  # of each pointer

@@ -28,6 +28,7 @@ from geartrain.cli.option_values import restitution as read_restitution
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.decimal_text import plural
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.scene import ManufacturingSizes, SolidModel
@@ -121,18 +122,19 @@ def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
     """A co-simulation unit."""
     from geartrain.analysis.gear_train import load
-    from geartrain.simulation import CoSimulationCase, fmu_file
+
+    simulation = wing("simulation")
 
     rate, restitution, step, without = of_time.values()
     train = load(file)
-    case = CoSimulationCase(
+    case = simulation.CoSimulationCase(
         train.declaration.state_or_first(state),
         None if rate is None else input_rate(rate),
         None if step is None else quantity("--step", step, "time", least="above 0"),
         None if restitution is None else read_restitution(restitution),
         tuple(without or ()),
     )
-    to.write(fmu_file(train, case))
+    to.write(simulation.fmu_file(train, case))
     raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 
@@ -162,8 +164,7 @@ def _turns(text: str | None) -> Fraction | None:
 
 
 def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.workshop import train_file, wheel_file
-    from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of
+    from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of, train_file, wheel_file
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
@@ -176,9 +177,8 @@ def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None,
 
 def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
     from geartrain.numerics.files import check_folder, write_folder
-    from geartrain.workshop import export_files, notices
     from geartrain.workshop.export.assembly_guide import unproved
-    from geartrain.workshop.export.file_set import KINDS, installed, parts_wanted
+    from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_wanted
 
     if wheel is not None:
         raise GearTrainError(Problem("--wheel is for one file", "", "give -o FILE in place of --to", "--wheel"))

@@ -9,7 +9,7 @@ from geartrain.report.document import Section, Table
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
 
 if TYPE_CHECKING:
-    from geartrain.workshop import FrictionTrials, TrialFigure
+    from geartrain.workshop.monte_carlo.friction_trials import FrictionTrials, TrialFigure
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:

@@ -19,8 +19,11 @@ from geartrain.workshop.monte_carlo.tornado_chart import VarianceShare, tornado_
 if TYPE_CHECKING:
     from geartrain.numerics import ProbabilityEstimate
     from geartrain.numerics.arrays import Floats
-    from geartrain.workshop import ClearanceCase, PointerErrorCourse, SobolIndices, TrialResults
+    from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse
+    from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
+    from geartrain.workshop.monte_carlo.trial_results import TrialResults
 
 
 _TICKS = 8  # counts of trials that are written, or a few more

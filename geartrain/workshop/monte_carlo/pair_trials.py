@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.workshop import ToothSizes
 from geartrain.workshop.cutting.declared_errors import ErrorOverride
 from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
 from geartrain.workshop.monte_carlo.trial_run import run_trials
+from geartrain.workshop.sizes.size_design import ToothSizes
 from geartrain.workshop.sizes.train_sizes import form_data
 
 

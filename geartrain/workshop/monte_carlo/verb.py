@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import nullcontext, suppress
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -21,19 +22,27 @@ from geartrain.cli.common import (
     StateName,
     Without,
     check_distinct_outputs,
+    draw,
     give,
+    picture_sink,
     sink,
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.theme import Theme
-from geartrain.workshop.monte_carlo.uncertainty_plots import Picture, Plot, check_plot, draw_findings
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
-    from geartrain.workshop import TrialPlan, TrialResults
+    from geartrain.scene.palette import ThemeName
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+    from geartrain.workshop.monte_carlo.trial_results import TrialResults
     from geartrain.workshop.monte_carlo.trial_run import TrialTable
+
+Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+Picture = Annotated[
+    str, typer.Option("--picture", help="What --plot draws: errors, course, convergence, sobol, pairs or map.")
+]
 
 
 def run(
@@ -62,14 +71,15 @@ def run(
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
     from geartrain.analysis.gear_train import load
-    from geartrain.workshop import find_trial_plan, read_error_overrides
+    from geartrain.workshop.cutting.declared_errors import read_error_overrides
     from geartrain.workshop.monte_carlo.clearance_study import read_clearances
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies
+    from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
     from geartrain.workshop.monte_carlo.trial_run import SUFFIXES, TrialTable, check_trials, journal_key
 
     to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
     check_trials(trials)
-    drawing = check_plot(plot, force, theme, picture)
+    drawing = _check_plot(plot, force, theme, picture)
     check_distinct_outputs(to, drawing)
     sweep = read_clearances(clearance) if clearance else []
     studies = TrialStudies(sweep, bool(output), sobol)
@@ -93,7 +103,7 @@ def run(
     if table is not None and found.complete:
         tell(f"wrote {out}")
     if drawn is not None and plot is not None:
-        draw_findings(drawn, picture, drawing)
+        _draw_findings(drawn, picture, drawing)
     if findings is None:
         raise typer.Exit(INTERRUPTED)
 
@@ -110,10 +120,27 @@ class _StoppedError(Exception):
 
 def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: TrialTable | None) -> TrialResults:
     """The trials, kept in the journal, and handed on to a table block by block."""
-    from geartrain.workshop import run_trials
+    from geartrain.workshop.monte_carlo.trial_run import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
         found = run_trials(plan, trials, seed, given, take)
         if not found.complete:
             raise _StoppedError  # so that the table stays partial
     return found
+
+
+def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
+    """Where a picture goes; one that there is not, or that may not be written, is refused before the work."""
+    if plot is not None:
+        from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
+
+        if picture not in ALL:
+            raise typer.BadParameter(f"'{picture}' is no picture; use {', '.join(ALL)}", param_hint="--picture")
+    return picture_sink(plot, force, theme)
+
+
+def _draw_findings(findings: MonteCarloResult, picture: str, to: Sink) -> None:
+    """One picture of trials to a file."""
+    from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure
+
+    draw(monte_carlo_figure(findings, picture), to)

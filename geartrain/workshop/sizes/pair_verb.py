@@ -35,23 +35,22 @@ class SizeQuestion:
     within: tuple[str, ...]
     errors: tuple[str, ...]
 
-    def is_one(self, others: Mapping[str, object]) -> bool:
-        """True where the best sizes are asked for; refused beside options that ask for something else."""
+    def check(self, others: Mapping[str, object]) -> None:
+        """Refuse options that need `--best`, and `--best` beside options that request something else."""
         if self.best is None:
             for option, given in (("--free", self.free), ("--within", self.within), ("--set", self.errors)):
                 if given:
                     raise typer.BadParameter(
                         "nothing says what sizes are to be best in: give --best", param_hint=option
                     )
-            return False
+            return
         for option, other in others.items():
             if other:
                 raise typer.BadParameter("--best asks for something else: leave one of the two out", param_hint=option)
-        return True
 
     def answer(self, start: ToothSizes, to: Sink, picture: Sink, json: bool) -> NoReturn:
         """The best sizes as a page, as data and as a picture; then the command ends."""
-        from geartrain.workshop import find_tooth_sizes
+        from geartrain.workshop.sizes.best_sizes import find_tooth_sizes
         from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
 
         aims = tuple(part.strip() for part in (self.best or "").split(","))
@@ -62,14 +61,14 @@ class SizeQuestion:
             found = find_tooth_sizes(start, aims, free, limits, chance, bar.advance)
         give(to, json, lambda: found, lambda: [describe_tooth_sizes(found)])
         if picture.path is not None:
-            from geartrain.workshop import tooth_sizes_figure
+            from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure
 
             draw(tooth_sizes_figure(found), picture)
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
 
     def _chance(self) -> ChanceLimit | None:
         """The limit on the chance that a pair cut with errors stops."""
-        from geartrain.workshop import ChanceLimit
+        from geartrain.workshop.sizes.size_search import ChanceLimit
 
         given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
         if bool(given) != bool(self.errors):
@@ -77,7 +76,8 @@ class SizeQuestion:
             raise typer.BadParameter(what, param_hint="--within" if given else "--set")
         if not given:
             return None
-        from geartrain.workshop import PairTrials, read_error_overrides
+        from geartrain.workshop.cutting.declared_errors import read_error_overrides
+        from geartrain.workshop.monte_carlo.pair_trials import PairTrials
 
         bound = min(quantity("--within", text, "fraction", plain=True, least="0") for text in given)
         return ChanceLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
@@ -92,7 +92,7 @@ def read_start(
     teeth: tuple[int, int], own: FormOptions, friction: float, driver: int, internal: bool = False
 ) -> ToothSizes:
     """The pair that options give; its clearance is in the middle of the window where none is given."""
-    from geartrain.workshop import ToothSizes
+    from geartrain.workshop.sizes.size_design import ToothSizes
 
     for name in _OTHER:
         if own[name] is not None:
@@ -135,7 +135,7 @@ def _bound(name: str, text: str) -> float:
 
 def read_limits(given: Sequence[str]) -> list[SizeLimit]:
     """NAME=LIMIT, each on the side that is bad."""
-    from geartrain.workshop import SizeLimit
+    from geartrain.workshop.sizes.size_design import SizeLimit
 
     found = []
     for text in given:

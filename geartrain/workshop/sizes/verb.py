@@ -58,8 +58,8 @@ def run(
 ) -> None:
     """Sizes of triangular teeth, pair by pair and together, with which a train is best; -o x.yaml: as a declaration."""
     from geartrain.analysis.gear_train import load
-    from geartrain.workshop import find_train_sizes
     from geartrain.workshop.sizes.tooth_sizes_report import describe_train_sizes
+    from geartrain.workshop.sizes.train_size_search import find_train_sizes
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
     picture = picture_sink(plot, force, theme)
@@ -69,7 +69,7 @@ def run(
     with progress("optimise", 10 * len(train.declaration.gears), patience=2) as bar:
         found = find_train_sizes(train, output, best, ranges, limits, state, bar.advance)
     if plot is not None:
-        from geartrain.workshop import train_sizes_figure
+        from geartrain.workshop.sizes.tooth_sizes_plot import train_sizes_figure
 
         draw(train_sizes_figure(found), picture)
     if to.suffix in _YAML:

@@ -110,7 +110,7 @@ LONGEST = 20_000
 """Letters up to which a text is kept as it is; longer ones, and all that is no text, by a hash."""
 TRIALS = 128
 """Trials up to which shipped trains are cut in the pages."""
-_SHIPPED = ("trains", "evidence")
+_SHIPPED = ("trains",)
 """Folders that the pages read."""
 NOT_COMPARED = "a file whose content is not compared"
 SHOWN = 10
@@ -157,7 +157,7 @@ class Group(NamedTuple):
 
 def groups() -> Iterator[Group]:
     """All that is asked today."""
-    for path in sorted(ROOT.glob("trains/*/*.yaml")):
+    for path in train_files():
         asked = (*EACH, *(SEARCHED if "search:" in path.read_text(encoding="utf-8") else ()))
         yield Group(
             path.stem, [_run(f"geartrain {each.format(path.stem)}") for each in asked], together=False, train=True

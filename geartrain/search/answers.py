@@ -12,7 +12,7 @@ def answers() -> dict[str, Any]:
     from geartrain.search.orrery.orrery_result import Orrery
     from geartrain.search.posterior.posterior_result import ToothCountPosterior
     from geartrain.search.ratio.stage_search import StageFindings
-    from geartrain.search.reconstruct.reconstruction_report import ReconstructionReport
+    from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
     from geartrain.search.stern_brocot import Approximants
     from geartrain.search.train.train_findings import TrainFindings
 
@@ -24,5 +24,5 @@ def answers() -> dict[str, Any]:
         "teeth set --kind list": dict[str, EpicyclicKind],
         "teeth train": TrainFindings,
         "teeth orrery": Orrery,
-        "reconstruct": ReconstructionReport,
+        "reconstruct": ReconstructionAnswer,
     }

@@ -16,8 +16,9 @@ from places import ROOT, TESTS
 
 PACKAGE = ROOT / "geartrain"
 ROOMS = {
-    *("cli", "report", "drawing", "viewer", "export", "scene", "uncertainty", "synthesis", "spherical", "analysis"),
-    *("dynamics", "kinematics", "train", "teeth", "numerics", "errors"),
+    *("cli", "report", "drawing", "viewer", "scene", "spherical", "analysis"),
+    *("dynamics", "kinematics", "train", "teeth", "numerics", "errors", "wings"),
+    *("search", "workshop", "simulation"),
 }
 FILES = {"__init__", "__main__", "py"}
 

@@ -104,6 +104,7 @@ class TimeRun(Tabular, Pictured, Result):
     """
 
     FIGURE = "time_run_figure"
+    DRAWN_IN = "simulation"
 
     KEYS = (
         "train",

@@ -244,6 +244,7 @@ class TrainBudget(Tabular, Pictured, Result):
     """
 
     FIGURE = "budget_figure"
+    DRAWN_IN = "workshop"
 
     KEYS = (
         *("name", "state", "span_days", "turns", "samples", Key("input", "lead"), "pointers", "crank"),

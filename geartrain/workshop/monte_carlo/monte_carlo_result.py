@@ -56,6 +56,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
     """
 
     FIGURE = "monte_carlo_figure"
+    DRAWN_IN = "workshop"
 
     KEYS = (
         Key("train", "trials.plan.name"),

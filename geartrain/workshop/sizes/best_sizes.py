@@ -54,6 +54,7 @@ class BestToothSizes(Tabular, Pictured, Result):
     """
 
     FIGURE = "tooth_sizes_figure"
+    DRAWN_IN = "workshop"
 
     KEYS = (
         *("teeth", "driver", "friction", "aims", "free", "limits", "best", "outlines"),

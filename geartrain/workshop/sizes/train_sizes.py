@@ -94,6 +94,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
     """
 
     FIGURE = "train_sizes_figure"
+    DRAWN_IN = "workshop"
 
     KEYS = (
         *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from functools import cache, cached_property
 from itertools import pairwise
 from math import atan2, cos, degrees, hypot, pi, sin, tan, tau
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,7 @@ from geartrain.teeth.outline_mesh import OutlineMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 from geartrain.workshop import export_files, notices, wheel_file
 
-TRAINS = sorted(path.stem for path in Path(geartrain.__file__).parent.parent.glob("trains/**/*.yaml"))
+TRAINS = sorted(geartrain.shipped())
 PLAYED = [
     "ferguson-paradox",
     "lantern-mill",

@@ -7,7 +7,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from uncertainty.test_displaced_flanks import as_drawn, by_law, even, off_ratio, tilted
+from workshop.test_displaced_flanks import as_drawn, by_law, even, off_ratio, tilted
 
 import geartrain
 from geartrain import GearTrainError

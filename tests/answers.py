@@ -40,6 +40,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
+from places import train_files
+
 ROOT = Path(__file__).resolve().parent.parent
 RENAMED: dict[str, str] = {"geartrain errors": "geartrain montecarlo", "geartrain sweep": "geartrain posterior"}
 """Old spellings and new: of a verb where a command begins so ("geartrain mesh pin": "geartrain pin"), of an option

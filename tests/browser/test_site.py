@@ -17,6 +17,7 @@ import shipped
 import yaml
 from package.test_public_names import SHOWING
 from PIL import Image
+from places import train_files
 from playwright.sync_api import Browser, Page, expect
 from viewing import GALLERY
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
 
-    Ints = NDArray[Any]
     Places = NDArray[np.int64]
     Ints = NDArray[Any]  # int64, or Python integers where those would overflow
 

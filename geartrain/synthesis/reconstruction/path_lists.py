@@ -8,7 +8,7 @@ every dial still has one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, cached_property
 from math import prod
@@ -135,6 +135,7 @@ class PathGrowth:
     keys, powers      of what is left to be added: its key, and the powers of large primes in it
     drivers, driven   added wheels beside surviving ones that drive, and that are driven
     added, idle       added wheels, idlers counted too, and surviving wheels that are passed by
+    need              added wheels that must have a large prime which no later arbor has
     ended             whether the path ends at one of the arbors
     """
 
@@ -145,6 +146,7 @@ class PathGrowth:
     driven: NDArray[np.int8]
     added: NDArray[np.int8]
     idle: NDArray[np.int8]
+    need: NDArray[np.int8]
     ended: NDArray[np.bool_]
 
     @staticmethod
@@ -155,13 +157,14 @@ class PathGrowth:
             np.zeros((1, arbors), dtype=np.uint16),
             np.array([key], dtype=np.uint64),
             powers[None, :],
-            *(none,) * 4,
+            *(none,) * 5,
             np.zeros(1, dtype=bool),
         )
 
     def columns(self) -> tuple[NDArray[Any], ...]:
         """All of it, a row each."""
-        return self.codes, self.keys, self.powers, self.drivers, self.driven, self.added, self.idle, self.ended
+        numbers = self.drivers, self.driven, self.added, self.idle, self.need
+        return self.codes, self.keys, self.powers, *numbers, self.ended
 
     @staticmethod
     def joined(parts: list[PathGrowth]) -> PathGrowth:
@@ -172,33 +175,50 @@ class PathGrowth:
         """Some of the paths."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 
+    def along(
+        self,
+        closing: Sequence[int],
+        lost: NDArray[np.bool_],
+        each: ArborPass | None,
+        powers: NDArray[np.int8],
+        limits: tuple[int, int | None],
+    ) -> PathGrowth:
+        """The paths that may go through one arbor more, or past it, with the added wheels that they need then.
+
+        closing   columns of large primes that no later arbor has
+        lost      by column, whether no added wheel has the prime
+        limits    how many wheels may be added, and how many may be passed by
+        """
+        wheels, debts = limits
+        need = self.need.copy()
+        good = np.ones(len(need), dtype=bool) if each is None or each.driver is not None else ~self.ended
+        for column in closing:
+            left = self.powers[:, column] + powers[column]
+            need += np.abs(left)
+            if lost[column]:
+                good &= left == 0
+        good &= need <= wheels
+        if each is not None:
+            good &= self.added <= wheels - each.added
+            if debts is not None:
+                good &= self.idle <= debts - each.idle
+        return replace(self, need=need).kept(good)
+
     def through(self, at: int, code: int, each: ArborPass, key: np.uint64, powers: NDArray[np.int8]) -> PathGrowth:
-        """The same paths, through one arbor more; one that has ended is not ended again."""
-        found = self.kept(~self.ended) if each.driver is None else self
-        codes = found.codes.copy()
+        """The same paths, through one arbor more; none of them has ended where the arbor would end it."""
+        codes = self.codes.copy()
         codes[:, at] = code
         return PathGrowth(
             codes,
-            found.keys + key,
-            found.powers + powers,
-            found.drivers + np.int8(each.added_drivers),
-            found.driven + np.int8(each.added_driven),
-            found.added + np.int8(each.added),
-            found.idle + np.int8(each.idle),
-            found.ended | (each.driver is None),
+            self.keys + key,
+            self.powers + powers,
+            self.drivers + np.int8(each.added_drivers),
+            self.driven + np.int8(each.added_driven),
+            self.added + np.int8(each.added),
+            self.idle + np.int8(each.idle),
+            self.need,
+            self.ended | (each.driver is None),
         )
-
-    def may_stand(
-        self, closed: list[int], lost: NDArray[np.bool_], wheels: int, debts: int | None
-    ) -> NDArray[np.bool_]:
-        """Which may become a path: no more is added, and no more wheels are passed by, than may be."""
-        held = self.powers[:, closed]
-        need = np.abs(held).sum(axis=1)
-        found: NDArray[np.bool_] = (need <= wheels) & (self.added <= wheels)
-        found &= ~(held[:, lost[closed]] != 0).any(axis=1)
-        if debts is not None:
-            found &= self.idle <= debts
-        return found
 
 
 Rows = NDArray[np.int64]
@@ -206,7 +226,7 @@ WayThrough = tuple[PlacedWheel | None, PlacedWheel | None]
 """The wheel by which a path comes into a surviving arbor and the one by which it goes on, as of `ArborPass`."""
 _MOST_PATHS = 1_000_000_000
 """Paths that are looked at on the way to those that are possible: minutes."""
-_PIECE = 1 << 21
+_PIECE = 1 << 19
 """Paths that are grown at once."""
 
 
@@ -320,23 +340,29 @@ class PathList:
         if not order:
             yield growth
             return
-        growth = self._with_arbor(growth, order[0])
         later = {prime for each in order[1:] for prime in self._primes_of(each)}
-        closed = [column for column, prime in enumerate(self.primes) if prime not in later]
-        debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
-        growth = growth.kept(growth.may_stand(closed, self._lost, self.problem.additions.wheels, debts))
+        own = set(self.primes) if len(order) == len(self.passes) else self._primes_of(order[0])
+        closing = [column for column, prime in enumerate(self.primes) if prime in own and prime not in later]
+        growth = self._with_arbor(growth, order[0], closing)
         for start in range(0, len(growth.codes), _PIECE):
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
-    def _with_arbor(self, growth: PathGrowth, at: int) -> PathGrowth:
+    def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
+        """Paths through one arbor more, or past it; `closing` are columns of primes that no later arbor has."""
+        debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
+        limits = self.problem.additions.wheels, debts
         parts = []
         for code, each in enumerate((None, *self.passes[at])):
             if (each is None and not at) or not self._is_listed(at, each):
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
-            parts.append(own if each is None else own.through(at, code, each, *self._step(each)))
-        self._looked_at += sum(len(part.codes) for part in parts)
+            self._looked_at += len(own.codes)
+            if each is None:
+                parts.append(own.along(closing, self._lost, None, np.zeros(len(self.primes), dtype=np.int8), limits))
+            else:
+                key, powers = self._step(each)
+                parts.append(own.along(closing, self._lost, each, powers, limits).through(at, code, each, key, powers))
         if self._looked_at > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be looked at"
             raise QuestionError(too_wide(self.problem, what))

@@ -48,7 +48,7 @@ def test_it_comes_to_a_train_that_parts_at_an_added_wheel() -> None:
 
 def test_a_search_that_loses_a_path_a_choice_or_a_tree_does_not_come_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
     losses = [
-        (PathGrowth, "may_stand", lambda *_: np.zeros(1, dtype=bool)),
+        (PathGrowth, "along", lambda growth, *_: growth.kept(np.zeros(len(growth.codes), dtype=bool))),
         (PathList, "_may_be_quotient", lambda *_: np.zeros(1, dtype=bool)),
         (PathChoice, "_closes", lambda _, __, ___, near: np.zeros(len(near.rows), dtype=bool)),
         (PathTrees, "_forest", lambda *_: iter(())),

@@ -97,7 +97,9 @@ class Ring(Protocol[T]):
     """
 
     @property
-    def modulus(self) -> int: ...
+    def modulus(self) -> int:
+        """What products are reduced by; 0 if they are not."""
+        ...
 
     def inverse(self, entry: T) -> T | None:
         """1 over a coefficient, None if it is not a unit of the ring."""

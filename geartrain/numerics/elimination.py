@@ -95,11 +95,7 @@ class Ring(Protocol[T]):
 
     @property
     def modulus(self) -> int:
-<<<<<<< HEAD
         """The modulus by which products are reduced; 0 if they are not reduced."""
-=======
-        """What products are reduced by; 0 if they are not."""
->>>>>>> compose
         ...
 
     def inverse(self, entry: T) -> T | None:

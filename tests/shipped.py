@@ -6,7 +6,7 @@ A law that every shipped train satisfies is checked on twelve trains that differ
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from functools import cache
 from typing import Any
 
@@ -39,10 +39,15 @@ def trains() -> list[str]:
     return list(geartrain.shipped())
 
 
-def every_train(names: Iterable[str] | None = None) -> list[Any]:
-    """Parameters of a test: some shipped trains, or all; those outside `KINDS` only run with `--slow`."""
+def every_train(names: Iterable[str] | None = None, dear: Container[str] = ()) -> list[Any]:
+    """Parameters of a test: some shipped trains, or all.
+
+    Those outside `KINDS`, and dear ones, which take seconds each, only run with `--slow`.
+    """
     known = trains() if names is None else names
-    return [pytest.param(name, marks=[] if name in KINDS else [pytest.mark.slow]) for name in known]
+    return [
+        pytest.param(each, marks=[] if each in KINDS and each not in dear else [pytest.mark.slow]) for each in known
+    ]
 
 
 @cache

@@ -87,14 +87,23 @@ FOLDER = ("export", "--to")
 FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstruct_command.py
 TRAINS: dict[str, Path] = {}
 
+Case = tuple[str, str, str]
+PARQUET = pytest.mark.needs("pyarrow")
 CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED.items() for suffix in suffixes]
 FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in ASKED.items()]
 OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh involute", "mesh uniform_stress"}
 
 
-def few_forms(cases: list[tuple[str, str, str]]) -> list[Any]:
-    """Cases that make a result: commands of tooth forms are one function, and most forms of it wait for --slow."""
-    return [pytest.param(*case, marks=[pytest.mark.slow] if case[0] in OTHER_FORMS else []) for case in cases]
+def few_forms(cases: list[Case], quick: list[Case]) -> list[Any]:
+    """Cases that make a result: commands of tooth forms are one function, and most forms of it wait for --slow.
+
+    So do cases that are not among the quick ones.
+    """
+    slow = {case for case in cases if case[0] in OTHER_FORMS or case not in quick}
+    return [
+        pytest.param(*case, marks=[pytest.mark.slow] * (case in slow) + [PARQUET] * (case[2] == ".parquet"))
+        for case in cases
+    ]
 
 
 def writing() -> Iterator[tuple[str, str]]:
@@ -195,7 +204,7 @@ def test_a_read_only_file_is_refused_even_to_root_and_by_force(
 
 
 @pytest.mark.parametrize(
-    ("command", "option", "suffix"), few_forms([case for case in CASES if case[:2] != ("view", "-o")])
+    ("command", "option", "suffix"), few_forms([case for case in CASES if case[:2] != ("view", "-o")], FIRST)
 )
 def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kept(
     here: Path, command: str, option: str, suffix: str
@@ -216,7 +225,7 @@ def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kep
     assert sorted(path.name for path in here.rglob("*")) == sorted(["away", link.name, real.name])
 
 
-@pytest.mark.parametrize(("command", "option", "suffix"), few_forms([case for case in FIRST if case[1] == "-o"]))
+@pytest.mark.parametrize(("command", "option", "suffix"), few_forms([case for case in FIRST if case[1] == "-o"], FIRST))
 def test_a_dash_is_standard_output_and_no_file(here: Path, command: str, option: str, suffix: str) -> None:
     done = ask(command, option, "-")
     if command == "export":

@@ -63,7 +63,7 @@ def one() -> PairStrength:
     return geartrain.load(PAIR).strength().pairs["p~w"]
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(st.floats(0.01, 50), st.floats(0.2, 10))
 def test_scaling(one: PairStrength, more: float, wider: float) -> None:
     train = PAIR.replace("60 N m", f"{60 * more:.12f} N m").replace("20 mm", f"{20 * wider:.12f} mm")

@@ -210,7 +210,11 @@ def test_wheels_of_one_shape_share_a_sheet_that_says_how_often() -> None:
 
 @pytest.mark.parametrize(
     ("train", "wheel", "word"),
-    [("worm", "w2", "worm"), ("bevel-differential", "c41", "bevel"), ("lantern-mill", "pit72", "contrate")],
+    [
+        ("worm", "w2", "worm"),
+        ("bevel-differential", "c41", "bevel"),
+        pytest.param("lantern-mill", "pit72", "contrate", marks=pytest.mark.slow),
+    ],
 )
 def test_what_has_no_flat_outline_is_refused_by_name_and_the_rest_is_written(train: str, wheel: str, word: str) -> None:
     work = SolidModel(load(train), ManufacturingSizes(), load(train).states[0] if load(train).states else None)

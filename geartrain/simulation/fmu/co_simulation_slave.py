@@ -47,7 +47,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         text = [(folder / name).read_text(encoding="utf-8") for name in (DECLARATION, CASE)]
         case = json.loads(text[1])
         train = load(folder / DECLARATION)
-        self._simulation = train.simulation(**case, fast=None)
+        self._simulation: Simulation = train.simulation(**case, fast=None)
         self._drive, self._step = self._simulation.drive, self._simulation.step
         self._restitution = dict(self._simulation.restitution)
         self._loads = dict.fromkeys(self._simulation.output_links, 0.0) | self._simulation.loads

@@ -1,4 +1,4 @@
-"""Wings: the packages of the large capabilities, which the rest of geartrain knows only by name.
+"""Access to wings: packages of large capabilities, which the core of geartrain knows only by name.
 
 The core of geartrain (declaration, kinematics, dynamics, tooth forms, scenes, reports) imports no wing. Where one of
 its commands offers what a wing adds, it asks `wing` for the public names of that wing, when they are needed.

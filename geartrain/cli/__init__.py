@@ -1,4 +1,4 @@
-"""The command: one file a verb. Verbs import what they need when they run; only this room prints and exits.
+"""Command line: one module for each command. Commands import what they need when they run; only they print and exit.
 
 Map: `verbs` finds the file of a verb, `exit_codes` ends a run; `common` has the options that verbs share, where results
 go and how trains are loaded, `option_values` reads values of options, `long_runs` progress bars and journals,

@@ -1,4 +1,4 @@
-"""Still pictures: of a train, and of what was found out about it.
+"""Static pictures of trains and of results.
 
 In: a train, or a result of another room. Out: a figure of matplotlib, which `render` writes as SVG, PNG or PDF; the
 same figure gives the same bytes. `picture` draws a train as plan to scale, stick diagram, graph, speed diagram or

@@ -1,7 +1,7 @@
-"""Torques, transmission error, motion in time: what loads, losses, real teeth and inertia do to a train.
+"""Torques, losses and transmission error: the effects of loads, friction and real teeth on a train.
 
 In: circuits, exact speeds and loads of a state, and what is known of each gear pair. Out: torques, powers, efficiencies
-and who drives whom; every link's angle at every position, with the error of its teeth; its motion in time. A user calls
+and who drives whom; every link's angle at every position, with the error of its teeth. A user calls
 `GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of the functions here with
 `GearTrain.mechanics`, and gets the results that are here.
 

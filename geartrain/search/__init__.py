@@ -1,4 +1,4 @@
-"""Search: tooth numbers for a wanted motion, reconstructions of trains, posteriors of tooth counts.
+"""Tooth numbers for a wanted motion, reconstructions of trains, posteriors of tooth counts.
 
 In: a ratio, a train with wheels to be found, a kind of epicyclic set, the periods of an orrery, surviving wheels, or
 uncertain tooth counts. Out: the tooth counts that fit, ranked, with proof that the search was complete, or why it was

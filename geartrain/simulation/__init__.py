@@ -1,4 +1,4 @@
-"""Simulation: motion in time, strength and wear, co-simulation units.
+"""Motion in time, strength and wear, co-simulation units.
 
 In: a train with inertia, loads, a rate and materials. Out: the rate at which teeth first part, motion in time with
 impacts and energy, vibration modes, contact pressure, root stress and wear, a co-simulation unit.

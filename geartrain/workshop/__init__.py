@@ -1,4 +1,4 @@
-"""Workshop: files to cut, wheels cut by hand, tooth sizes, error budgets of pointers.
+"""Files to cut, wheels cut by hand, tooth sizes, error budgets of pointers.
 
 export        outlines, plates, solids, graphs and tables of a train as files; proof that the cut parts turn
 cutting       wheels with cutting errors: which pairs jam, clash or lose contact, and their transmission functions

@@ -225,7 +225,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
     None if nothing behind the input has an inertia, if torques have no units, or without the wing `simulation`.
     """
-    if not has_wing("simulation"):
+    if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
     separation = wing("simulation.contacts.train_separation")
     if not separation.has_separation(train.mechanics, state):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from geartrain.errors import check_numbers
-from geartrain.simulation.inertia.inertial_loads import find_inertial_loads, is_heavy, torques_have_units
+from geartrain.simulation.inertia.inertial_loads import find_inertial_loads, torques_have_units
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import ToothImpact
@@ -79,7 +79,7 @@ def find_separation(
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
     """True if `find_separation` has an answer: a link behind the input has an inertia, and torques have units."""
     declared = train.declaration
-    if not is_heavy(declared) or not torques_have_units(declared, train.kinematics.case(state)):
+    if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
     from geartrain.simulation.inertia.link_inertia import find_link_inertias
 
@@ -112,7 +112,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     """
     train = train.planets_as_one
     case = train.kinematics.case(state)
-    if case.rate is None or case.rate.unit is None or not train.undriven or not is_heavy(train.declaration):
+    if case.rate is None or case.rate.unit is None or not train.undriven or not train.declaration.has_inertia:
         return {}
     from geartrain.dynamics.motion.motion_model import Motion
     from geartrain.dynamics.motion.motion_problem import find_motion_problem

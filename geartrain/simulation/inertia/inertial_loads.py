@@ -80,12 +80,6 @@ def _is_cranked(train: Train, case: StateCase) -> bool:
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
 
-def is_heavy(declared: Train) -> bool:
-    """True if some link has a moment of inertia, declared or from the density of its wheels."""
-    wheels = (wheel.density is not None for _, wheel in declared.wheels.values())
-    return declared.density is not None or any(link.inertia for link in declared.links.values()) or any(wheels)
-
-
 def torques_have_units(train: Train, case: StateCase) -> bool:
     """True if every torque that acts in one state has a unit."""
     return not any(_is_plain(torque) for torques in _torques(train, case) for torque in torques.values())

@@ -92,7 +92,7 @@ def run(
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
-    if trials is not None and over_turn is not None:
+    if trials is not None and over_turn is not None and over_turn.turns is not None:
         options = RunOptions(workers, dask, resume)
         tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:

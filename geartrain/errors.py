@@ -1,7 +1,7 @@
-"""What can go wrong: one kind of exception for a user to catch, and its problems with place, what, why and what to do.
+"""Errors: one exception for a user to catch, and its problems with place, what, why and fix.
 
-In: what a reader, a check or a method found wrong. Out: `GearTrainError` and its kinds; nothing else is raised at a
-user. That a train is locked or contradictory is no error: a verdict is an answer (`geartrain.kinematics.Verdict`).
+In: a fault found by a reader, a check or a method. Out: `GearTrainError` or a subclass; users see no other exception.
+A train that is locked or contradictory is not an error: a verdict is a result (`geartrain.kinematics.Verdict`).
 """
 
 from __future__ import annotations

@@ -40,6 +40,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
+from places import train_files
+
 ROOT = Path(__file__).resolve().parent.parent
 RENAMED: dict[str, str] = {"geartrain errors": "geartrain montecarlo", "geartrain sweep": "geartrain posterior"}
 """Old spellings and new: of a verb where a command begins so ("geartrain mesh pin": "geartrain pin"), of an option
@@ -110,7 +112,7 @@ LONGEST = 20_000
 """Letters up to which a text is kept as it is; longer ones, and all that is no text, by a hash."""
 TRIALS = 128
 """Trials up to which shipped trains are cut in the pages."""
-_SHIPPED = ("trains", "evidence")
+_SHIPPED = ("trains",)
 """Folders that the pages read."""
 NOT_COMPARED = "a file whose content is not compared"
 SHOWN = 10
@@ -157,7 +159,7 @@ class Group(NamedTuple):
 
 def groups() -> Iterator[Group]:
     """All that is asked today."""
-    for path in sorted(ROOT.glob("trains/*/*.yaml")):
+    for path in train_files():
         asked = (*EACH, *(SEARCHED if "search:" in path.read_text(encoding="utf-8") else ()))
         yield Group(
             path.stem, [_run(f"geartrain {each.format(path.stem)}") for each in asked], together=False, train=True

@@ -18,7 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from geartrain.synthesis.reconstruction.reconstruction_problem import (
+from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     Additions,
     Arbor,

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain import GearTrain
-from geartrain.synthesis import ConstraintOptions
-from geartrain.synthesis.constraints.assembly_constraints import find_constraints
-from geartrain.synthesis.constraints.count_conditions import CountConstraint
+from geartrain.search import ConstraintOptions
+from geartrain.search.constraints.assembly_constraints import find_constraints
+from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.train import Train
 
 Central = Mapping[str, tuple[int, bool]]

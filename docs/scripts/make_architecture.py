@@ -19,9 +19,8 @@ from geartrain.scene.palette import THEMES
 DOCS = Path(__file__).resolve().parents[1]
 PACKAGE = DOCS.parent / "geartrain"
 WIDTH, HEIGHT, COLUMN, ROW = 218, 54, 246, 84
-COLUMNS = {"uncertainty": 1.3, "synthesis": 1.0, "spherical": 0.0, "scene": 2.0, "analysis": 2.0, "dynamics": 2.0}
-"""Where a room stands that is alone in its row, or beside others not as the contract lists them; else in the middle."""
-MIDDLE = 1.5
+COLUMNS = {"spherical": 0.6, "scene": 2.0, "analysis": 2.0, "dynamics": 2.0, "wings": 2.4}
+"""Columns of packages that are alone in their row and would hide an arrow in the middle."""
 LETTERS = 36  # of a line in a box, which has two
 LIGHT = THEMES["light"]
 BOX = '<rect x="{x:.0f}" y="{y:.0f}" width="{w}" height="{h}" rx="6" fill="{fill}" stroke="{edge}" stroke-width="1.3"/>'
@@ -66,8 +65,7 @@ def places(rows: list[list[str]]) -> dict[str, tuple[float, float]]:
     found = {}
     for at, row in enumerate(rows):
         for column, room in enumerate(row):
-            alone = COLUMNS.get(room, MIDDLE)
-            x = float(column) if len(row) > 2 else alone
+            x = COLUMNS.get(room, column + (4 - len(row)) / 2)
             found[room] = (COLUMN * (x + 0.5), ROW * (at + 0.5))
     return found
 
@@ -91,7 +89,7 @@ def elements() -> Iterator[str]:
     width, height = COLUMN * 4, ROW * len(rows)
     yield (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
-        'font-family="sans-serif" role="img" aria-label="The rooms of geartrain and what they import">'
+        'font-family="sans-serif" role="img" aria-label="Packages of geartrain and their imports">'
     )
     yield '<defs><marker id="end" markerWidth="9" markerHeight="9" refX="6" refY="4" orient="auto">'
     yield f'<path d="M0,0 L8,4 L0,8 Z" fill="{LIGHT.quiet}"/></marker></defs>'

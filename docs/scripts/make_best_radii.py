@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from geartrain.errors import GearTrainError
-from geartrain.synthesis import ToothSizes
-from geartrain.synthesis.tooth_sizes.size_design import equal_depth_radii
-from geartrain.synthesis.tooth_sizes.size_search import SizeSearch
+from geartrain.workshop import ToothSizes
+from geartrain.workshop.sizes.size_design import equal_depth_radii
+from geartrain.workshop.sizes.size_search import SizeSearch
 
 DOCS = Path(__file__).resolve().parents[1]
 PAGE, DATA = DOCS / "best-radii.md", DOCS / "data" / "best_radii.json"

@@ -12,10 +12,10 @@ from textwrap import fill
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.drawing import budget_figure, render
+from geartrain.drawing import render
 from geartrain.errors import GearTrainError
-from geartrain.report import describe_budget, to_markdown
-from geartrain.uncertainty import BudgetQuestion, PointerBudget, TrainBudget, find_budget
+from geartrain.report import to_markdown
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, describe_budget, find_budget
 
 DOCS = Path(__file__).resolve().parents[1]
 FOLDER = DOCS / "budgets"

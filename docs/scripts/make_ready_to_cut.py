@@ -77,10 +77,10 @@ def measure() -> dict[str, Any]:
 def _proved(name: str, kind: str) -> dict[str, Any]:
     """The proof of a train, and how long the whole of it took."""
     import geartrain
-    from geartrain.export import export_files
-    from geartrain.export.file_set import KINDS, installed
-    from geartrain.export.proof import prove_train
     from geartrain.scene import ManufacturingSizes, SolidModel
+    from geartrain.workshop import export_files
+    from geartrain.workshop.export.file_set import KINDS, installed
+    from geartrain.workshop.export.proof import prove_train
 
     start = process_time()
     train = geartrain.load(name)

@@ -14,15 +14,14 @@ from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
 from geartrain.numerics.result_picture import picture_maker
 from geartrain.train import Train, declare
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.analysis.train_variants import TrainVariants
-    from geartrain.dynamics import Motion, TorqueCycle, Torques, TrainStrength
-    from geartrain.dynamics.time.stepwise_simulation import Simulation
-    from geartrain.dynamics.time.time_run import TimeRun
+    from geartrain.dynamics import Motion, TorqueCycle, Torques
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.buildability import BuildFinding
@@ -473,7 +472,7 @@ class GearTrain:
         years: float | None = None,
         wear: tuple[float, float] | None = None,
         over: float | None = None,
-    ) -> TrainStrength:
+    ) -> Any:
         """Pressures, root stresses, safety factors and wear under the loads of one state (docs/strength.md).
 
         Parameters
@@ -492,7 +491,7 @@ class GearTrain:
 
         Returns
         -------
-        TrainStrength
+        geartrain.simulation.TrainStrength
             With a verdict: where torques do not follow from the loads there is nothing else.
 
         Raises
@@ -500,9 +499,8 @@ class GearTrain:
         QuestionError
             If loads have no unit, time is given twice or cannot be calculated, or K is not a range.
         """
-        from geartrain.dynamics.strength.train_strength import Service, solve_strength
-
-        return solve_strength(self.mechanics, state, Service(turns, years, wear), over)
+        strength = wing("simulation.strength.train_strength")
+        return strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
 
     def dynamics(
         self,
@@ -519,7 +517,7 @@ class GearTrain:
         fast: bool | None = None,
         on_done: Callable[[float], object] = lambda _: None,
         model: Literal["rigid", "compliant"] = "rigid",
-    ) -> TimeRun:
+    ) -> Any:
         """Motion in time: inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
         Rigid teeth by nonsmooth time stepping; teeth that yield by their stiffness and damping, with peaks of torque
@@ -558,7 +556,7 @@ class GearTrain:
 
         Returns
         -------
-        TimeRun
+        geartrain.simulation.TimeRun
             Angles, speeds, torques, shares of time apart, impacts, energy.
 
         Raises
@@ -569,9 +567,9 @@ class GearTrain:
         GearTrainError
             If redundant loops have teeth that cannot turn together, or friction locks teeth.
         """
-        from geartrain.dynamics.time.train_in_time import DrivenTrain
-
-        driven = DrivenTrain(self.mechanics, state, rate, restitution, outputs, without)
+        driven = wing("simulation.time.train_in_time").DrivenTrain(
+            self.mechanics, state, rate, restitution, outputs, without
+        )
         return driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
 
     def simulation(
@@ -584,7 +582,7 @@ class GearTrain:
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
         fast: bool | None = False,
-    ) -> Simulation:
+    ) -> Any:
         """A train that moves in time step by step, and may be steered on the way; the steps are those of `dynamics`.
 
         Parameters
@@ -598,7 +596,7 @@ class GearTrain:
 
         Returns
         -------
-        Simulation
+        geartrain.simulation.Simulation
             At time 0.
 
         Raises
@@ -608,9 +606,14 @@ class GearTrain:
         GearTrainError
             As from `dynamics`.
         """
-        from geartrain.dynamics.time.train_in_time import DrivenTrain
+        driven = wing("simulation.time.train_in_time").DrivenTrain(
+            self.mechanics, state, rate, restitution, outputs, without
+        )
+        return driven.simulation(step, fast)
 
-        return DrivenTrain(self.mechanics, state, rate, restitution, outputs, without).simulation(step, fast)
+    def _driven(self, *asked: Any) -> Any:
+        """The train driven in time in one state, from the wing `simulation`."""
+        return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *asked)
 
     # ----------------------------------------------------------------------------------------------------- other trains
 

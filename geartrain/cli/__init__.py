@@ -1,4 +1,4 @@
-"""The command: one file a verb. Verbs import what they need when they run; only this room prints and exits.
+"""Command line: one module for each command. Commands import what they need when they run; only they print and exit.
 
 Map: `verbs` finds the file of a verb, `exit_codes` ends a run; `common` has the options that verbs share, where results
 go and how trains are loaded, `option_values` reads values of options, `long_runs` progress bars and journals,
@@ -25,43 +25,39 @@ class VerbGroup(EndingGroup, LazyGroup):
     """`geartrain` itself."""
 
     verbs = Verbs(
-        "geartrain.cli",
-        (
-            *(
-                "report",
-                "view",
-                "watch",
-                "draw",
-                "export",
-                "compare",
-                "check",
-                "solve",
-                "equations",
-                "init",
-                "format",
-                "formula",
-                "gearbox",
-                "graph",
-                "torques",
-                "strength",
-            ),
-            *(
-                "motion",
-                "dynamics",
-                "montecarlo",
-                "budget",
-                "sphere",
-                "teeth",
-                "posterior",
-                "optimise",
-                "reconstruct",
-                "schema",
-                "list",
-                "periods",
-                "mesh",
-                "bench",
-            ),
-        ),
+        {
+            "report": "geartrain.cli.report",
+            "view": "geartrain.cli.view",
+            "watch": "geartrain.cli.watch",
+            "draw": "geartrain.cli.draw",
+            "export": "geartrain.workshop.export.verb",
+            "compare": "geartrain.cli.compare",
+            "check": "geartrain.cli.check",
+            "solve": "geartrain.cli.solve",
+            "equations": "geartrain.cli.equations",
+            "init": "geartrain.cli.init",
+            "format": "geartrain.cli.format",
+            "formula": "geartrain.cli.formula",
+            "gearbox": "geartrain.cli.gearbox",
+            "graph": "geartrain.cli.graph",
+            "torques": "geartrain.cli.torques",
+            "strength": "geartrain.simulation.strength.verb",
+            "motion": "geartrain.cli.motion",
+            "dynamics": "geartrain.simulation.time.verb",
+            "montecarlo": "geartrain.workshop.monte_carlo.verb",
+            "budget": "geartrain.workshop.budget.verb",
+            "sphere": "geartrain.cli.sphere",
+            "teeth": "geartrain.search.teeth_verb",
+            "posterior": "geartrain.search.posterior.verb",
+            "optimise": "geartrain.workshop.sizes.verb",
+            "reconstruct": "geartrain.search.reconstruct.verb",
+            "schema": "geartrain.cli.schema",
+            "list": "geartrain.cli.list",
+            "periods": "geartrain.cli.periods",
+            "mesh": "geartrain.cli.mesh",
+            "bench": "geartrain.cli.bench",
+        },
+        entry_points="geartrain.wings",
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -35,7 +35,7 @@ from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import ErrorSamples, Motion, MotionRun, SeparationRates
+    from geartrain.dynamics import ErrorSamples, Motion, MotionRun
 
 
 def run(
@@ -87,11 +87,9 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+        from geartrain.report.motion_figures import separation_rates
 
-        own = train.mechanics
-        separation = partial(find_separation, own, state, without or ()) if has_separation(own, state) else None
-        of = train.name, state, separation
+        of = train.name, state, partial(separation_rates, train, state, without or ())
         _report(asked, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
     if plot is not None:
         from geartrain.drawing import motion_figure
@@ -121,7 +119,7 @@ def _report(
     asked: MotionRun,
     json: bool,
     into: tuple[Sink, Sink],
-    of: tuple[str, str | None, Callable[[], SeparationRates] | None],
+    of: tuple[str, str | None, Callable[[], Any]],
     phases: int,
     seed: int,
     estimates: bool,
@@ -148,7 +146,7 @@ def _report(
             stopped = True
     to = into[stopped]
     name, state, separation = of
-    found = collect_motion(asked, name, state, None if separation is None or stopped else separation())
+    found = collect_motion(asked, name, state, None if stopped else separation())
     give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")

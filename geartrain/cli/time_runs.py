@@ -17,7 +17,7 @@ from geartrain.cli.option_values import restitution as read_restitution
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
+    from geartrain.scene.scene_run import TimeRun
 
 TURNS, SKIP = "10", "1"
 Rate = Annotated[

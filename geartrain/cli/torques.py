@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -33,11 +33,11 @@ from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError, Problem
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TorqueCycle, Torques
-    from geartrain.uncertainty import FrictionTrials
 
 
 def run(
@@ -92,7 +92,7 @@ def run(
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
-    if trials is not None and over_turn is not None:
+    if trials is not None and over_turn is not None and over_turn.turns is not None:
         options = RunOptions(workers, dask, resume)
         tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:
@@ -130,15 +130,12 @@ def _tried(
     drawn: tuple[int, int],
     out: Path | None,
     options: RunOptions,
-) -> FrictionTrials:
+) -> Any:
     """The same run in trials of friction; `run` are its samples and the link, `drawn` trials and seed."""
-    from geartrain.uncertainty import find_friction_plan, try_frictions
-    from geartrain.uncertainty.monte_carlo.trial_run import check_trials
-
-    check_trials(drawn[0])
-    plan = find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
+    wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])
+    plan = wing("workshop").find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
-        found = try_frictions(plan, *drawn, given)
+        found = wing("workshop").try_frictions(plan, *drawn, given)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
         tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")

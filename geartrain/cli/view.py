@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
     from geartrain.scene import Scene
+    from geartrain.scene.scene_run import TimeRun
     from geartrain.viewer.viewer_page import Shown
 
 _MOST_ANGLES = 2_000_000  # of all links together, before few of them are chosen

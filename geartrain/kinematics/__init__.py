@@ -1,4 +1,4 @@
-"""Who turns how fast, exactly: from a declaration to speeds, mobility and a verdict.
+"""Exact speeds, mobility and loops: from a declaration to a verdict.
 
 In: a train's declaration, inputs, what is held. Out: fundamental circuits with their carriers, speeds as Fractions (or
 floats with a bound of their error), degrees of freedom, a verdict with its certificate, outputs held against what is

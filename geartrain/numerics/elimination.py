@@ -91,13 +91,12 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
 
 
 class Ring(Protocol[T]):
-    """Coefficients of linear forms.
-
-    modulus   what products are reduced by; 0 if they are not
-    """
+    """Coefficients of linear forms."""
 
     @property
-    def modulus(self) -> int: ...
+    def modulus(self) -> int:
+        """The modulus by which products are reduced; 0 if they are not reduced."""
+        ...
 
     def inverse(self, entry: T) -> T | None:
         """1 over a coefficient, None if it is not a unit of the ring."""

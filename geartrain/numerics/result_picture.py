@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 
-def picture_maker(room: Literal["drawing", "report", "viewer"], name: str) -> Callable[..., Any]:
+def picture_maker(room: str, name: str) -> Callable[..., Any]:
     """A function that draws or describes, by its name, for a method that hands itself to it.
 
     Rooms that draw stand above those that calculate. A result reaches up to them here alone, by name, and when it is
@@ -21,11 +21,12 @@ def picture_maker(room: Literal["drawing", "report", "viewer"], name: str) -> Ca
 
 
 class Pictured:
-    """A result with a picture of its own, which `FIGURE` names: a function of `geartrain.drawing`."""
+    """A result with a picture of its own: the function `FIGURE` of the package `DRAWN_IN` makes it."""
 
     __slots__ = ()
 
     FIGURE: ClassVar[str]
+    DRAWN_IN: ClassVar[str] = "drawing"
 
     def plot(self, *how: Any) -> Any:
         """The result as a figure of matplotlib, which notebooks show.
@@ -33,7 +34,7 @@ class Pictured:
         Parameters
         ----------
         *how
-            What the function of `geartrain.drawing` that draws such results takes after the result itself.
+            What the function that draws such results takes after the result itself.
 
         Returns
         -------
@@ -45,4 +46,4 @@ class Pictured:
         MissingExtraError
             Without matplotlib, which the extra `plot` brings.
         """
-        return picture_maker("drawing", self.FIGURE)(self, *how)
+        return picture_maker(self.DRAWN_IN, self.FIGURE)(self, *how)

@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from geartrain.report.budget_report import describe_budget as describe_budget
     from geartrain.report.document import Document as Document
     from geartrain.report.document import Picture as Picture
     from geartrain.report.document import Section as Section
@@ -34,21 +33,13 @@ if TYPE_CHECKING:
     from geartrain.report.gearbox_report import describe_gearbox as describe_gearbox
     from geartrain.report.html_page import to_html as to_html
     from geartrain.report.json_schema import answer_schema as answer_schema
-    from geartrain.report.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
     from geartrain.report.motion_figures import MotionFigures as MotionFigures
     from geartrain.report.motion_figures import collect_motion as collect_motion
     from geartrain.report.motion_report import describe_motion as describe_motion
-    from geartrain.report.posterior_report import describe_posterior as describe_posterior
     from geartrain.report.reconstruction_comparison import describe_comparison as describe_comparison
     from geartrain.report.shared_page import describe_shared_page as describe_shared_page
-    from geartrain.report.strength_report import StrengthReport as StrengthReport
-    from geartrain.report.strength_report import collect_strength_report as collect_strength_report
-    from geartrain.report.strength_report import describe_strength as describe_strength
     from geartrain.report.text import to_markdown as to_markdown
     from geartrain.report.text import to_text as to_text
-    from geartrain.report.time_report import TimeReport as TimeReport
-    from geartrain.report.time_report import collect_time_report as collect_time_report
-    from geartrain.report.time_report import describe_time_run as describe_time_run
     from geartrain.report.torque_figures import TorqueReport as TorqueReport
     from geartrain.report.torque_figures import collect_torque_report as collect_torque_report
     from geartrain.report.torque_report import describe_torques as describe_torques
@@ -56,62 +47,48 @@ if TYPE_CHECKING:
     from geartrain.report.train_data import collect_report as collect_report
     from geartrain.report.train_report import describe_train as describe_train
 
-_PLACES = {
-    **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
-    **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
-    **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
-    **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
-    **dict.fromkeys(("StrengthReport", "collect_strength_report", "describe_strength"), "strength_report"),
-    **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time_report"),
-    **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
-    **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
-    "answer_schema": "json_schema",
-    "describe_budget": "budget_report",
-    "describe_comparison": "reconstruction_comparison",
-    "describe_monte_carlo": "monte_carlo_report",
-    "describe_motion": "motion_report",
-    "describe_posterior": "posterior_report",
-    "describe_shared_page": "shared_page",
-    "describe_torques": "torque_report",
-    "describe_train": "train_report",
-    "to_html": "html_page",
-    "to_markdown": "text",
-    "to_text": "text",
-}
-
 __all__ = [
     "Document",
+    "FormulaReport",
     "MotionFigures",
     "Picture",
     "Section",
-    "StrengthReport",
     "Table",
-    "TimeReport",
     "TorqueReport",
     "TrainReport",
     "answer_schema",
     "collect_formulas",
     "collect_motion",
     "collect_report",
-    "collect_strength_report",
-    "collect_time_report",
     "collect_torque_report",
-    "describe_budget",
     "describe_comparison",
     "describe_formulas",
     "describe_gear_search",
     "describe_gearbox",
-    "describe_monte_carlo",
     "describe_motion",
-    "describe_posterior",
     "describe_shared_page",
-    "describe_strength",
-    "describe_time_run",
     "describe_torques",
     "describe_train",
     "to_html",
     "to_markdown",
     "to_text",
 ]
+
+_PLACES = {
+    **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
+    **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
+    **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
+    "to_html": "html_page",
+    "answer_schema": "json_schema",
+    **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
+    "describe_motion": "motion_report",
+    "describe_comparison": "reconstruction_comparison",
+    "describe_shared_page": "shared_page",
+    **dict.fromkeys(("to_markdown", "to_text"), "text"),
+    **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
+    "describe_torques": "torque_report",
+    **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
+    "describe_train": "train_report",
+}
 
 __getattr__ = lazy_names(__name__, _PLACES)

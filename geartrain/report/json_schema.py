@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import cache
 
 from geartrain.report.json_shapes import Schema, shape_of
+from geartrain.wings import WINGS, has_wing, wing
 
 FLAG = shape_of(bool)
 
@@ -30,7 +31,10 @@ OBJECT: Schema = {"type": "object"}
 @cache
 def answers() -> dict[str, Schema]:
     """By question, the schema of its answer."""
-    return {**_of_trains(), **_of_doubt(), **_of_spheres(), **_of_tooth_numbers(), **_of_pairs()}
+    found = {**_of_trains(), **_of_spheres(), **_of_pairs()}
+    for name in filter(has_wing, WINGS):
+        found |= {question: shape_of(kind) for question, kind in wing(f"{name}.answers").answers().items()}
+    return found
 
 
 def _of_trains() -> dict[str, Schema]:
@@ -41,11 +45,8 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.formula_report import FormulaReport
     from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.motion_figures import MotionFigures
-    from geartrain.report.strength_report import StrengthReport
-    from geartrain.report.time_report import TimeReport
     from geartrain.report.torque_figures import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
-    from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes
 
     report = shape_of(TrainReport)
     report = report | {"properties": report["properties"] | {"teeth": _list(_of_any_form(DrivenPair))}}
@@ -58,25 +59,10 @@ def _of_trains() -> dict[str, Schema]:
         "gearbox": shape_of(Gearbox),
         "gearbox --search": shape_of(GearSearch),
         "torques": shape_of(TorqueReport),
-        "strength": shape_of(StrengthReport),
         "motion": shape_of(MotionFigures),
-        "dynamics": shape_of(TimeReport),
-        "optimise": shape_of(BestTrainSizes),
         "bench": shape_of(AccuracyReport),
         "graph --as matrix": shape_of(LabelledArray),
         "graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
-    }
-
-
-def _of_doubt() -> dict[str, Schema]:
-    from geartrain.uncertainty.budget.pointer_budget import TrainBudget
-    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.uncertainty.posterior.posterior_result import ToothCountPosterior
-
-    return {
-        "montecarlo": shape_of(MonteCarloResult),
-        "budget": shape_of(TrainBudget),
-        "posterior": shape_of(ToothCountPosterior),
     }
 
 
@@ -89,26 +75,6 @@ def _of_spheres() -> dict[str, Schema]:
         "sphere": shape_of(GearSphere),
         "sphere --suggest": shape_of(ToothCountSuggestions),
         "sphere --survey": shape_of(list[SurveyRow]),
-    }
-
-
-def _of_tooth_numbers() -> dict[str, Schema]:
-    from geartrain.synthesis.epicyclic.epicyclic_sets import SetFindings
-    from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
-    from geartrain.synthesis.orrery.orrery_result import Orrery
-    from geartrain.synthesis.ratio.stage_search import StageFindings
-    from geartrain.synthesis.reconstruction.reconstruction import ReconstructionAnswer
-    from geartrain.synthesis.stern_brocot import Approximants
-    from geartrain.synthesis.train.train_findings import TrainFindings
-
-    return {
-        "teeth ratio": shape_of(StageFindings),
-        "teeth approximants": shape_of(Approximants),
-        "teeth set": shape_of(SetFindings),
-        "teeth set --kind list": shape_of(dict[str, EpicyclicKind]),
-        "teeth train": shape_of(TrainFindings),
-        "teeth orrery": shape_of(Orrery),
-        "reconstruct": shape_of(ReconstructionAnswer),
     }
 
 
@@ -127,14 +93,12 @@ def _of_any_form(kind: type) -> Schema:
 
 def _of_pairs() -> dict[str, Schema]:
     from geartrain.report.pair_page import FormedPair, TriangularPair
-    from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
     from geartrain.teeth.conjugate.pair_design import PairDesign
     from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.pin_figures import PinFigures
 
     return {
         "mesh triangular": shape_of(TriangularPair),
-        "mesh triangular --best": shape_of(BestToothSizes),
         "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
         "mesh pin": shape_of(PinFigures),
         "mesh FORM": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},

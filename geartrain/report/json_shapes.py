@@ -23,6 +23,7 @@ from pydantic.json_schema import GenerateJsonSchema
 from geartrain.numerics.long_float import LongFloat
 from geartrain.numerics.plain_data import Key, Result, keys_of, whole
 from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.wings import WingResult
 
 Schema = dict[str, Any]
 
@@ -40,6 +41,9 @@ _ENTRY = re.compile(r"^    (\w+(?:, \w+)*) :.*((?:\n {8}.*)+)", re.MULTILINE)
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
     """The schema of values of a kind, told as plain data; `to` and `keys` as in `Key`."""
     origin, parts = get_origin(kind), get_args(kind)
+    if origin is Annotated and isinstance(parts[1], WingResult):
+        result = parts[1].kind()
+        return {} if result is None else shape_of(result, to, keys)
     if origin in (Annotated, Required, NotRequired):
         return shape_of(parts[0], to, keys)
     if origin in (Union, UnionType):

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SeparationRates, SpectrumLine
+    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
     from geartrain.teeth.meshing_wheels import MeshDriver
 
 _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
@@ -85,7 +86,7 @@ class MotionFigures(Result):
         Pairs with real teeth that keep their ratio at every instant and add nothing.
     outputs : mapping of str to OutputMotion
         Transmission error, speed and whatever else was asked, by output.
-    separation : SeparationRates or None
+    separation : geartrain.simulation.SeparationRates or None
         Up to which rate of the input this motion holds; None where no inertia is declared.
     phases : PhaseSets or None
         Random phases that were tried.
@@ -113,7 +114,7 @@ class MotionFigures(Result):
     turned_back: Sequence[str]
     rigid: Sequence[str]
     outputs: Mapping[str, OutputMotion]
-    separation: SeparationRates | None
+    separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
     phases: PhaseSets | None
     partial: PartialRun | None
 
@@ -134,9 +135,7 @@ class UnfollowedMotion:
         return str(self.why)
 
 
-def collect_motion(
-    run: MotionRun, name: str, state: str | None, separation: SeparationRates | None = None
-) -> MotionFigures:
+def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
     """Figures of a run, by output.
 
     Parameters
@@ -147,7 +146,7 @@ def collect_motion(
         Of the train.
     state : str or None
         As it was named.
-    separation : SeparationRates, optional
+    separation : geartrain.simulation.SeparationRates, optional
         Up to which rate of the input this motion holds.
 
     Returns
@@ -209,18 +208,29 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
-    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
 
-    own = train.mechanics
     for state in train.states or (None,):
         try:
             run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
             run.go()
-            separation = find_separation(own, state) if has_separation(own, state) else None
+            separation = separation_rates(train, state)
         except GearTrainError as error:
             yield UnfollowedMotion(train.name, state, error)
         else:
             yield collect_motion(run, train.name, state, separation)
+
+
+def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
+    """The `geartrain.simulation.SeparationRates` of a state.
+
+    None if nothing behind the input has an inertia, if torques have no units, or without the wing `simulation`.
+    """
+    if not (train.declaration.has_inertia and has_wing("simulation")):
+        return None
+    separation = wing("simulation.contacts.train_separation")
+    if not separation.has_separation(train.mechanics, state):
+        return None
+    return separation.find_separation(train.mechanics, state, without)
 
 
 def ripples(train: GearTrain) -> bool:

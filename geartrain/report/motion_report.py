@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion, ripples
-from geartrain.report.separation_text import separation_section, separation_text
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -59,7 +59,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
         lead.append(f"Everything repeats after {abridged_text(period)} turns of '{train.lead}'.")
     sections = list(motion_sections(run, every_output))
     if found.separation is not None:
-        sections.append(separation_section(found.separation))
+        sections.append(wing("simulation.inertia.separation_text").separation_section(found.separation))
     return Document("Motion with real teeth and pins", lead, sections)
 
 
@@ -90,7 +90,9 @@ def moving_sections(
             continue
         run = each.run
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
-        holds = () if each.separation is None else tuple(separation_text(each.separation))
+        holds: tuple[str, ...] = ()
+        if each.separation is not None:
+            holds = tuple(wing("simulation.inertia.separation_text").separation_text(each.separation))
         yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run)),))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))

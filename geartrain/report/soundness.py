@@ -101,18 +101,17 @@ def _left_out(train: GearTrain) -> Iterator[str]:
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
     """States whose rate is beyond that at which teeth first part."""
-    from geartrain.dynamics.contacts.train_separation import find_separation, has_separation
+    from geartrain.report.motion_figures import separation_rates
 
-    own = train.mechanics
     for state in train.kinematics.usable_states:
         rate = train.declaration.case(state).rate
-        if rate is None or rate.unit is None or own.faults or not has_separation(own, state):
+        if rate is None or rate.unit is None or train.mechanics.faults:
             continue
         try:
-            found = find_separation(own, state)
+            found = separation_rates(train, state)
         except GearTrainError:  # what keeps the train from moving is told elsewhere
             continue
-        if found.rate is not None and found.rate < abs(rate.base):
+        if found is not None and found.rate is not None and found.rate < abs(rate.base):
             where = f"state {state}: " if state is not None else ""
             at = "at any rate" if not found.rate else f"from {found.rate:.5g} turn/s of '{found.input}' on"
             what = f"{where}the rate is {rate}, and the teeth of {found.pair} part {at}"

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
     from geartrain.dynamics.torques.torque_results import DrivenWay
-    from geartrain.uncertainty import FrictionTrials
 
 
 class Impact(NamedTuple):
@@ -110,7 +110,7 @@ class TorqueReport(Result):
         Torques, powers, flow and losses of each state, in the order asked.
     over_turn : TorqueCycle or None
         Torque over some turns of the one state asked for; None where it was not asked for.
-    friction_trials : FrictionTrials or None
+    friction_trials : geartrain.workshop.FrictionTrials or None
         The same in trials of friction; None where none were asked for.
 
     See Also
@@ -122,14 +122,14 @@ class TorqueReport(Result):
     title: str
     states: tuple[TorqueFigures, ...]
     over_turn: TorqueCycle | None = None
-    friction_trials: FrictionTrials | None = None
+    friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
 
 
 def collect_torque_report(
     train: GearTrain,
     found: Sequence[Torques],
     over_turn: TorqueCycle | None = None,
-    friction_trials: FrictionTrials | None = None,
+    friction_trials: Any = None,
 ) -> TorqueReport:
     """Torques of some states of a train with their flow of power, what is lost where, and the efficiency both ways.
 
@@ -141,7 +141,7 @@ def collect_torque_report(
         What `train.torques` gave, one for each state.
     over_turn : TorqueCycle, optional
         What `train.torques` gave over some turns.
-    friction_trials : FrictionTrials, optional
+    friction_trials : geartrain.workshop.FrictionTrials, optional
         What `try_frictions` gave.
 
     Returns
@@ -167,16 +167,18 @@ def collect_torque_report(
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     """Torques of one state, with the flow of power and the efficiency there and back."""
-    from geartrain.dynamics.contacts.train_separation import find_tooth_impacts
     from geartrain.dynamics.torques.power_flow import find_power_flow, has_torque_units, watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
 
     declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
+    impacts: Mapping[str, Any] = {}
+    if train.declaration.has_inertia and has_wing("simulation"):
+        impacts = wing("simulation.contacts.train_separation").find_tooth_impacts(train.mechanics, state)
     return TorqueFigures(
         found,
         DrivenWays(*map(DrivenFigures, ways)) if ways else None,
         watts_per_unit(declared, declared.case(state)),
         has_torque_units(declared, state),
         find_power_flow(found),
-        {pair: impact.power for pair, impact in find_tooth_impacts(train.mechanics, state).items()},
+        {pair: impact.power for pair, impact in impacts.items()},
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.report.torque_figures import DrivenWays, TorqueFigures, TorqueReport
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.dynamics import PowerFlow, Torques
@@ -56,9 +57,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
-        from geartrain.report.friction_trials_report import trial_sections
-
-        sections += trial_sections(found.friction_trials)
+        sections += wing("workshop.monte_carlo.friction_trials_report").trial_sections(found.friction_trials)
     lead = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", lead, sections)
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.wings import WingResult, has_wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TrainStrength
     from geartrain.errors import Problem
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.buildability import BuildFinding
@@ -115,7 +115,7 @@ class TrainReport(TrainAnswers):
         Couplings with dimensions.
     torques : tuple of TorqueFigures
         Of every state with loads, or friction of bearings.
-    strength : tuple of TrainStrength
+    strength : tuple of geartrain.simulation.TrainStrength
         Of every state with loads in units, where a train says what its wheels are made of.
     motion : tuple of MotionFigures or UnfollowedMotion
         Of every state of a train with real teeth or pins; where it cannot be followed, the `error`.
@@ -145,7 +145,7 @@ class TrainReport(TrainAnswers):
     teeth: tuple[DrivenPair, ...]
     pins: tuple[DrivenPin, ...]
     torques: tuple[TorqueFigures, ...]
-    strength: tuple[TrainStrength, ...]
+    strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
     errata: tuple[Erratum, ...]
 
@@ -209,7 +209,9 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:
-    """True where a state has loads in units, and some wheel declares its material."""
+    """True if a state has loads in units, a wheel declares its material, and the wing `simulation` is installed."""
+    if not has_wing("simulation"):
+        return False
     if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):
         return False
     from geartrain.dynamics.torques.power_flow import has_torque_units

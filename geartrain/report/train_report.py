@@ -25,6 +25,7 @@ from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
 from geartrain.train.trade_words import trade_words
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
@@ -115,9 +116,7 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 def _strength(found: TrainReport) -> Iterator[Section]:
     """Strength, where the train declares what bears it; its words are read only then."""
     for strength in found.strength:
-        from geartrain.report.strength_report import strength_sections
-
-        yield from strength_sections(strength)
+        yield from wing("simulation.strength.strength_report").strength_sections(strength)
 
 
 def _sources(declared: Train) -> Iterator[Section]:

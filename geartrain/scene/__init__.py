@@ -1,4 +1,4 @@
-"""Where everything stands in space and time: layouts, scenes and solids of a train.
+"""Layouts, scenes and solids: the geometry of a train in space and time.
 
 In: a train, a state, a layout; sizes to make it in. Out: places of axes and wheels, all data of a picture that turns,
 solids to be exported. Lengths are in mm and angles in rad; ratios are exact.

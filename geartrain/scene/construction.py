@@ -33,10 +33,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
     from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel
     from geartrain.scene.movement import MovementStart
-    from geartrain.scene.scene_run import SceneRun
+    from geartrain.scene.scene_run import SceneRun, TimeRun
     from geartrain.scene.train_scene import Pointer
     from geartrain.train import Train
 
@@ -169,7 +168,7 @@ def make_scene(
         One of its states; by default the first, or that of the run.
     layout : Layout, optional
         Where it stands; by default `lay_out(train)`.
-    run : TimeRun, optional
+    run : geartrain.simulation.TimeRun, optional
         What `train.dynamics(...)` gave in that state: then this is what moves.
     formulas : bool
         True: with speeds as functions of tooth counts, which a page needs on which counts are changed.

@@ -16,11 +16,11 @@ from geartrain.numerics.vectors import Vector, across, minus, plus, size, unit_o
 from geartrain.scene.scene_run import LinkCourse, SceneContact, SceneRun
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import TimeRun
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.scene.context import SceneContext
     from geartrain.scene.elements import SceneCoupling, ScenePair, SceneWheel
     from geartrain.scene.error_steps import Movement
+    from geartrain.scene.scene_run import TimeRun
 
 TOLERANCE = 1e-4
 """Within which angles of a page are those of the simulation (rad)."""

@@ -11,15 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
 
 from geartrain.numerics.packing import packed
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.vectors import Vector
+from geartrain.wings import WingResult
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import OutputLead
     from geartrain.numerics.arrays import Floats, Ints
+
+
+TimeRun: TypeAlias = Any
+"""A `geartrain.simulation.TimeRun`; scenes do not import that wing, not even for types."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +165,7 @@ class SceneRun(Result):
         Angles, in the order of bodies.
     contacts : sequence of SceneContact
         Teeth, pins and the escapement.
-    leads : sequence of OutputLead
+    leads : sequence of geartrain.simulation.OutputLead
         How far outputs are ahead of `motion` and behind.
     notes : sequence of str
         What is left out, and what is drawn as one.
@@ -183,5 +187,5 @@ class SceneRun(Result):
     complete: bool
     links: Sequence[LinkCourse]
     contacts: Sequence[SceneContact]
-    leads: Sequence[OutputLead]
+    leads: Sequence[Annotated[Any, WingResult("simulation", "OutputLead")]]
     notes: Sequence[str]

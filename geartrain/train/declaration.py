@@ -412,6 +412,12 @@ class Train(Declared):
         """True if an axis has a position, or a direction of its own."""
         return any(axis.position is not None or "direction" in axis.model_fields_set for axis in self.axes.values())
 
+    @property
+    def has_inertia(self) -> bool:
+        """True if some link has a moment of inertia, declared or from the density of its wheels."""
+        wheels = (wheel.density is not None for _, wheel in self.wheels.values())
+        return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
+
     def is_loaded(self, state: str | None) -> bool:
         """True if torques follow from something declared: loads, or friction of bearings.
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -101,22 +101,27 @@ _MOST_BYTES = 64 * 2**20
 _MOST_PARENTS = 2000
 
 
+EVIDENCE = "evidence"
+"""Folder of `trains` with evidence for reconstructions, which are not complete trains."""
+
+
 @cache
 def shipped() -> Mapping[str, Path]:
     """The trains that come with geartrain, by name."""
-    return _shipped_files("trains")
+    return _shipped_files(lambda path: path.parent.name != EVIDENCE)
 
 
 @cache
 def shipped_evidence() -> Mapping[str, Path]:
     """The evidence of trains to be found that comes with geartrain, by name."""
-    return _shipped_files("evidence")
+    return _shipped_files(lambda path: path.parent.name == EVIDENCE)
 
 
-def _shipped_files(kind: str) -> Mapping[str, Path]:
+def _shipped_files(chosen: Callable[[Path], bool]) -> Mapping[str, Path]:
     package = Path(__file__).resolve().parent.parent
-    home = next((folder for folder in (package / kind, package.parent / kind) if folder.is_dir()), None)
-    return MappingProxyType({path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {})
+    home = next((folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None)
+    files = filter(chosen, sorted(home.rglob("*.yaml"))) if home else ()
+    return MappingProxyType({path.stem: path for path in files})
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import shipped
 
-from geartrain.export import train_file
-from geartrain.export.triangle_files import Keyframes
 from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.workshop import train_file
+from geartrain.workshop.export.triangle_files import Keyframes
 
 if TYPE_CHECKING:
     from conftest import OpenPage

@@ -17,6 +17,7 @@ import shipped
 import yaml
 from package.test_public_names import SHOWING
 from PIL import Image
+from places import train_files
 from playwright.sync_api import Browser, Page, expect
 from viewing import GALLERY
 
@@ -127,7 +128,7 @@ def test_the_gallery_has_picture_viewer_and_report_of_each_train(site: Path) -> 
         assert (site / "plan" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert {f"view/{name}.html", f"report/{name}.html"} <= set(found.links)
     text = (site / "gallery.html").read_text(encoding="utf-8")
-    for path in (ROOT / "trains").glob("*/*.yaml"):
+    for path in train_files():
         assert f"<strong>{path.stem}</strong>" in text
     assert sorted(path.stem for path in (site / "view").iterdir()) == sorted(GALLERY)
 
@@ -217,7 +218,7 @@ def test_the_readme_opens_with_a_machine_that_turns_beside_its_declaration() -> 
 def test_the_gallery_tells_what_the_trains_declare() -> None:
     rows = re.findall(r"^\| ([\w.-]+) \| (.*?) \|", (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8"), re.M)
     titles = {name: title for name, title in rows if name != "train"}
-    declared = {path.stem: yaml.safe_load(path.read_text(encoding="utf-8")) for path in (ROOT / "trains").glob("*/*")}
+    declared = {path.stem: yaml.safe_load(path.read_text(encoding="utf-8")) for path in train_files()}
     assert titles == {name: (data.get("title") or "").replace("|", "/") for name, data in declared.items()}
 
 

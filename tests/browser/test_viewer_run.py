@@ -11,8 +11,8 @@ from conftest import OpenPage, Shown
 from viewing import DESK, tab, wait
 
 from geartrain import load
-from geartrain.dynamics import TimeRun
 from geartrain.scene import Scene, build_scene
+from geartrain.simulation import TimeRun
 from geartrain.viewer import page
 
 Played = tuple[TimeRun, Scene]

@@ -52,7 +52,7 @@ def test_a_state_is_chosen_and_the_first_is_taken_without() -> None:
 
 
 def test_trials_that_are_stopped_are_no_budget(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    from geartrain.uncertainty import TrialResults
+    from geartrain.workshop import TrialResults
 
     monkeypatch.setattr(TrialResults, "complete", property(lambda self: False))
     out = tmp_path / "x.json"

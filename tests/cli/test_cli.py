@@ -20,7 +20,7 @@ import pytest
 from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, verbs
 from jsonschema import Draft202012Validator
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
-from places import ROOT
+from places import ROOT, train_files
 from shipped import every_train
 
 from geartrain import load
@@ -623,7 +623,7 @@ def test_the_schema_is_written_for_editors_and_for_readers(run: Run, tmp_path: P
 
 def test_the_list_names_every_file_of_trains_with_its_title(run: Run) -> None:
     lines = run("list")[1].splitlines()
-    files = sorted(path.stem for path in (ROOT / "trains").rglob("*.yaml"))
+    files = sorted(path.stem for path in train_files())
     assert sorted(line.split()[0] for line in lines) == files
     assert all(line.split(maxsplit=1)[1].strip() for line in lines)
 

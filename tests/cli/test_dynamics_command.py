@@ -145,7 +145,7 @@ def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_clo
 def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from geartrain.dynamics.time import stepped_separation
+    from geartrain.simulation.time import stepped_separation
 
     path = tmp_path / "slack.yaml"
     path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")

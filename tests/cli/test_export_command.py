@@ -67,7 +67,7 @@ def test_a_folder_that_is_stopped_half_way_is_not_there(tmp_path: Path, monkeypa
     def stop(*_: object) -> str:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["geartrain.export.file_set"], "readme", stop)
+    monkeypatch.setattr(sys.modules["geartrain.workshop.export.file_set"], "readme", stop)
     done = call("export", "planetary-24-18-60", "--to", tmp_path / "set", "--as", LIGHT)
     assert done.exit_code == 130
     assert "nothing is written" in done.stderr

@@ -16,9 +16,9 @@ from geartrain import GearTrainError, load
 from geartrain.cli import app
 from geartrain.errors import MissingExtraError, QuestionError
 from geartrain.numerics.files import ColumnTable
-from geartrain.uncertainty import find_trial_plan, read_error_overrides, run_trials
-from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
-from geartrain.uncertainty.monte_carlo.trial_run import trial_tasks
+from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
+from geartrain.workshop.monte_carlo.clearance_study import read_clearances
+from geartrain.workshop.monte_carlo.trial_run import trial_tasks
 
 PAIR = """
     name: pair
@@ -92,7 +92,7 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
 ) -> None:
     import pyarrow.parquet
 
-    from geartrain.uncertainty.monte_carlo import trial_run as running
+    from geartrain.workshop.monte_carlo import trial_run as running
 
     train, work = train_file(PAIR), running.work_block
     words = (train, "--trials", 700, "--seed", 3, "-o", here / "t.parquet")
@@ -122,7 +122,7 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
 
 def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path) -> None:
     from geartrain.numerics import Journal
-    from geartrain.uncertainty.monte_carlo.trial_run import journal_key
+    from geartrain.workshop.monte_carlo.trial_run import journal_key
 
     plan = find_trial_plan(load(train_file(PAIR)))
     asked = journal_key(plan, 1, 300)

@@ -102,7 +102,7 @@ def test_options_that_say_nothing_are_refused(train: Path, options: tuple[str, s
 
 
 def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.uncertainty.posterior import inference as sweeping
+    from geartrain.search.posterior import inference as sweeping
 
     options = ("--method", "sample", "--samples", "100000", "--json")
     whole = json.loads(call("posterior", train, *options).stdout)
@@ -132,7 +132,7 @@ def test_an_interrupted_exact_run_prints_a_short_sample_and_keeps_nothing(
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("geartrain.uncertainty.posterior.inference.find_exact_posterior", interrupted)
+    monkeypatch.setattr("geartrain.search.posterior.inference.find_exact_posterior", interrupted)
     result = call("posterior", train, "--method", "exact", "--json")
     assert result.exit_code == 130
     found = json.loads(result.stdout)

@@ -13,10 +13,10 @@ from concrete_trees import explanations, package_arbor
 
 from geartrain import load
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.reconstruction import dropped_facts, expected_cost, reconstruction
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_problem import ReconstructionProblem, question_digest
-from geartrain.synthesis.reconstruction.reconstruction_result import Candidate, ExplanationCount, Reconstructions
+from geartrain.search.reconstruct import dropped_facts, expected_cost, reconstruction
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, question_digest
+from geartrain.search.reconstruct.reconstruction_result import Candidate, ExplanationCount, Reconstructions
 from geartrain.train.declaration_files import read_evidence
 
 COUNTS = [

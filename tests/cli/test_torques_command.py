@@ -155,6 +155,13 @@ def test_trials_of_friction_have_the_spread_that_the_closed_form_tells(pin: Path
     assert "a~b 0.3 ± 0.05" in text
 
 
+def test_trials_of_a_train_without_loads_report_that_no_load_is_declared(pin: Path) -> None:
+    pin.write_text(SPREAD.replace("loads: {b: -10 N m}", ""), encoding="utf-8")
+    done = call("torques", pin, "--turns", "1", "--samples", "20", "--trials", "12")
+    assert done.exit_code == 1
+    assert "Verdict: unloaded" in done.output
+
+
 def test_trials_are_the_same_whoever_works(pin: Path) -> None:
     pin.write_text(SPREAD, encoding="utf-8")
     words = ("torques", pin, "--turns", "1", "--samples", "20", "--trials", "12", "--json")

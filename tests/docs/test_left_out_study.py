@@ -26,12 +26,12 @@ from studies.left_out_study import (
 from studies.measurement import gathered
 from studies.page import read
 
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.known_rank import find_place
-from geartrain.synthesis.reconstruction.lost_arbors import lost_evidence, lost_wheels
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, Additions, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.known_rank import find_place
+from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_wheels
+from geartrain.search.reconstruct.reconstruction_problem import NEW, Additions, ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.spur_tree import find_spur_tree
 from geartrain.train.declaration_files import read_declaration, shipped
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import yaml
-from places import DOCS, TRAINS
+from places import DOCS, train_files
 
 from geartrain import GearTrain
 
@@ -13,7 +13,7 @@ from geartrain import GearTrain
 def test_every_shipped_train_is_no_longer_than_in_long_forms() -> None:
     page = (DOCS / "lines.md").read_text(encoding="utf-8")
     rows = {name: (int(long), int(short)) for name, long, short in re.findall(r"\| `(\S+)` \| (\d+) \| (\d+)", page)}
-    assert rows.keys() <= {path.stem for path in TRAINS.glob("*/*.yaml")}
+    assert rows.keys() <= {path.stem for path in train_files()}
     assert len(rows) >= 65
     assert all(short <= long for long, short in rows.values())
     long, short = (sum(each) for each in zip(*rows.values(), strict=True))

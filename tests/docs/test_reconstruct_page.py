@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from places import DOCS, ROOT
 
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_problem import Arbor
-from geartrain.synthesis.reconstruction.reconstruction_result import Reconstructions
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import Arbor
+from geartrain.search.reconstruct.reconstruction_result import Reconstructions
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
 PAGE = (DOCS / "reconstruct.md").read_text(encoding="utf-8")

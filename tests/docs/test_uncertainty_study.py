@@ -27,8 +27,8 @@ from studies.cut_pair_trials import (
 from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, ErrorRecord, UncertaintyRecords, slope
 from studies.uncertainty_study import uncertainty
 
-from geartrain.uncertainty.manufacturing_errors.least_backlash import nominal_backlash
-from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
+from geartrain.workshop.cutting.least_backlash import nominal_backlash
+from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,7 @@ import yaml
 from commands import LOCKED, call
 from hypothesis import given
 from hypothesis import strategies as st
-from places import TRAINS
+from places import TRAINS, train_files
 from shipped import train as load
 
 import geartrain
@@ -52,7 +52,7 @@ FEW = [
     "worm",
     "lantern-mill",
 ]
-ALL = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
+ALL = sorted(path.stem for path in train_files())
 Points = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 SafeLoader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 SVG = "{http://www.w3.org/2000/svg}"

@@ -21,28 +21,27 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from geartrain.drawing import (
-    budget_figure,
-    law_figure,
-    motion_figure,
-    power_figure,
-    shapes_figure,
-    sweep_figure,
-    tooth_sizes_figure,
-    train_sizes_figure,
-)
-from geartrain.drawing.corner_plot import CountProbabilities, corner_figure
-from geartrain.drawing.jam_map import jam_map_figure
+from geartrain.drawing import law_figure, motion_figure, power_figure, shapes_figure, sweep_figure
 from geartrain.drawing.parameter_sweep_plot import parameter_label
-from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
 from geartrain.drawing.theme_colours import themed
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.scene.palette import THEMES, ThemeName
-from geartrain.synthesis import ToothSizes, find_tooth_sizes, find_train_sizes
+from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.uncertainty import BudgetQuestion, find_budget
+from geartrain.workshop import (
+    BudgetQuestion,
+    ToothSizes,
+    budget_figure,
+    find_budget,
+    find_tooth_sizes,
+    find_train_sizes,
+    tooth_sizes_figure,
+    train_sizes_figure,
+)
+from geartrain.workshop.monte_carlo.jam_map import jam_map_figure
+from geartrain.workshop.monte_carlo.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
 

@@ -20,26 +20,27 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from geartrain import load
-from geartrain.drawing import counts_figure, monte_carlo_figure, render
-from geartrain.drawing.corner_plot import CountProbabilities, corner_figure
-from geartrain.drawing.jam_map import jam_map_figure
-from geartrain.drawing.monte_carlo_plots import ConvergenceTrace, convergence_figure, indices_figure
-from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
-from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
+from geartrain.drawing import render
 from geartrain.errors import QuestionError
-from geartrain.uncertainty import IntervalEstimate as Figure_
-from geartrain.uncertainty import (
+from geartrain.numerics import IntervalEstimate as Figure_
+from geartrain.search import counts_figure, infer_counts
+from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure
+from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels
+from geartrain.workshop import (
     MonteCarloResult,
     SobolIndices,
     find_trial_plan,
-    infer_counts,
     jamming_map,
+    monte_carlo_figure,
     read_error_overrides,
     run_course,
     run_trials,
 )
-from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndex
-from geartrain.uncertainty.posterior.inference import joint_posterior, most_informative_wheels
+from geartrain.workshop.monte_carlo.jam_map import jam_map_figure
+from geartrain.workshop.monte_carlo.monte_carlo_plots import ConvergenceTrace, convergence_figure, indices_figure
+from geartrain.workshop.monte_carlo.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.workshop.monte_carlo.sobol_indices import SobolIndex
+from geartrain.workshop.monte_carlo.tornado_chart import VarianceShare, tornado_figure
 
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from places import TRAINS
+from places import train_files
 from shipped import train as load
 
 from geartrain.errors import QuestionError
@@ -28,7 +28,7 @@ from geartrain.drawing.train_pictures import KINDS
 LEAST = 8.0  # points
 WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
 FEW = ["planetary", "bevel-differential", "humpage", "longcase-clock", "ravigneaux-set", "rv-reducer", "worm"]
-ALL = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
+ALL = sorted(path.stem for path in train_files())
 
 
 def faults_of(figure: Figure) -> dict[str, object]:

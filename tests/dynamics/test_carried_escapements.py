@@ -11,7 +11,7 @@ from commands import call
 from geartrain import load
 from geartrain.scene import build_scene
 from geartrain.train.drives import GRAVITY
-from geartrain.uncertainty import BudgetQuestion, find_budget
+from geartrain.workshop import BudgetQuestion, find_budget
 
 CASE = Path(__file__).parents[1] / "data/public_cases/02-escapement-carried-round.yaml"
 # a pinion z that rolls on a fixed wheel Z turns Z/z times in a turn of its carriage, relative to that: with one turn a

@@ -9,7 +9,7 @@ from geartrain import GearTrain, load
 from geartrain.dynamics.turn.friction_study import FrictionStudy, drivers_are_certain
 from geartrain.dynamics.turn.train_turn import study_friction
 from geartrain.train.declaration import FrictionInForce
-from geartrain.uncertainty.monte_carlo.friction_trials import draw_friction, find_friction_plan, work_frictions
+from geartrain.workshop.monte_carlo.friction_trials import draw_friction, find_friction_plan, work_frictions
 
 ROW = "extends: moon-triangular\nloads: {moon: -1 N mm}\nfriction: {sliding: 0.2, static: 0.3, deviation: 0.1}\n"
 PIN = """

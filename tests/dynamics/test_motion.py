@@ -14,12 +14,13 @@ from places import DOCS
 from scipy.optimize import brentq, fsolve
 
 from geartrain import GearTrainError, load
-from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics, find_tooth_impacts
+from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
 from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
+from geartrain.simulation import find_tooth_impacts
 from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission

@@ -14,9 +14,9 @@ from marching import Teeth
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import MotionRun
-from geartrain.uncertainty import find_trial_plan, read_error_overrides
-from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
-from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
+from geartrain.workshop import find_trial_plan, read_error_overrides
+from geartrain.workshop.monte_carlo.random_streams import RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
 
 CHAIN = """
 links:

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import geartrain
-from geartrain.dynamics.strength.virtual_spurs import NormalSpurs
 from geartrain.numerics.arrays import Floats
+from geartrain.simulation.strength.formulas.point_contact import CrossedWheels, contact_ellipse
+from geartrain.simulation.strength.virtual_spurs import NormalSpurs
 from geartrain.teeth.involute import Involute
-from geartrain.teeth.strength.point_contact import CrossedWheels, contact_ellipse
 
 ALPHA = radians(20)
 

@@ -21,8 +21,8 @@ from strategies import Data, driven_trains
 import geartrain
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.torques.power_flow import watts_per_unit
-from geartrain.export import train_file
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
+from geartrain.workshop import train_file
 
 SCALES = {
     "turn/s": Fraction(1),

@@ -10,12 +10,12 @@ import yaml
 from fitters import passed, rules_of
 
 import geartrain
-from geartrain.dynamics import find_link_inertias
 from geartrain.dynamics.torques.train_torques import solve
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.kinematics.relative_speeds import relative_speed
-from geartrain.report.time_report import collect_time_report
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
+from geartrain.simulation import find_link_inertias
+from geartrain.simulation.time.time_report import collect_time_report
 
 SET = """
 name: planetary set

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.numerics.integer_columns import distinct_quotients, spread, spread_in_blocks
+from geartrain.search.integer_columns import distinct_quotients, spread, spread_in_blocks
 
 ranges = st.lists(st.tuples(st.integers(-5, 5), st.integers(0, 6)), max_size=6)
 

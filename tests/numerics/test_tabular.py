@@ -63,7 +63,7 @@ def test_every_gear_there_is_has_a_row() -> None:
 
 
 def test_trials_and_budgets_have_rows_of_trials_and_of_causes() -> None:
-    from geartrain.uncertainty import find_budget
+    from geartrain.workshop import find_budget
 
     train = geartrain.load("moon-triangular")
     budget = find_budget(train)
@@ -85,7 +85,7 @@ def test_a_run_in_time_has_a_row_a_sample() -> None:
 
 
 def test_counts_in_doubt_have_a_row_a_count() -> None:
-    from geartrain.uncertainty import infer_counts
+    from geartrain.search import infer_counts
 
     found = infer_counts(geartrain.load("freeth-2008-doubt").declaration)
     frame = found.to_frame()
@@ -110,7 +110,7 @@ def test_a_run_of_a_motion_has_a_row_an_output() -> None:
 
 
 def test_best_sizes_have_a_row_a_design() -> None:
-    from geartrain.synthesis import ToothSizes, find_tooth_sizes
+    from geartrain.workshop import ToothSizes, find_tooth_sizes
 
     start = ToothSizes((48, 96), 1.0, 0.5, (np.pi / 6, np.pi / 6), 0.2)
     found = find_tooth_sizes(start, free={"radii": (0.95, 1.0)})

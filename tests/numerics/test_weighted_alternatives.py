@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geartrain.numerics.weighted_alternatives import Alternative, AlternativeRows, WeightedAlternatives
+from geartrain.search.weighted_alternatives import Alternative, AlternativeRows, WeightedAlternatives
 
 ANSWERS = 3
 

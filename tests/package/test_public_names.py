@@ -17,17 +17,17 @@ SHOWING = [
     "drawing",
     "dynamics",
     "errors",
-    "export",
     "kinematics",
     "numerics",
     "report",
     "scene",
+    "search",
+    "simulation",
     "spherical",
-    "synthesis",
     "teeth",
     "train",
-    "uncertainty",
     "viewer",
+    "workshop",
 ]
 """Rooms whose `__all__` is complete. The shell shows commands, which `--help` and docs/commands.md describe."""
 

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 import shipped
-from places import TRAINS
+from places import train_files
 from shapely.geometry import Point
 
 import geartrain
 from geartrain.scene import Layout, WheelPlace, lay_out
 from geartrain.scene.layout.parallel_groups import find_axial_slots
 
-NAMES = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
+NAMES = sorted(path.stem for path in train_files())
 Z = np.array([0.0, 0.0, 1.0])
 
 

@@ -11,9 +11,9 @@ import shipped
 from commands import HEAVY
 
 import geartrain
-from geartrain.dynamics import TimeRun
 from geartrain.errors import QuestionError
 from geartrain.scene import Scene, make_scene
+from geartrain.simulation import TimeRun
 
 CLOCK = """
 links: {frame: {}, barrel: {wheels: {g: 60}, inertia: 1e-5 kg m2},

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain
+from geartrain.simulation.strength.formulas.pin_contact import held_pin_stress, hole_share, lobe_load
 from geartrain.teeth.cycloidal_disc import CycloidalDisc
-from geartrain.teeth.strength.pin_contact import held_pin_stress, hole_share, lobe_load
 
 lobes = st.integers(3, 60)
 shortening = st.floats(0.3, 0.85)

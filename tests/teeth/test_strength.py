@@ -11,19 +11,24 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.errors import RangeError
-from geartrain.teeth import Cycloidal, Involute
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
-from geartrain.teeth.strength.archard_wear import loss_over_friction
-from geartrain.teeth.strength.contact_pressure import ContactLoad, Elasticity, elasticity_factor, hertz_pressure
-from geartrain.teeth.strength.iso_6336 import (
+from geartrain.simulation.strength.formulas.archard_wear import loss_over_friction
+from geartrain.simulation.strength.formulas.contact_pressure import (
+    ContactLoad,
+    Elasticity,
+    elasticity_factor,
+    hertz_pressure,
+)
+from geartrain.simulation.strength.formulas.iso_6336 import (
     RackPair,
     RackWheel,
     contact_stress,
     outer_single_contact,
     root_stress,
 )
-from geartrain.teeth.strength.root_section import ToothLoad, ToothSide, pin_stress
+from geartrain.simulation.strength.formulas.root_section import ToothLoad, ToothSide, pin_stress
+from geartrain.teeth import Cycloidal, Involute
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 
 TWENTY = radians(20)
 STEEL, BRASS = Elasticity(206_000, 0.3), Elasticity(100_000, 0.35)

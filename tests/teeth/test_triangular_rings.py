@@ -16,12 +16,12 @@ from polygons import Judge, Outline
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.drawing.tooth_contact import tooth_pair_pose
-from geartrain.synthesis import ToothSizes
-from geartrain.synthesis.tooth_sizes.outline_agreement import confirm_by_outlines
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.workshop import ToothSizes
+from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
 
 # driver; teeth of pinion and ring; ratio of the radii over that of the teeth (None: equal depth); half angles (deg);
 # excess; tip radius of the ring, centre distance, reach of the driver (deg); window of excess; verdict, play (deg)

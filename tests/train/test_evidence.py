@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.synthesis.reconstruction.evidence_question import EvidenceQuestion, evidence_question
-from geartrain.synthesis.reconstruction.reconstruction_problem import PriorFactors
+from geartrain.search.reconstruct.evidence_question import EvidenceQuestion, evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import PriorFactors
 from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
 
 SOUND = """\

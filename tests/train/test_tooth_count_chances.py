@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
+from geartrain.search.posterior.priors import find_priors
+from geartrain.search.reconstruct.evidence_question import evidence_question
 from geartrain.train import Teeth, declare
-from geartrain.uncertainty.posterior.priors import find_priors
 
 THIRDS = Fraction(1, 3)
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.numerics.arrays import Floats, Ints
-from geartrain.uncertainty.posterior.monomial_columns import CombinationColumns, MonomialColumns, Powers
-from geartrain.uncertainty.posterior.sampled_posterior import BLOCK, LikelihoodBatch
+from geartrain.search.posterior.monomial_columns import CombinationColumns, MonomialColumns, Powers
+from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch
 
 
 class ScaledColumns(MonomialColumns):

@@ -26,8 +26,8 @@ from geartrain.numerics.arrays import Floats, Ints
 from geartrain.numerics.simultaneous_roots import roots_by_chandrupatla
 from geartrain.teeth.transmission import behind
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.uncertainty.manufacturing_errors.cut_pair import ROUNDING, CutGearPair, CutToothPairs
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
+from geartrain.workshop.cutting.cut_pair import ROUNDING, CutGearPair, CutToothPairs
+from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 Cells = tuple[Ints, Floats, Floats]
 

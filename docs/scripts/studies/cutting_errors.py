@@ -1,6 +1,6 @@
 """Errors of cutting as distributions, and wheels of one pair drawn from them, apart from any train.
 
-A train declares its errors; `geartrain.uncertainty.find_trial_plan` draws those.
+A train declares its errors; `geartrain.workshop.find_trial_plan` draws those.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Floats
 from geartrain.teeth.triangular.pair_geometry import depth
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
+from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 
 @dataclass(frozen=True, slots=True)

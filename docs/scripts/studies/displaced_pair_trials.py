@@ -11,9 +11,9 @@ import numpy as np
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
-from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
-from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
+from geartrain.workshop.cutting.displaced_pair import DisplacedPair
+from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts
 
 FORMS = {
     "involute": Involute(form="involute", backlash="0.3"),

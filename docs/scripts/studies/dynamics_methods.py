@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
-from geartrain.dynamics.contacts.law_tables import tabled_angle
-from geartrain.dynamics.contacts.tooth_yield import ToothYield, damping_ratio
-from geartrain.dynamics.contacts.train_model import SlackPin
-from geartrain.dynamics.steps.run_record import BLOW_COUNT, BLOWS, GAP, TIME_APART
-from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.simulation.contacts.law_tables import tabled_angle
+from geartrain.simulation.contacts.tooth_yield import ToothYield, damping_ratio
+from geartrain.simulation.contacts.train_model import SlackPin
+from geartrain.simulation.steps.run_record import BLOW_COUNT, BLOWS, GAP, TIME_APART
+from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 
 INERTIA, DRAG, RATE, TURNS = 1e-5, 1e-3, 32.0, 2

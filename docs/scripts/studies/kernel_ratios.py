@@ -11,8 +11,8 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from geartrain.analysis.loader import load
 
+from geartrain import load
 from geartrain.dynamics.motion.compiled_composition import compiled_composition
 from studies.measurement import in_turns
 from studies.records import number_text, table

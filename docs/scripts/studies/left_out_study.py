@@ -21,19 +21,19 @@ from typing import Any
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
-from geartrain.synthesis.reconstruction.evidence_question import evidence_question
-from geartrain.synthesis.reconstruction.known_rank import find_place
-from geartrain.synthesis.reconstruction.lost_arbors import (
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.known_rank import find_place
+from geartrain.search.reconstruct.lost_arbors import (
     is_all_listed,
     lost_arbors,
     lost_evidence,
     lost_wheels,
     rank_of,
 )
-from geartrain.synthesis.reconstruction.reconstruction_problem import NEW, ReconstructionProblem
-from geartrain.synthesis.reconstruction.reconstruction_result import mechanism, prior
-from geartrain.synthesis.reconstruction.reconstruction_search import find_reconstructions
-from geartrain.synthesis.reconstruction.spur_tree import SpurTree, find_spur_trees, why_not
+from geartrain.search.reconstruct.reconstruction_problem import NEW, ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_result import mechanism, prior
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_trees, why_not
 from geartrain.train.declaration_files import read_declaration, shipped
 from studies.followed_train import is_reached
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord

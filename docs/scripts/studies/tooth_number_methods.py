@@ -15,13 +15,13 @@ from math import prod
 from typing import Any, Literal
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.synthesis.gear_pair_search import find_pairs
-from geartrain.synthesis.ratio.product_windows import expand, multisets
-from geartrain.synthesis.ratio.stage_search import find_stages
-from geartrain.synthesis.stern_brocot import approximants
-from geartrain.synthesis.target_ratio import TargetRatio
-from geartrain.synthesis.tooth_count_ranges import Counts
-from geartrain.synthesis.train.train_search import search_train
+from geartrain.search.gear_pair_search import find_pairs
+from geartrain.search.ratio.product_windows import expand, multisets
+from geartrain.search.ratio.stage_search import find_stages
+from geartrain.search.stern_brocot import approximants
+from geartrain.search.target_ratio import TargetRatio
+from geartrain.search.tooth_count_ranges import Counts
+from geartrain.search.train.train_search import search_train
 from geartrain.train import Train
 
 Pair = tuple[int, int]

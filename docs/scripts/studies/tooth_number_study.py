@@ -12,12 +12,12 @@ from functools import partial
 from statistics import median
 from typing import Any
 
-from geartrain.synthesis.ratio.product_windows import multisets, products_of
-from geartrain.synthesis.ratio.search_segments import lay_out, search_segment, task_of
-from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
-from geartrain.synthesis.ratio.stage_search import find_stages
-from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
-from geartrain.synthesis.train.train_search import search_train
+from geartrain.search.ratio.product_windows import multisets, products_of
+from geartrain.search.ratio.search_segments import lay_out, search_segment, task_of
+from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem
+from geartrain.search.ratio.stage_search import find_stages
+from geartrain.search.target_ratio import TargetRatio, read_ratio
+from geartrain.search.train.train_search import search_train
 from geartrain.train import Train
 from studies import tooth_number_methods as ways
 from studies.measurement import Cost, Step, in_turns, measure, taken

@@ -5,7 +5,7 @@ Any tooth form has the same command, with the fields of its model as options; tr
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 
 import typer
 
@@ -13,19 +13,14 @@ from geartrain.cli.mesh import any_form
 from geartrain.cli.verbs import LazyGroup, Verbs
 from geartrain.teeth.any_tooth_form import tooth_forms
 
-_OWN = ("triangular", "pin", "compare")
+_OWN = {name: f"geartrain.cli.mesh.{name}" for name in ("triangular", "pin", "compare")}
 _FORMS = {name: model for name, model in tooth_forms().items() if name not in (*_OWN, "ideal")}
-
-
-def _of_form(name: str) -> Callable[..., None] | None:
-    """The command of a tooth form; None for commands that are modules."""
-    return any_form.command(name, _FORMS[name]) if name in _FORMS else None
 
 
 class PairGroup(LazyGroup):
     """What can be asked of one pair, and the forms of its teeth."""
 
-    verbs = Verbs(__name__, (*_OWN, *_FORMS), make=_of_form)
+    verbs = Verbs(_OWN, {name: partial(any_form.command, name, form) for name, form in _FORMS.items()})
 
 
 app = typer.Typer(

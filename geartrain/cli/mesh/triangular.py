@@ -29,7 +29,6 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.mesh.best_sizes import SizeQuestion, read_start
 from geartrain.cli.mesh.form_options import (
     FormOptions,
     Internal,
@@ -53,6 +52,7 @@ from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError
 from geartrain.teeth.triangular.triangular_form import FEWEST, Triangular
+from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairOperation
@@ -260,11 +260,12 @@ def _run(
     outlined = profile_sink(profile, force)
     check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")
-    asked = SizeQuestion(best, tuple(free or ()), tuple(within or ()), tuple(set_ or ()))
-    if asked.is_one({"--vary": vary, "--teeth-plot": teeth_plot, "--profile": profile}):
-        asked.answer(
-            read_start(teeth, own, read_pair_friction(friction).number("--best"), driver, internal), to, picture, json
-        )
+    if best is not None or free or within or set_:
+        sizes = wing("workshop.sizes.pair_verb")
+        question = sizes.SizeQuestion(best, tuple(free or ()), tuple(within or ()), tuple(set_ or ()))
+        question.check({"--vary": vary, "--teeth-plot": teeth_plot, "--profile": profile})
+        coefficient = read_pair_friction(friction).number("--best")
+        question.answer(sizes.read_start(teeth, own, coefficient, driver, internal), to, picture, json)
     pair = TriangularOptions(teeth, own, size, friction, driver, backwards, rate, internal)
     if vary:
         _check_one_pair({"--teeth-plot": teeth_plot, "--profile": profile})

@@ -28,7 +28,7 @@ FINE = "0.001mm"
 
 def profile_sink(profile: Path | None, force: bool) -> Sink:
     """Where an outline goes; what cannot be written is refused before the work. Raises `GearTrainError`."""
-    from geartrain.export.flat_files import OUTLINES
+    from geartrain.drawing.flat_files import OUTLINES
 
     to = sink(profile, force, option="--profile")
     if to.path is not None and to.suffix not in OUTLINES:
@@ -41,7 +41,7 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], t
     """The outline of a wheel, written; none where no file is named. `blank` has its sizes as options give them."""
     if to.path is None:
         return []
-    from geartrain.export import outline_text
+    from geartrain.drawing import outline_text
 
     made = mesh.wheel_outline(wheel, _blank_sizes(mesh.wheels.module, blank))
     emit(outline_text(made, to.suffix), to)

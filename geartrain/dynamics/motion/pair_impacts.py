@@ -42,7 +42,7 @@ class ToothImpact:
 
     See Also
     --------
-    geartrain.GearTrain.impacts : what gives these, by pair.
+    geartrain.dynamics.find_tooth_impacts : gives these, by pair.
     """
 
     inertia: float

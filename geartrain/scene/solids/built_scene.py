@@ -22,9 +22,9 @@ from geartrain.scene.solids.standing_pins import with_pins_apart
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneWheel
+    from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
 
 _FINE = 0.05  # mm that chords of plates may leave their curves
@@ -48,7 +48,7 @@ def build_scene(
         Loaded or declared.
     state : str, optional
         One of its states; by default the first, or that of the run.
-    run : TimeRun, optional
+    run : geartrain.simulation.TimeRun, optional
         What `train.dynamics(...)` gave in that state: then this is what moves.
     formulas : bool
         As `make_scene` has it.

@@ -1,0 +1,105 @@
+"""Tooth numbers for a wanted motion, reconstructions of trains, posteriors of tooth counts.
+
+In: a ratio, a train with wheels to be found, a kind of epicyclic set, the periods of an orrery, surviving wheels, or
+uncertain tooth counts. Out: the tooth counts that fit, ranked, with proof that the search was complete, or why it was
+not; their posterior probabilities. Counts are decided in integers, ratios in Fractions.
+
+ratio          one ratio by stages of gear pairs: meet in the middle on sorted products (`find_stages`)
+train          the free wheels of a declared train: an exact weighted join (`search_train`)
+epicyclic      sets of sun, planets and ring: the Willis equation over all coaxial sets (`find_sets`)
+orrery         many periods that share wheels: branch and bound, beam search (`find_orrery`)
+stern_brocot   fractions near a number: the Stern-Brocot tree (`approximants`)
+reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
+posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
+join           the exact join behind `train` and `posterior`; `constraints`: what else must hold of tooth counts
+teeth_verb     the command `teeth`; `verb_options`, `tooth_numbers_report`: what its searches share
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.search.constraints.constraint_options import ConstraintOptions as ConstraintOptions
+    from geartrain.search.epicyclic.epicyclic_sets import EpicyclicSet as EpicyclicSet
+    from geartrain.search.epicyclic.epicyclic_sets import SetFindings as SetFindings
+    from geartrain.search.epicyclic.set_search import find_sets as find_sets
+    from geartrain.search.orrery.orrery_result import Orrery as Orrery
+    from geartrain.search.orrery.orrery_search import find_orrery as find_orrery
+    from geartrain.search.posterior.corner_plot import counts_figure as counts_figure
+    from geartrain.search.posterior.inference import infer_counts as infer_counts
+    from geartrain.search.posterior.posterior_report import describe_posterior as describe_posterior
+    from geartrain.search.posterior.posterior_result import CountCombination as CountCombination
+    from geartrain.search.posterior.posterior_result import CountProbability as CountProbability
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior as ToothCountPosterior
+    from geartrain.search.posterior.posterior_result import WheelPosterior as WheelPosterior
+    from geartrain.search.ratio.stage_problem import StageConstraints as StageConstraints
+    from geartrain.search.ratio.stage_search import StageFindings as StageFindings
+    from geartrain.search.ratio.stage_search import find_stages as find_stages
+    from geartrain.search.search_outcome import GearStages as GearStages
+    from geartrain.search.search_outcome import Shortfall as Shortfall
+    from geartrain.search.stern_brocot import Approximant as Approximant
+    from geartrain.search.stern_brocot import approximants as approximants
+    from geartrain.search.target_ratio import TargetRatio as TargetRatio
+    from geartrain.search.target_ratio import read_ratio as read_ratio
+    from geartrain.search.tooth_count_ranges import CountRuns as CountRuns
+    from geartrain.search.tooth_count_ranges import read_counts as read_counts
+    from geartrain.search.train.train_findings import Assignment as Assignment
+    from geartrain.search.train.train_findings import TrainFindings as TrainFindings
+    from geartrain.search.train.train_search import search_train as search_train
+
+__all__ = [
+    "Approximant",
+    "Assignment",
+    "ConstraintOptions",
+    "CountCombination",
+    "CountProbability",
+    "CountRuns",
+    "EpicyclicSet",
+    "GearStages",
+    "Orrery",
+    "SetFindings",
+    "Shortfall",
+    "StageConstraints",
+    "StageFindings",
+    "TargetRatio",
+    "ToothCountPosterior",
+    "TrainFindings",
+    "WheelPosterior",
+    "approximants",
+    "counts_figure",
+    "describe_posterior",
+    "find_orrery",
+    "find_sets",
+    "find_stages",
+    "infer_counts",
+    "read_counts",
+    "read_ratio",
+    "search_train",
+]
+
+_PLACES = {
+    "ConstraintOptions": "constraints.constraint_options",
+    **dict.fromkeys(("EpicyclicSet", "SetFindings"), "epicyclic.epicyclic_sets"),
+    "find_sets": "epicyclic.set_search",
+    "Orrery": "orrery.orrery_result",
+    "find_orrery": "orrery.orrery_search",
+    "counts_figure": "posterior.corner_plot",
+    "infer_counts": "posterior.inference",
+    "describe_posterior": "posterior.posterior_report",
+    **dict.fromkeys(
+        ("CountCombination", "CountProbability", "ToothCountPosterior", "WheelPosterior"), "posterior.posterior_result"
+    ),
+    "StageConstraints": "ratio.stage_problem",
+    **dict.fromkeys(("StageFindings", "find_stages"), "ratio.stage_search"),
+    **dict.fromkeys(("GearStages", "Shortfall"), "search_outcome"),
+    **dict.fromkeys(("Approximant", "approximants"), "stern_brocot"),
+    **dict.fromkeys(("TargetRatio", "read_ratio"), "target_ratio"),
+    **dict.fromkeys(("CountRuns", "read_counts"), "tooth_count_ranges"),
+    **dict.fromkeys(("Assignment", "TrainFindings"), "train.train_findings"),
+    "search_train": "train.train_search",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

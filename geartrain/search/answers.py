@@ -1,0 +1,28 @@
+"""The results of searches that commands print as JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def answers() -> dict[str, Any]:
+    """Question (a command, or a use of one) -> type of its result."""
+    from geartrain.search.epicyclic.epicyclic_sets import SetFindings
+    from geartrain.search.epicyclic.set_kinds import EpicyclicKind
+    from geartrain.search.orrery.orrery_result import Orrery
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior
+    from geartrain.search.ratio.stage_search import StageFindings
+    from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
+    from geartrain.search.stern_brocot import Approximants
+    from geartrain.search.train.train_findings import TrainFindings
+
+    return {
+        "posterior": ToothCountPosterior,
+        "teeth ratio": StageFindings,
+        "teeth approximants": Approximants,
+        "teeth set": SetFindings,
+        "teeth set --kind list": dict[str, EpicyclicKind],
+        "teeth train": TrainFindings,
+        "teeth orrery": Orrery,
+        "reconstruct": ReconstructionAnswer,
+    }

@@ -1,0 +1,46 @@
+"""`geartrain teeth approximants RATIO`: the fractions on the way to a ratio."""
+
+from __future__ import annotations
+
+import typer
+
+from geartrain.cli.common import Force, Json, Out
+from geartrain.search.verb_options import (
+    ANY_COUNT,
+    NEGATIVE_NUMBERS,
+    Csv,
+    Per,
+    Pinions,
+    Range,
+    Ratio,
+    SearchAnswer,
+    Wheels,
+    check_number,
+)
+
+context_settings = NEGATIVE_NUMBERS
+
+
+def run(
+    context: typer.Context,
+    ratio: Ratio,
+    counts: Range = ANY_COUNT,
+    wheels: Wheels = None,
+    pinions: Pinions = None,
+    per: Per = None,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Fractions on the way to a ratio, each nearer than all smaller ones: convergents and what lies between."""
+    from geartrain.search.stern_brocot import Approximants, approximants
+    from geartrain.search.target_ratio import read_ratio
+    from geartrain.search.tooth_count_ranges import read_counts
+    from geartrain.search.tooth_numbers_report import describe_approximants
+
+    answer = SearchAnswer.of(csv, json, out, force)
+    wanted = read_ratio(check_number(context, ratio), per)
+    most = max(read_counts(text or counts).most for text in (wheels, pinions))
+    found = Approximants(wanted, most, tuple(approximants(wanted.value, most)))
+    answer.give(found, [each.to_dict() for each in found.solutions], describe_approximants)

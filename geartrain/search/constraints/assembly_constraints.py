@@ -1,0 +1,468 @@
+"""Constraints on tooth counts besides ratios: which there are in a declared train.
+
+`find_constraints` makes them out of a train and of `ConstraintOptions`. There are two kinds: a `CountEquation`, which
+can be solved for a wheel, and a `Condition`, which only tells. Both judge many candidates at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+from math import sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
+from geartrain.kinematics.circuits import Circuit, Tree
+from geartrain.kinematics.phasing import MeshPhasing, find_phasing
+from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
+from geartrain.search.constraints.count_conditions import (
+    Condition,
+    Coprime,
+    CountBounds,
+    CountConstraint,
+    CountEquation,
+    DifferentCount,
+    Divisible,
+    LinearSum,
+    NearZero,
+    WholeSum,
+    distance_of,
+    equality,
+    free_of,
+    plainest,
+    teeth_of,
+    whole,
+)
+from geartrain.search.constraints.involute_interference import interference, least_teeth
+from geartrain.search.constraints.planet_constraints import PlanetRoom, equal_planets, reason
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, TrainAssembly
+    from geartrain.numerics.arrays import Bools
+    from geartrain.numerics.quantity import Quantity
+    from geartrain.search.constraints.count_conditions import CandidateColumns
+    from geartrain.search.tooth_count_ranges import Counts
+    from geartrain.train import Train
+
+
+# Declared positions of axes: which counts reach each other there, and which teeth meet around loops.
+
+
+PLAY = 0.05
+"""Half modules by which positions may be off: they are rounded, and teeth have play."""
+
+
+@dataclass(frozen=True, slots=True)
+class CentreDistanceMatch:
+    """A sum of teeth as near as `most` to a multiple of another: centre distances in the proportion of positions."""
+
+    teeth: WholeSum
+    other: WholeSum
+    ratio: float
+    most: float
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where it is, (candidates,)."""
+        return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
+
+
+@dataclass(frozen=True)
+class LoopPhasing:
+    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each).
+
+    train, tree, circuits  with some counts; those of `wheels` are put in
+    """
+
+    train: Train
+    tree: Tree
+    circuits: tuple[Circuit, ...]
+    wheels: tuple[str, ...]
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where no loop misses or cannot be told, (candidates,)."""
+        rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
+        each, back = np.unique(rows, axis=0, return_inverse=True)
+        found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
+        return np.array(found, dtype=bool)[back.reshape(-1)]
+
+    def holds(self, counts: Mapping[str, int]) -> bool:
+        """True if the loops close with these counts."""
+        return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
+
+
+@dataclass(frozen=True)
+class DeclaredPositions:
+    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet.
+
+    shift   half modules that profile shift bridges
+    """
+
+    fitting: TrainAssembly
+    shift: int = 0
+
+    @cached_property
+    def closure(self) -> MeshPhasing:
+        """Phase closure with the stand-in counts."""
+        return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
+
+    def conditions(self) -> Iterator[Condition]:
+        """Distances first, loops last. `QuestionError` where no loop has known places."""
+        found = self.closure
+        if found.kind == "open" and not found.rigid:
+            raise QuestionError(_no_places(self.fitting.train))
+        yield from self._reaching()
+        yield from self._meeting()
+
+    # ------------------------------------------------------------------------------------------------------- distances
+
+    def _reaching(self) -> Iterator[Condition]:
+        """Meshes that share a wheel, or have modules of one measure, share a unit: distances are as their teeth."""
+        groups: dict[int, list[AssemblyMesh]] = {}
+        for mesh in self.fitting.meshes:
+            if mesh.spur and self._length(mesh):
+                groups.setdefault(self.fitting.kin[mesh.wheels[0]], []).append(mesh)
+        for meshes in groups.values():
+            yield from self._by_module([mesh for mesh in meshes if self._is_sized(mesh)])
+            yield from self._by_each_other([mesh for mesh in meshes if not self._is_sized(mesh)])
+
+    def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
+        for mesh in meshes:
+            assert mesh.module is not None
+            yield from self._as(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
+
+    def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
+        fixed = [mesh for mesh in meshes if not mesh.is_free]
+        for mesh in meshes:
+            first = (fixed or meshes)[0]
+            if mesh is not first:
+                yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
+
+    def _is_sized(self, mesh: AssemblyMesh) -> bool:
+        """True if the module of a mesh and the positions of its axes are in one measure."""
+        if not mesh.measure or mesh.module is None:
+            return False
+        places = [self.fitting.train.axes[label].position for label in mesh.axes]
+        return {part.unit is None for place in places for part in place or () if part.value} == {
+            mesh.measure == "plain"
+        }
+
+    def _as(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
+        one, two = whole(teeth_of(mesh), other)
+        wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
+        if wheels:
+            name = f"declared positions: '{mesh.name}' reaches as {what} says"
+            yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, PLAY + self.shift))
+
+    def _length(self, mesh: AssemblyMesh) -> float:
+        """Distance of the two axes of a mesh (m, or plain); 0 where a position is not declared."""
+        axes = self.fitting.train.axes
+        ends = [axes[label].position for label in mesh.axes if label in axes]
+        if len(ends) < 2 or ends[0] is None or ends[1] is None:
+            return 0.0
+        way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
+        arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
+        along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
+        return sqrt(max(sum(x * x for x in arm) - along, 0.0))
+
+    # ------------------------------------------------------------------------------------------------------------ loops
+
+    def _meeting(self) -> Iterator[Condition]:
+        """One condition on all loops: by their rule where it is known, else candidate by candidate."""
+        wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
+        if not wheels:
+            return
+        alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
+        # with several carriers, or loops that do not turn, which loops there are depends on the counts
+        rule = replace(self.closure, alike=dict).rule if alone else None
+        name = "phase closure: teeth of all loops meet at the declared positions"
+        if rule is None:
+            train = self.fitting.train.model_copy()
+            train._marks = None  # it leads to a file, which other processes do not need
+            yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
+            return
+        sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
+        asked = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
+        if asked:
+            yield Condition(f"{name}: {rule.text}", asked, Divisible(tuple(sums)))
+
+    def _sum(self, terms: Mapping[str, int]) -> WholeSum:
+        (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
+        return total
+
+    def _in_loops(self) -> Sequence[str]:
+        """The wheels of all pairs in loops, closing and rigid ones."""
+        problem = self.closure.problem
+        meshes = {mesh for condition in problem.conditions for mesh in condition.row}
+        pairs = {problem.circuits[mesh].id for mesh in meshes}
+        pairs |= {pair for chord in problem.parts.breaking for pair in problem.parts.loop(chord).pairs}
+        circuits = (circuit for circuit in self.fitting.circuits if circuit.id in pairs)
+        return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
+
+
+def _no_places(train: Train) -> Problem:
+    return Problem(
+        f"no loop of '{train.name}' has known places",
+        "teeth meet or miss around loops of meshes, where the positions of axes are declared",
+        "declare `axes` with positions, or leave phase closure out",
+        train.place("axes"),
+    )
+
+
+def find_constraints(train: Train, free: Mapping[str, Counts], asked: ConstraintOptions) -> tuple[CountConstraint, ...]:
+    """The rules that the free wheels of a train must keep, the cheapest first.
+
+    free   wheel -> counts it may have; all other wheels have their declared counts
+    Order: limits of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops. Rules
+    without a free wheel are left out, for the search cannot change what they say. `QuestionError` where one that is
+    asked cannot be judged in this train, or no counts can meet it.
+    """
+    from geartrain.kinematics.formulas.output_formulas import with_counts
+
+    stand_in = with_counts(train, {wheel: counts[0] for wheel, counts in free.items()})
+    return tuple(_Asking(train, TrainAssembly.of(stand_in, free), asked).rules()) if free else ()
+
+
+@dataclass(frozen=True)
+class _Asking:
+    """The rules of one train; in `fitting` its free wheels have stand-in counts."""
+
+    declared: Train
+    fitting: TrainAssembly
+    asked: ConstraintOptions
+
+    def rules(self) -> Iterator[CountConstraint]:
+        """All of them, in order."""
+        yield from self._limits()
+        linear = [*self._coaxial(), *self._equal()]
+        yield from sorted(linear, key=lambda rule: not isinstance(rule, CountEquation))
+        yield from self._pairs()
+        yield from self._planets()
+        if self.asked.closure:
+            yield from DeclaredPositions(self.fitting, self.asked.shift).conditions()
+
+    # ------------------------------------------------------------------------------------------------------- one wheel
+
+    def _limits(self) -> Iterator[CountConstraint]:
+        asked = self.asked
+        rack = None if asked.undercut is None else least_teeth(turns(asked.undercut), asked.addendum)
+        for name, (_, wheel) in self.fitting.train.wheels.items():
+            if name not in self.fitting.free or wheel.kind == "worm":
+                continue
+            if asked.least is not None:
+                yield Condition(
+                    f"'{name}' has at least {asked.least} teeth", (name,), CountBounds(name, least=asked.least)
+                )
+            if asked.most_teeth is not None:
+                what = f"'{name}' has at most {asked.most_teeth} teeth"
+                yield Condition(what, (name,), CountBounds(name, most=asked.most_teeth))
+            if asked.largest_radius is not None:
+                plain = "" if asked.largest_radius.unit else " modules"
+                what = f"'{name}' has a radius of at most {asked.largest_radius}{plain}"
+                yield Condition(what, (name,), CountBounds(name, most=self._most(name, asked.largest_radius)))
+            if rack is not None and wheel.kind == "spur" and not wheel.internal:
+                what = f"'{name}' is not undercut: at least {rack} teeth at {asked.undercut}"
+                yield Condition(what, (name,), CountBounds(name, least=rack))
+
+    def _most(self, wheel: str, radius: Quantity) -> int:
+        """The largest count whose pitch radius, m z/2, is within bounds."""
+        measure, module = self.fitting.module(wheel)
+        if (measure == "m") != (radius.unit is not None) or module is None:
+            declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
+            raise QuestionError(
+                Problem(
+                    f"the radius of '{wheel}' cannot be compared with {radius}",
+                    f"its module is {declared}" if module else "several modules are declared for it",
+                    "give lengths and modules both with units; without modules a radius is a plain number of modules",
+                )
+            )
+        return int(2 * radius.base / module)
+
+    # --------------------------------------------------------------------------------------------------------- coaxial
+
+    def _coaxial(self) -> Iterator[CountConstraint]:
+        """Meshes between the same two axes, of one measure: each has the centre distance of the first."""
+        if self.asked.coaxial is False:
+            return
+        first: dict[object, AssemblyMesh] = {}
+        for mesh in self.fitting.meshes:
+            if mesh.spur and mesh.module is not None:
+                before = first.setdefault((mesh.carrier, frozenset(mesh.axes), mesh.measure), mesh)
+                yield from self._one_distance(before, mesh)
+
+    def _one_distance(self, before: AssemblyMesh, mesh: AssemblyMesh) -> Iterator[CountConstraint]:
+        total = distance_of(before) - distance_of(mesh)
+        shift = self.asked.shift * min(before.module or 1, mesh.module or 1)
+        if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
+            return
+        if not total.terms:
+            if abs(total.constant) > shift:
+                raise QuestionError(_never(before, mesh))
+            return
+        found = plainest(total)
+        if not shift:
+            yield CountEquation(f"coaxial closure: {equality(found)}", dict(found.terms), found.constant)
+            return
+        scaled, room = whole(total, LinearSum({}, Fraction(shift)))
+        words = f"coaxial closure within {self.asked.shift} half modules: {equality(found)}"
+        yield Condition(words, scaled.wheels, NearZero(scaled, room.constant))
+
+    def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
+        """True if the declared counts do not meet the rule, and it is not asked for: modules differ, or are shifted."""
+        counts = {wheel: self._evident(wheel) for wheel in total.terms}
+        known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
+        return self.asked.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift
+
+    def _evident(self, wheel: str) -> int | None:
+        """The declared count; None where it is to be searched for, and a value beside that only stands in."""
+        teeth = self.declared.wheels[wheel][1].teeth
+        if isinstance(teeth, int):
+            return teeth
+        return None if teeth.search else teeth.value
+
+    # ----------------------------------------------------------------------------------------------------------- pairs
+
+    def _pairs(self) -> Iterator[CountConstraint]:
+        asked = self.asked
+        if asked.interference is not None:
+            pressure = turns(asked.interference)
+            for mesh in self.fitting.meshes:
+                yield from interference(mesh, pressure, asked.addendum, self._ring_addendum)
+        if asked.hunting:
+            for mesh in self.fitting.meshes:
+                if mesh.is_free:
+                    words = f"hunting tooth: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' have no common divisor"
+                    yield Condition(words, free_of(*mesh.parts), Coprime(*mesh.parts))
+        if asked.different:
+            yield from self._different()
+
+    @property
+    def _ring_addendum(self) -> Fraction:
+        return self.asked.addendum if self.asked.ring_addendum is None else self.asked.ring_addendum
+
+    def _different(self) -> Iterator[CountConstraint]:
+        """Of each free wheel and all fixed counts, then of each two free wheels."""
+        words = "different counts: two wheels have the same"
+        alike = self._alike([{*pair} for one in self.fitting.sets for pair in self._copied(one)])
+        free = [wheel for wheel in self.fitting.train.wheels if wheel in self.fitting.free]
+        fixed = [wheel for wheel in self.fitting.train.wheels if wheel not in self.fitting.free]
+        for wheel in free:
+            others = [self.fitting.part(other) for other in fixed if not self._are_alike(alike, wheel, other)]
+            if others:
+                yield Condition(words, (wheel,), DifferentCount(wheel, tuple(dict.fromkeys(others))))
+        for first, second in combinations(free, 2):
+            if not self._are_alike(alike, first, second):
+                yield Condition(words, (first, second), DifferentCount(first, (second,)))
+
+    @staticmethod
+    def _are_alike(alike: list[set[str]], *wheels: str) -> bool:
+        return any(group.issuperset(wheels) for group in alike)
+
+    @staticmethod
+    def _alike(pairs: list[set[str]]) -> list[set[str]]:
+        """Wheels of equal planets, joined where the pairs have one in common."""
+        found: list[set[str]] = []
+        for pair in pairs:
+            for group in found:
+                if group & pair:
+                    group |= pair
+                    break
+            else:
+                found.append(set(pair))
+        return found
+
+    @staticmethod
+    def _copied(one: PlanetSet) -> Iterator[tuple[str, str]]:
+        for copy in one.copies:
+            yield from corresponding(one, copy).items()
+
+    # --------------------------------------------------------------------------------------------------------- planets
+
+    def _numbered(self) -> Iterator[tuple[PlanetSet, int]]:
+        """Sets of planets and how many there are of each: as asked, else by `copies`."""
+        asked = self.asked.planets
+        if asked is None:
+            for one in self.fitting.sets:
+                copies = max(self.declared.links[link].copies for link in one.links)
+                if copies > 1 and one.planets is not None:
+                    yield one, copies
+            return
+        known = dict.fromkeys(one.carrier for one in self.fitting.sets)
+        unknown = [carrier for carrier in asked if carrier not in known] if isinstance(asked, Mapping) else []
+        if unknown or not known:
+            raise QuestionError(_no_planets(unknown, list(known)))
+        for one in self.fitting.sets:
+            number = asked.get(one.carrier) if isinstance(asked, Mapping) else asked
+            if number is None:
+                continue
+            if number < 1 or self._declared(one) not in (1, number) or one.planets is None:
+                raise QuestionError(_not_so_many(one, number, self._declared(one)))
+            yield one, number
+
+    def _declared(self, one: PlanetSet) -> int:
+        """Equal sets that are declared, by `copies` or one by one."""
+        return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
+
+    def _equal(self) -> Iterator[CountConstraint]:
+        """Planets declared one by one have the same counts."""
+        for one, _ in self._numbered():
+            for first, other in self._copied(one):
+                found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
+                if found.terms:
+                    yield CountEquation(f"equal planets: {equality(found)}", dict(found.terms), found.constant)
+
+    def _planets(self) -> Iterator[CountConstraint]:
+        numbered = list(self._numbered())
+        for one, number in numbered:
+            rule = equal_planets(one, number, reason(one, number))
+            if rule is not None:
+                yield rule
+        if self.asked.clearance is None:
+            return
+        if not numbered:
+            raise QuestionError(
+                Problem(
+                    "the room between planets is not known",
+                    "it depends on how many there are on a carrier",
+                    "say how many equal planets there are: planets=3",
+                )
+            )
+        for one, number in numbered:
+            room = PlanetRoom(number, self.asked.addendum, self._ring_addendum, self.asked.clearance)
+            yield from room.conditions(one, self.fitting)
+
+
+def _never(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
+    return Problem(
+        f"'{before.name}' and '{mesh.name}' never have one centre distance",
+        "they lie between the same two axes, and what is free in them cancels",
+        "correct a fixed count, allow a `shift`, or do not ask for `coaxial`",
+    )
+
+
+def _no_planets(unknown: list[str], known: list[str]) -> Problem:
+    what = f"'{unknown[0]}' carries no planets" if unknown else "no link carries planets"
+    return Problem(
+        what,
+        "planets turn on axes that a link other than the frame carries along",
+        f"name one of: {', '.join(known)}" if known else "leave the number of planets out",
+    )
+
+
+def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
+    if one.planets is None:
+        why = "they mesh with each other in a loop, which is not judged"
+    elif number < 1:
+        why = "a carrier has one planet or more"
+    else:
+        why = f"{declared} sets are declared, alike"
+    return Problem(
+        f"{number} equal planets {one.title} on '{one.carrier}' cannot be asked for",
+        why,
+        "ask for as many as are declared, or declare one that stands for all; or ask by carrier: planets={'arm': 3}",
+    )

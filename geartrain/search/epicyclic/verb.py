@@ -1,0 +1,95 @@
+"""`geartrain teeth set RATIO --kind ...`: epicyclic sets."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from geartrain.cli.common import Force, Json, Out, give
+from geartrain.cli.option_values import decimal
+from geartrain.search.verb_options import (
+    ANY_COUNT,
+    NEGATIVE_NUMBERS,
+    Best,
+    Csv,
+    Per,
+    Pick,
+    Range,
+    SearchAnswer,
+    Tolerance,
+    check_number,
+    read_tolerance,
+)
+
+context_settings = NEGATIVE_NUMBERS
+
+
+def run(
+    context: typer.Context,
+    kind: Annotated[str, typer.Option("--kind", help="The kind of set; 'list' names the kinds.")],
+    ratio: Annotated[
+        str | None, typer.Argument(help="A ratio; not needed with --kind list.", metavar="[RATIO]")
+    ] = None,
+    counts: Range = ANY_COUNT,
+    mode: Annotated[str, typer.Option("--mode", help="Which links: input:output:held, or all.")] = "all",
+    ratio_is: Annotated[str, typer.Option("--ratio-is", help="input/output or output/input.")] = "input/output",
+    planets: Annotated[int | None, typer.Option("--planets", help="Equal planets, equally spaced.")] = None,
+    clearance: Annotated[
+        str | None, typer.Option("--clearance", help="Room between the tips of neighbouring planets, in modules.")
+    ] = None,
+    shift: Annotated[
+        int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")
+    ] = 0,
+    tolerance: Tolerance = None,
+    best: Best = 20,
+    by: Annotated[
+        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres.")
+    ] = "error",
+    per: Per = None,
+    pick: Pick = 1,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Epicyclic sets of one kind with a wanted ratio, that can be put together with equal planets."""
+    from geartrain.search.epicyclic.set_search import find_sets
+    from geartrain.search.target_ratio import read_ratio
+    from geartrain.search.tooth_count_ranges import read_counts
+    from geartrain.search.tooth_numbers_report import describe_sets, set_rows
+
+    answer = SearchAnswer.of(csv, json, out, force, pick)
+    if kind == "list":
+        _list(answer)
+        return
+    if ratio is None:
+        raise typer.BadParameter("a set is made for a ratio", param_hint="RATIO")
+    if clearance is not None and planets is None:
+        raise typer.BadParameter("room is asked of equal planets; give --planets too", param_hint="--clearance")
+    room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
+    chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
+    found = find_sets(
+        read_ratio(check_number(context, ratio), per),
+        kind,
+        chosen,
+        read_counts(counts),
+        3 if planets is None else planets,
+        read_tolerance(tolerance),
+        best,
+        ratio_is=ratio_is,  # type: ignore[arg-type]
+        by=by,  # type: ignore[arg-type]
+        spaced=planets is not None,
+        clearance=room,
+        slack=shift,
+    )
+    answer.give(found, set_rows(found), describe_sets, lambda at: found.solutions[at].to_train())
+
+
+def _list(answer: SearchAnswer) -> None:
+    """The kinds there are."""
+    from geartrain.search.epicyclic.set_kinds import kinds
+    from geartrain.search.tooth_numbers_report import describe_set_kinds
+
+    found = kinds()
+    give(answer.out, answer.json, lambda: found, lambda: [describe_set_kinds(found)])

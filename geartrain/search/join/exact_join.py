@@ -1,0 +1,349 @@
+"""The join itself: all assignments of a question counted exactly, or brought out one block at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from geartrain.kinematics.formulas.monomial_groups import proportional_classes
+from geartrain.numerics.arrays import Bools, Ints
+from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
+from geartrain.search.integer_columns import spread, spread_in_blocks
+from geartrain.search.join.join_plan import JoinProblem, PlanNode, extents
+from geartrain.search.join.partial_assignments import BLOCK, ItemMonomial, PartialAssignments
+from geartrain.search.join.polynomial_constraints import (
+    PolynomialConstraint,
+    RelaxedInequality,
+    SolutionWindow,
+    possible,
+)
+from geartrain.search.join.product_lists import Item, Tallies, find_item
+
+# Through which monomials of items some constraints see them: settings that agree in all of these are one. Once x
+# and y are set, an output that sees x y alone cannot tell 2 x 6 from 3 x 4; nor can all that is set below. The rows
+# of a join are merged so as soon as they may be (bucket elimination, Dechter 1999).
+
+
+_LARGEST = 1 << 62  # products below this are exact in int64
+
+
+def find_item_monomials(
+    items: Sequence[int], constraints: Sequence[CountConstraint | PolynomialConstraint], lists: Sequence[Item]
+) -> Iterator[ItemMonomial]:
+    """The fewest monomials of some items that decide the constraints, each exact in int64; one that none sees is in
+    none of them.
+
+    Items belong together if their powers, counted from the first term of each polynomial and listed over all terms of
+    all polynomials, are multiples of one list. Wheels of rules on counts stand by themselves.
+
+    items   all that are set of the constraints' items
+    lists   of every item
+    """
+    alone = {
+        item
+        for rule in constraints
+        if not isinstance(rule, PolynomialConstraint)
+        for item in items
+        if not set(lists[item].recipe.wheels).isdisjoint(rule.wheels)
+    }
+    polynomials = [one for one in constraints if isinstance(one, PolynomialConstraint)]
+    yield from (((item, 1),) for item in items if item in alone)
+    steps = ((item, [step for one in polynomials for step in one.steps(item)]) for item in items if item not in alone)
+    for group in proportional_classes(steps).values():
+        yield from _cut(tuple(group.items()), lists)
+
+
+def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:
+    """A monomial cut where its values would not fit int64."""
+    # cut greedily: what fits 2^62 above and below stays one monomial
+    held: list[tuple[int, int]] = []
+    largest = [1, 1]
+    for item, power in group:
+        own = lists[item]
+        ends = int(own.tops.max()), 1 if own.bottoms is None else int(own.bottoms.max())
+        sizes = [end ** abs(power) for end in (ends if power > 0 else ends[::-1])]
+        grown = [one * size for one, size in zip(largest, sizes, strict=True)]
+        if held and max(grown) >= _LARGEST:
+            yield tuple(held)
+            held, grown = [], sizes
+        held.append((item, power))
+        largest = grown
+    if held:
+        yield tuple(held)
+
+
+Slices = Mapping[int, tuple[int, int]]
+"""Item -> the run of its values that this piece of the work looks at; all of them where it is missing."""
+AssignmentColumns = dict[str, Ints]
+
+
+class BudgetSpentError(Exception):
+    """The join passed its budget of steps."""
+
+
+@dataclass
+class RefusalCounts:
+    """How many assignments each constraint refuses: constraint -> one number for each row."""
+
+    size: int
+    dtype: Any
+    by: dict[int, Tallies] = field(default_factory=dict)
+
+    def charge(self, constraint: int, rows: Ints, numbers: Tallies) -> None:
+        """Add to some rows, which may repeat."""
+        if constraint not in self.by:
+            self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
+        # not `+=`: of rows that repeat that would add one number only
+        np.add.at(self.by[constraint], rows, numbers)
+
+
+class ExactJoin:
+    """The exact join, by bucket elimination (Dechter 1999): a question with its lists made.
+
+    slices   what part of the work to do
+    budget   steps after which `BudgetSpentError` is raised
+    """
+
+    def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
+        self.question = question
+        # no tally is larger than the total, so that int64 cannot overflow below 2^62
+        self.dtype: Any = np.int64 if question.total < 1 << 62 else object
+        self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
+        self.extents = extents(question)
+        self.constraints: list[CountConstraint | PolynomialConstraint] = [
+            *question.rules,
+            *question.polynomial_constraints,
+        ]
+        self.wheel_of = {
+            recipe.top[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe.wheels) == 1 and recipe.top
+        }
+        self._views: dict[int, tuple[ItemMonomial, ...]] = {}
+        self._reaches: dict[int, list[tuple[int, list[list[RelaxedInequality]]]]] = {}
+        self.cut(slices or {}, budget)
+
+    def cut(self, slices: Slices, budget: float = np.inf) -> None:
+        """Take up another piece of the work."""
+        self.slices, self.budget, self.steps = slices, budget, 0
+        self._full: dict[int, int] = {}
+
+    def start(self) -> PartialAssignments:
+        """The one row in which nothing is set."""
+        return PartialAssignments(self.items, {}, 1)
+
+    def full(self, node: PlanNode) -> int:
+        """Assignments of the wheels of a node and all below."""
+        if id(node) not in self._full:
+            first, last = self._run(node.item)
+            total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
+            for child in node.children:
+                total *= self.full(child)
+            self._full[id(node)] = total
+        return self._full[id(node)]
+
+    def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
+        """For each row how many assignments below it meet everything, and how many each constraint refuses."""
+        total = np.zeros(rows.size, dtype=self.dtype)
+        removed = RefusalCounts(rows.size, self.dtype)
+        at, alive = self.pruned(node, rows, removed)
+        # a last item with nothing but its guide is counted by the ends of windows, without a row for each value
+        if not node.children and not node.checks and node.guide >= len(self.question.rules):
+            total[at] = self._windowed(node, at, alive, removed)
+            return total, removed.by
+        for parents, grown in self.grown(node, alive, at, removed):
+            counts = self._below(node, parents, grown, removed)
+            np.add.at(total, parents, counts)
+        return total, removed.by
+
+    def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
+        """All assignments of the items of some nodes and those below that go with the rows, block by block."""
+        if not nodes:
+            yield rows
+            return
+        node = nodes[0]
+        _, alive = self.pruned(node, rows, None)
+        for _, grown in self.grown(node, alive, np.arange(alive.size), None):
+            # of several children the later ones may have nothing, and rows of the first would be listed for nothing
+            if len(node.children) > 1:
+                grown = self._promising(node, grown)
+            yield from self.stream((*node.children, *nodes[1:]), grown)
+
+    def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
+        """Every assignment of wheels that some rows stand for, block by block."""
+        sizes = np.ones(rows.size, dtype=self.dtype)
+        for item, column in rows.columns.items():
+            sizes = sizes * self.items[item].times[column]
+        for first, last in rows.blocks(sizes):
+            self.spend(int(sizes[first:last].sum()))
+            part = rows.pick(np.arange(first, last))
+            columns: AssignmentColumns = {}
+            owner = np.arange(part.size)
+            for item, column in part.columns.items():
+                # the ways to one value are found once, however many rows have it
+                values, which = np.unique(column, return_inverse=True)
+                ways, more = self.items[item].ways(values)
+                starts = np.searchsorted(ways, np.arange(len(values) + 1))
+                chosen = which[owner]
+                grown, at = spread(starts[chosen], starts[chosen + 1])
+                owner = owner[grown]
+                columns = {wheel: known[grown] for wheel, known in columns.items()}
+                columns |= {wheel: counts[at] for wheel, counts in more.items()}
+            yield {wheel: columns[wheel] for wheel in self.question.wheels}
+
+    def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
+        """The distinct rows as far as a node and those below can tell, and for each row which of them it is."""
+        if id(node) not in self._views:
+            reached = [self.constraints[number] for number in node.reach]
+            self._views[id(node)] = tuple(find_item_monomials(node.interface, reached, self.items))
+        return rows.distinct(node.interface, self._views[id(node)])
+
+    def spend(self, steps: int) -> None:
+        """Count steps against the budget."""
+        self.steps += steps
+        if self.steps > self.budget:
+            raise BudgetSpentError
+
+    def _run(self, item: int) -> tuple[int, int]:
+        return self.slices.get(item, (0, len(self.items[item])))
+
+    def pruned(
+        self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
+    ) -> tuple[Ints, PartialAssignments]:
+        """The rows that no constraint surely refuses, whatever is set below; and which they are."""
+        at = np.arange(rows.size)
+        for number, reaches in self._prunes(node):
+            hopeful = possible(reaches, rows)
+            if hopeful.all():
+                continue
+            if removed is not None:
+                gone = at[~hopeful]
+                removed.charge(number, gone, np.full(len(gone), self.full(node), dtype=self.dtype))
+            at, rows = at[hopeful], rows.pick(hopeful)
+        return at, rows
+
+    def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
+        """The constraints that may end rows at a node, with its item and those below open."""
+        if id(node) not in self._reaches:
+            found = []
+            below = set(node.below())
+            for number in node.prunes:
+                constraint = self.constraints[number]
+                assert isinstance(constraint, PolynomialConstraint)
+                corners = {item: self.extents[item] for item in constraint.items if item in below}
+                found.append((number, constraint.reaches(corners)))
+            self._reaches[id(node)] = found
+        return self._reaches[id(node)]
+
+    def _windowed(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
+        """The count of a last item with one constraint: its windows, without a look at what is inside."""
+        constraint, item = self.constraints[node.guide], self.items[node.item]
+        assert isinstance(constraint, PolynomialConstraint)
+        self.spend(rows.size)
+        total = np.zeros(rows.size, dtype=self.dtype)
+        for number, window in enumerate(constraint.windows(rows, node.item)):
+            window = window.clipped(*self._run(node.item))
+            total += item.sums[window.sure_end] - item.sums[window.sure_start]
+            parents, indices = constraint.fringe(number, rows, node.item, window)
+            np.add.at(total, parents, item.times[indices])
+        removed.charge(node.guide, at, self.full(node) - total)
+        return total
+
+    def grown(
+        self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
+    ) -> Iterator[tuple[Ints, PartialAssignments]]:
+        """Rows with the node's item set as its guide says, checked; `at` says which row of the caller's each is."""
+        times, total = self.items[node.item].times, self._total(node.item)
+        below = self.full(node) // total
+        polynomial = node.guide >= len(self.question.rules)
+        # charged in full here; what the guide leaves is taken back below
+        if node.guide >= 0 and removed is not None:
+            removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
+        for parents, indices in self._candidates(node, rows):
+            grown = rows.plus(parents, node.item, indices)
+            self.spend(grown.size)
+            if polynomial:
+                met = self._holds(node.guide, grown)
+                parents, indices, grown = parents[met], indices[met], grown.pick(met)
+            if node.guide >= 0 and removed is not None:
+                removed.charge(node.guide, at[parents], times[indices] * -below)
+            for number in node.checks:
+                met = self._holds(number, grown)
+                if removed is not None:
+                    removed.charge(number, at[parents[~met]], times[indices[~met]] * below)
+                parents, indices, grown = parents[met], indices[met], grown.pick(met)
+            if grown.size:
+                yield at[parents], grown
+
+    def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
+        """Row and value of what the node's guide leaves to be looked at, block by block."""
+        first, last = self._run(node.item)
+        if node.guide < 0:
+            whole = np.zeros(rows.size, dtype=np.int64)
+            yield from spread_in_blocks(whole + first, whole + last, BLOCK)
+            return
+        guide = self.constraints[node.guide]
+        if isinstance(guide, PolynomialConstraint):
+            looked_at: list[SolutionWindow] = []
+            for window in guide.windows(rows, node.item):
+                window = window.clipped(first, last)
+                for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
+                    # cases exclude each other, but where bounds are nearer than rounding their windows overlap
+                    for other in looked_at:
+                        new = (indices < other.start[parents]) | (indices >= other.end[parents])
+                        parents, indices = parents[new], indices[new]
+                    yield parents, indices
+                looked_at.append(window)
+        else:
+            assert isinstance(guide, CountEquation)
+            yield self._solved(guide, node.item, rows, first, last)
+
+    def _solved(
+        self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
+    ) -> tuple[Ints, Ints]:
+        """The one value of an item that an equation leaves for each row, where there is one."""
+        counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
+        tops = self.items[item].tops
+        indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
+        found = np.flatnonzero(whole & (tops[indices] == counts) & (indices >= first) & (indices < last))
+        return found, indices[found]
+
+    def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
+        """The counts of a rule's wheels that are set."""
+        items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
+        return {wheel: rows.top(item) for wheel, item in items.items() if item in rows.columns}
+
+    def _holds(self, number: int, rows: PartialAssignments) -> Bools:
+        constraint = self.constraints[number]
+        if isinstance(constraint, PolynomialConstraint):
+            return constraint.holds(rows)
+        return constraint.holds(self._counts(constraint, rows))
+
+    def _below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
+        """For grown rows the number of assignments below; what children refuse is charged to `parents`."""
+        counts = self.items[node.item].times[grown.columns[node.item]]
+        alive = np.arange(grown.size)
+        later = self.full(node) // self._total(node.item)
+        for child in node.children:
+            later //= self.full(child)
+            distinct, which = self.seen(child, grown.pick(alive))
+            found, gone = self.count(child, distinct)
+            for number, numbers in gone.items():
+                spread_out = numbers if which is None else numbers[which]
+                removed.charge(number, parents[alive], counts[alive] * spread_out * later)
+            counts[alive] = counts[alive] * (found if which is None else found[which])
+            alive = alive[counts[alive] > 0]
+        return counts
+
+    def _promising(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
+        """The rows that have assignments below in every child: the others need not be listed."""
+        for child in node.children:
+            distinct, which = self.seen(child, grown)
+            found, _ = self.count(child, distinct)
+            grown = grown.pick((found if which is None else found[which]) > 0)
+        return grown
+
+    def _total(self, item: int) -> int:
+        first, last = self._run(item)
+        return int(self.items[item].sums[last] - self.items[item].sums[first])

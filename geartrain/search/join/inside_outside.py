@@ -1,0 +1,274 @@
+"""Sums over all assignments of a recorded join: their weight, and that of those with each count of each wheel.
+
+They are inside and outside sums over tables of `numerics.weighted_alternatives`; whole numbers stay exact. All sums are
+linear in the weights of each wheel, which may have either sign: with weights w(z) (z - mean) of one wheel in place of
+w(z), the sums of the others are their covariances with it.
+
+The best assignments, best first, by a search along the tree that knows the least that is to come (A*).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from geartrain.numerics.arrays import Floats, Ints
+from geartrain.search.join.exact_join import ExactJoin
+from geartrain.search.join.join_plan import JoinProblem, PlanNode
+from geartrain.search.join.partial_assignments import PartialAssignments
+from geartrain.search.join.polynomial_constraints import PolynomialConstraint
+from geartrain.search.join.product_lists import Item, ProductStep, Tallies
+from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
+
+# A join that is kept: which values of each item go with what is set above, and which counts make up each value.
+# Every transition leads to at least one whole assignment. Sums over all assignments are then sums over the tree,
+# taken again and again with other weights; see `inside_outside`.
+
+
+Misfits = Mapping[int, Callable[[Floats], Floats]]
+"""Number of a graded demand in `JoinProblem.asked` -> how badly its values agree with it, 0 for perfectly."""
+CountWeights = Mapping[str, Tallies]
+"""Wheel -> a weight for each of its counts, all of one dtype."""
+
+
+class RecordedItem:
+    """Some values of an item, and how the counts of its wheels make them up.
+
+    size    of these values
+    sides   of the products above, and below if there are any: the last step to them, and the product of each value
+    """
+
+    def __init__(self, item: Item, indices: Ints) -> None:
+        self.size = len(indices)
+        self.sides: list[tuple[ProductStep, Ints]] = []
+        for products, places in item.sides(indices):
+            distinct, rows = np.unique(places, return_inverse=True)
+            last = products.last_step(distinct)
+            self.sides += [] if last is None else [(last, rows)]
+
+    @property
+    def transitions(self) -> int:
+        """How many there are in all steps."""
+        return sum(len(step.choices) for last, _ in self.sides for step in last.chain())
+
+    def ways(self, value: int) -> Iterator[dict[str, int]]:
+        """Each way to one value: wheel -> index of its count."""
+        for sides in product(*(list(_ways(last, int(rows[value]))) for last, rows in self.sides)):
+            yield {wheel: index for own in sides for wheel, index in own.items()}
+
+
+def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
+    """Each way through the steps to a row."""
+    if last is None:
+        yield {}
+        return
+    for at in np.flatnonzero(last.children == row):
+        for before in _ways(last.before, int(last.parents[at])):
+            yield before | {last.wheel: int(last.choices[at])}
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedNode:
+    """A node of a join's plan.
+
+    size       rows: settings of what this node and those below look at
+    parents    row of each transition, ascending
+    places     which value it sets, of `values`
+    values     those of the item that occur
+    misfit     what the graded demands decided here add to each transition; None where none is decided
+    children   nodes below, and for each of them the row that each transition leads to
+    """
+
+    size: int
+    parents: Ints
+    places: Ints
+    values: RecordedItem
+    misfit: Floats | None
+    children: tuple[tuple[RecordedNode, Ints], ...]
+
+
+def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
+    """The tree of a question without late rules, and the steps it took.
+
+    Raises `BudgetSpentError` where that needs more than `limit` partial assignments.
+    """
+    join = ExactJoin(question, budget=limit)
+    return _Recorder(join, misfits).record(question.plan, join.start()), join.steps
+
+
+@dataclass(frozen=True)
+class _Recorder:
+    join: ExactJoin
+    misfits: Misfits
+
+    def record(self, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
+        """A node and all below, for some distinct rows on its interface."""
+        at, alive = self.join.pruned(node, rows, None)
+        blocks = list(self.join.grown(node, alive, at, None))
+        # rows without any block still have columns
+        nothing = [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
+        parents = np.concatenate([owners for owners, _ in blocks or nothing])
+        # transitions of one row stand together: `BestFirst` finds them by bisection
+        order = np.argsort(parents, kind="stable")
+        parents, grown = parents[order], _joined([block for _, block in blocks or nothing]).pick(order)
+        misfit = self._misfit(node, grown)
+        children: list[tuple[RecordedNode, Ints]] = []
+        for child in node.children:
+            distinct, which = self.join.seen(child, grown)
+            below = self.record(child, distinct)
+            onward = np.arange(grown.size) if which is None else which
+            leads = np.zeros(distinct.size, dtype=np.bool_)
+            leads[below.parents] = True
+            kept = leads[onward]
+            parents, grown, misfit = parents[kept], grown.pick(kept), None if misfit is None else misfit[kept]
+            children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
+        live, places = np.unique(grown.columns[node.item], return_inverse=True)
+        values = RecordedItem(self.join.items[node.item], live)
+        self.join.spend(values.transitions)
+        return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
+
+    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats | None:
+        """What the graded demands that are complete with this node add."""
+        found: Floats | None = None
+        for number in (node.guide, *node.checks):
+            demand = number - len(self.join.question.rules)
+            if number >= 0 and demand in self.misfits:
+                constraint = self.join.constraints[number]
+                assert isinstance(constraint, PolynomialConstraint)
+                own = self.misfits[demand](constraint.value(rows))
+                found = own if found is None else found + own
+        return found
+
+
+def _joined(blocks: Sequence[PartialAssignments]) -> PartialAssignments:
+    """Rows of several blocks over the same items as one."""
+    first = blocks[0]
+    columns = {item: np.concatenate([block.columns[item] for block in blocks]) for item in first.columns}
+    return PartialAssignments(first.items, columns, sum(block.size for block in blocks))
+
+
+_Table = RecordedNode | RecordedItem | ProductStep
+
+
+class AssignmentSums:
+    """Sums over the assignments of a recorded join.
+
+    graded   True: the weight of an assignment, the product of the weights of its counts, is multiplied by
+             exp(-misfit / 2)
+    """
+
+    def __init__(self, root: RecordedNode, graded: bool) -> None:
+        self.root, self.graded = root, graded
+
+    def total(self, weights: CountWeights) -> Any:
+        """The weight of all assignments."""
+        return self._sums(weights).total.sum()
+
+    def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
+        """Wheel -> the weight of all assignments with each of its counts."""
+        return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
+
+    def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
+        return WeightedAlternatives(self.root, lambda table: iter([self._alternatives(table, weights)]))
+
+    def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
+        """A row goes on with a value of its item and a row of each child; a value, and a product, by how it is made."""
+        if isinstance(table, RecordedNode):
+            grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)
+            return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
+        if isinstance(table, RecordedItem):
+            return AlternativeRows(1, table.size, None, tuple(table.sides))
+        own = weights[table.wheel]
+        told = ((table.wheel, len(own), table.choices),)
+        before = () if table.before is None else ((table.before, table.parents),)
+        return AlternativeRows(own[table.choices], table.size, table.children, before, told)
+
+    def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
+        """The covariance of the counts of every two wheels, in the order of `counts`, to rounding.
+
+        weights   float64, none negative
+        """
+        total, marginals = float(self.total(weights)), self.marginals(weights)
+        wheels = [wheel for wheel in counts if wheel in marginals]
+        steps, found = {}, {}
+        for wheel in wheels:
+            sizes = np.array(counts[wheel], dtype=np.float64)
+            # about the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
+            steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
+        for at, first in enumerate(wheels):
+            tilted = self.marginals({**weights, first: weights[first] * steps[first]})
+            for second in wheels[at + 1 :]:
+                found[first, second] = float((tilted[second] * steps[second]).sum()) / total
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class GradedAssignment:
+    """An assignment and its misfit to rounding."""
+
+    misfit: float
+    teeth: Mapping[str, int]
+
+
+class BestFirst:
+    """The assignments of a recorded join that agree best, best first.
+
+    counts   wheel -> its counts
+    """
+
+    def __init__(self, root: RecordedNode, counts: Mapping[str, Sequence[int]]) -> None:
+        self._counts = counts
+        self._nodes: list[RecordedNode] = []
+        self._ahead: list[Floats] = []
+        self._below: list[tuple[int, ...]] = []
+        self._add(root)
+
+    def _add(self, node: RecordedNode) -> int:
+        """Number a node and all below, with the least misfit to come from each row on."""
+        at = len(self._nodes)
+        self._nodes.append(node)
+        self._ahead.append(np.full(node.size, np.inf))
+        self._below.append(())
+        self._below[at] = tuple(self._add(child) for child, _ in node.children)
+        least = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
+        for number, (_, to) in zip(self._below[at], node.children, strict=True):
+            least += self._ahead[number][to]
+        np.minimum.at(self._ahead[at], node.parents, least)
+        return at
+
+    def __iter__(self) -> Iterator[GradedAssignment]:
+        """Rows to be gone on from are kept as (node, row), values set as (node, place)."""
+        heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
+        if np.isfinite(self._ahead[0][0]):
+            heappush(heap, (float(self._ahead[0][0]), 0, 0.0, ((0, 0),), ()))
+        while heap:
+            bound, depth, spent, agenda, taken = heappop(heap)
+            if not agenda:
+                yield from (GradedAssignment(spent, teeth) for teeth in self._teeth(taken))
+                continue
+            (number, row), *later = agenda
+            node = self._nodes[number]
+            first, last = np.searchsorted(node.parents, [row, row + 1])
+            for at in range(int(first), int(last)):
+                so_far = spent + (0.0 if node.misfit is None else float(node.misfit[at]))
+                below = zip(self._below[number], node.children, strict=True)
+                then = (*((child, int(to[at])) for child, (_, to) in below), *later)
+                ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)
+                # depth falls: of equal bounds the one farthest on comes first, and assignments are whole soon
+                # rounding must not let a child come before its parent
+                heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
+
+    def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
+        """All assignments of wheels that make up some values."""
+        if not taken:
+            yield {}
+            return
+        (number, value), *others = taken
+        for way in self._nodes[number].values.ways(value):
+            named = {wheel: self._counts[wheel][index] for wheel, index in way.items()}
+            yield from (named | more for more in self._teeth(others))

@@ -1,0 +1,68 @@
+"""`geartrain teeth orrery moon=29.53 venus=224.7 ...`: several periods from one arbor."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import Force, Json, Out
+from geartrain.cli.long_runs import progress
+from geartrain.search.verb_options import ANY_COUNT, Csv, Range, SearchAnswer, Tolerance, read_tolerance
+
+_TOLERANCE = Fraction(1, 10**6)
+
+
+def run(
+    periods: Annotated[
+        list[str], typer.Argument(help="Several NAME=PERIOD in turns of one arbor.", metavar="NAME=PERIOD...")
+    ],
+    counts: Range = ANY_COUNT,
+    tolerance: Tolerance = None,
+    effort: Annotated[int, typer.Option("--effort", min=1, help="How widely to search.")] = 16,
+    walk: Annotated[
+        int | None, typer.Option("--walk", min=0, help="Extra arbors up to which all trees are walked.")
+    ] = None,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Several periods from one arbor, with few wheels and arbors."""
+    from geartrain.search.orrery.orrery_search import find_orrery
+    from geartrain.search.tooth_count_ranges import read_counts
+    from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows
+
+    answer = SearchAnswer.of(csv, json, out, force)
+    wanted = _periods(periods)
+    most_error = read_tolerance(tolerance)
+    with progress("trees") as bar:
+        found = find_orrery(
+            wanted,
+            read_counts(counts),
+            _TOLERANCE if most_error is None else most_error,
+            effort=effort,
+            walk=walk,
+            tell=bar.reach,
+        )
+    answer.give(found, orrery_rows(found), describe_orrery, lambda _: found.to_train())
+
+
+def _periods(texts: list[str]) -> dict[str, Fraction]:
+    """Name -> period in turns of the first arbor."""
+    from geartrain.search.target_ratio import read_ratio
+
+    found: dict[str, Fraction] = {}
+    for text in texts:
+        name, sign, period = text.partition("=")
+        if not sign or not name.strip():
+            raise typer.BadParameter(f"'{text}' is not of the form moon=29.53058853", param_hint="NAME=PERIOD")
+        if name.strip() in found:
+            raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="NAME=PERIOD")
+        wanted = read_ratio(period)
+        if wanted.sense:
+            what = f"'{text}' asks for a sense, which is left open here; the answer tells that of every arbor"
+            raise typer.BadParameter(what, param_hint="NAME=PERIOD")
+        found[name.strip()] = wanted.value
+    return found

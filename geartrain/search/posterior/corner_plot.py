@@ -1,0 +1,244 @@
+"""The posterior of tooth counts as a picture: what is likely of each count, and of each two together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isclose
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Figure, Line2D, MaxNLocator, Patch
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SCALE, SMALL, TEXT, headed
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior
+
+
+Chances = Mapping[int, float]
+Pair = tuple[str, str]
+MOST = 9
+_CELL = 1.35  # inches of a panel
+_TICKS = 3  # steps between numbers at an axis, at most
+_FEW = 20  # counts whose bars have outlines of their own
+_DASHES: Any = (0, (3, 2))
+
+
+@dataclass(frozen=True, slots=True)
+class CountProbabilities:
+    """How likely tooth counts are.
+
+    single    wheel -> count -> probability
+    pairs     two wheels, in the order of `single` -> their two counts -> probability
+    before    as `single`, before the evidence was heard; empty where unknown
+    declared  wheel -> the count it is declared with
+    """
+
+    single: Mapping[str, Chances]
+    pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
+    before: Mapping[str, Chances] = field(default_factory=dict)
+    declared: Mapping[str, int] = field(default_factory=dict)
+
+    @classmethod
+    def of(
+        cls, counts: Mapping[str, ArrayLike], weights: ArrayLike, declared: Mapping[str, int] | None = None
+    ) -> CountProbabilities:
+        """From weighted combinations: wheel -> its count in each (n,), and their weights (n,), of any sum above 0."""
+        share = np.asarray(weights, dtype=float)
+        columns = {wheel: np.asarray(column, dtype=np.int64) for wheel, column in counts.items()}
+        if not columns or share.ndim != 1 or any(each.shape != share.shape for each in columns.values()):
+            raise _nothing("each wheel has one count for each weight")
+        if not (np.isfinite(share).all() and share.min(initial=0.0) >= 0 and share.sum() > 0):
+            raise _nothing("weights are 0 or more, and one at least is above")
+        share = share / share.sum()
+        wheels = list(columns)
+        single = {wheel: _summed(columns[wheel][:, None], share) for wheel in wheels}
+        pairs = {
+            (a, b): {(k[0], k[1]): v for k, v in _summed(np.stack((columns[a], columns[b]), axis=1), share).items()}
+            for at, a in enumerate(wheels)
+            for b in wheels[at + 1 :]
+        }
+        return cls({w: {k[0]: v for k, v in each.items()} for w, each in single.items()}, pairs, {}, declared or {})
+
+
+def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
+    """Each wheel's counts on the diagonal, each two wheels' together below it; darker is likelier.
+
+    Outlines show what was thought before, dashed lines the declared counts. Raises `QuestionError` for no wheel, or
+    for more than 9.
+    """
+    wheels = list(likely.single)
+    if not 0 < len(wheels) <= MOST:
+        raise _nothing(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
+    side = max(5.0, 0.9 + _CELL * len(wheels))
+    figure = Figure(figsize=(side, side), dpi=100, layout="constrained")
+    panels = figure.subplots(len(wheels), len(wheels), squeeze=False)
+    spans = {wheel: _span(likely, wheel) for wheel in wheels}
+    for row, down in enumerate(wheels):
+        for column, across in enumerate(wheels):
+            axes = panels[row, column]
+            if column > row:
+                axes.set_axis_off()
+                continue
+            axes.tick_params(labelsize=SMALL, labelleft=column == 0 and row > 0, labelbottom=row == len(wheels) - 1)
+            _ticks(axes.xaxis, spans[across])
+            if row == column:
+                _one(axes, likely, across, spans[across])
+            else:
+                _two(axes, likely, (across, down), spans)
+            axes.set_xlim(spans[across][0] - 0.5, spans[across][1] + 0.5)
+        panels[-1, row].set_xlabel(down, fontsize=TEXT)
+        if row:
+            panels[row, 0].set_ylabel(down, fontsize=TEXT)
+    _key(figure, likely)
+    if title:
+        words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
+        headed(figure, words)
+    return figure
+
+
+def _key(figure: Figure, likely: CountProbabilities) -> None:
+    """What outlines and dashed lines are, below."""
+    handles: list[Any] = [Patch(color=BLUE, label="likely")]
+    if likely.before:
+        handles.append(Patch(fill=False, edgecolor=GREY, label="before"))
+    if likely.declared:
+        handles.append(Line2D([], [], color=RED, linewidth=1.2, linestyle=_DASHES, label="declared"))
+    if len(handles) > 1:
+        figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
+
+
+def _one(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
+    """Bars of one wheel's counts, and outlines of what was thought before."""
+    chances = likely.single[wheel]
+    wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a gap would be a pixel, and often none
+    axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
+    before = likely.before.get(wheel, {})
+    if before:
+        _outline(axes, before)
+    axes.set_ylim(0, 1.08 * max([*chances.values(), *before.values()]))
+    axes.set_yticks([])
+    axes.set_title(_modes(chances), fontsize=SMALL, color=BLACK, pad=3)
+    for side in ("top", "right", "left"):
+        axes.spines[side].set_visible(False)
+    if wheel in likely.declared:
+        axes.axvline(likely.declared[wheel], color=RED, linewidth=1.2, linestyle=_DASHES)
+
+
+def _outline(axes: Axes, chances: Chances) -> None:
+    """Bars without faces; of many counts, whose sides would be a grey block, the line along their tops."""
+    if len(chances) <= _FEW:
+        axes.bar(list(chances), list(chances.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
+        return
+    counts = np.arange(min(chances), max(chances) + 1)
+    edges = np.append(counts, counts[-1] + 1) - 0.5
+    axes.stairs([chances.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
+
+
+def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
+    """A square for each two counts, as dark as they are likely."""
+    (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
+    table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
+    for (one, other), chance in likely.pairs[pair].items():
+        table[other - second[0], one - first[0]] = chance
+    edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
+    # a scale needs two ends, even where no two counts are likely together
+    mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
+    mesh.set_gid(f"{a}, {b}")
+    _ticks(axes.yaxis, second)
+    axes.set_ylim(second[0] - 0.5, second[1] + 0.5)
+    for wheel, line in ((a, axes.axvline), (b, axes.axhline)):
+        if wheel in likely.declared:
+            line(likely.declared[wheel], color=RED, linewidth=1.0, linestyle=_DASHES)
+    for each in axes.spines.values():
+        each.set_color(PALE)
+
+
+def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
+    counts = [*likely.single[wheel], *likely.before.get(wheel, {})]
+    if not likely.single[wheel]:
+        raise _nothing(f"wheel '{wheel}' has no count")
+    return min(counts), max(counts)
+
+
+def _ticks(axis: Any, span: tuple[int, int]) -> None:
+    """Some whole numbers within it, round ones where there are many counts."""
+    low, high = span
+    found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
+    axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
+
+
+def _modes(chances: Chances) -> str:
+    """The mode and its probability; all modes where several counts are equally likely: "49-52: 10 % each"."""
+    largest = max(chances.values())
+    modes = sorted(count for count, chance in chances.items() if isclose(chance, largest))
+    percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
+    if len(modes) == 1:
+        return f"{modes[0]}: {percent}"
+    some = "" if len(modes) == span else f"{len(modes)} of "
+    return f"{some}{modes[0]}-{modes[-1]}: {percent} each"
+
+
+def _summed(keys: NDArray[np.int64], share: Floats) -> dict[tuple[int, ...], float]:
+    found, places = np.unique(keys, axis=0, return_inverse=True)
+    sums = np.bincount(places.ravel(), weights=share)
+    return {tuple(int(each) for each in key): float(total) for key, total in zip(found, sums, strict=True)}
+
+
+def _nothing(why: str) -> QuestionError:
+    return QuestionError(Problem("no tooth counts to draw", why, "give the wheels to draw, with their likelihoods"))
+
+
+Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
+
+
+def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
+    """A corner plot of counts in doubt: the posterior of each wheel beside its prior, and of each two wheels together.
+
+    Parameters
+    ----------
+    found : ToothCountPosterior
+        What is known of the counts.
+    pairs : mapping
+        Two wheels, in the order declared -> their counts -> probability; from `joint_posterior`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A panel for each wheel and each two.
+
+    Raises
+    ------
+    QuestionError
+        Where nothing fits, and where no wheel or more than a page holds is to be drawn.
+
+    Examples
+    --------
+    >>> from geartrain.train.declaration_files import read_declaration
+    >>> from geartrain.search import infer_counts
+    >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (23, 24), "ring": (58, 60)})
+    >>> figure = counts_figure(found, {("s", "ring"): {(24, 60): 1.0}})
+    >>> figure.axes[-1].get_xlabel()
+    'ring'
+    """
+    wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
+    if not all(found[wheel].chances for wheel in wheels):
+        what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
+        raise QuestionError(Problem(what, "no count is likelier than another", "widen the tolerances or the counts"))
+    single = {
+        wheel: {count: float(each) for count, each in zip(one.doubt.counts, one.chances, strict=True) if float(each)}
+        for wheel, one in ((wheel, found[wheel]) for wheel in wheels)
+    }
+    before = {
+        wheel: dict(zip(found[wheel].doubt.counts, map(float, found[wheel].doubt.priors), strict=True))
+        for wheel in wheels
+    }
+    declared = {wheel: count for wheel in wheels if (count := found[wheel].doubt.declared) is not None}
+    asked = ", ".join(witness.name for witness in found.witnesses)
+    return corner_figure(CountProbabilities(single, pairs, before, declared), f"{found.name}: counts that give {asked}")

@@ -1,0 +1,239 @@
+"""What the exact join and the sample have in common when they are done: shares, correlations, the best combinations.
+
+The best stand in an order that no rounding and no way of searching can change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import exp, prod, sqrt
+from typing import Any
+
+import numpy as np
+
+from geartrain.numerics.confidence_intervals import deviations, wilson
+from geartrain.numerics.graphs import joined_groups
+from geartrain.search.join.inside_outside import GradedAssignment
+from geartrain.search.posterior.inference_problem import InferenceProblem
+from geartrain.search.posterior.posterior_result import CountCombination, CountProbability, WheelPosterior
+from geartrain.search.posterior.priors import ToothCountPrior
+from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTally, origin_of, plain_number
+
+
+def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
+    """The first `most` of an ascending list and all equals of the last; False if equals had to be left out."""
+    found: list[GradedAssignment] = []
+    for candidate in candidates:
+        if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
+            return found, True
+        if len(found) >= max(most, KEPT):
+            return found, False
+        found.append(candidate)
+    return found, True
+
+
+def rank_combinations(
+    question: InferenceProblem, candidates: Iterable[GradedAssignment], most: int, evidence: CountProbability | None
+) -> tuple[CountCombination, ...]:
+    """Exact figures of the candidates, best first: by misfit, then prior weight, then nearness to what is declared.
+
+    evidence   of all that fits; None where it is not known, and then no chances are given
+    """
+    made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
+    # exact misfits, then whole numbers: no two ways of searching can disagree on this order
+    made.sort(key=lambda one: (one.misfit, -question.weight(one.teeth), len(one.changed), tuple(one.teeth.values())))
+    return tuple(made[:most])
+
+
+def _combination(
+    question: InferenceProblem, teeth: Mapping[str, int], evidence: CountProbability | None
+) -> CountCombination:
+    ordered = {wheel: teeth[wheel] for wheel in question.doubts if wheel in teeth}
+    speeds: dict[str, Fraction] = {}
+    errors: dict[str, Fraction] = {}
+    misfit = Fraction(0)
+    for witness in question.witnesses:
+        speed = witness.formula.value(ordered)
+        assert speed is not None, "what fits has a speed"
+        speeds[witness.name] = speed
+        claim = max(witness.claims, key=lambda one: one.misfit(speed))
+        value = speed if claim.signed else abs(speed)
+        errors[witness.name] = value / claim.wanted - 1 if claim.wanted else value
+        misfit += witness.misfit(speed)
+    changed = tuple(wheel for wheel, count in ordered.items() if count != question.doubts[wheel].declared)
+    chance = _chance(question, ordered, misfit, evidence)
+    return CountCombination(ordered, speeds, errors, misfit, chance, changed)
+
+
+def _chance(
+    question: InferenceProblem, teeth: Mapping[str, int], misfit: Fraction, evidence: CountProbability | None
+) -> CountProbability | None:
+    if evidence is None or not evidence.value:
+        return None
+    prior = Fraction(question.weight(teeth), prod(question.doubts[wheel].total for wheel in teeth))
+    if question.soft or not isinstance(evidence.value, Fraction):
+        return CountProbability(
+            float(prior) * (exp(-float(misfit) / 2) if question.soft else 1) / float(evidence.value)
+        )
+    return CountProbability(prior / evidence.value)
+
+
+_CERTAIN = 1e-4
+"""Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
+covariances in float64 would be rounding."""
+
+_NONE = 1e-13
+"""Correlation below which it is rounding, and none."""
+
+
+@dataclass(frozen=True, slots=True)
+class PosteriorSummary:
+    """Evidence, posteriors, correlations and candidates for the best, by either method.
+
+    effective  number of combinations that the figures rest on, where they are of a sample; infinite where they are not
+    """
+
+    looked: int
+    evidence: CountProbability
+    turning: CountProbability
+    fits: int | None
+    posteriors: Mapping[str, WheelPosterior]
+    correlations: Mapping[tuple[str, str], float]
+    candidates: Sequence[GradedAssignment]
+    ranked: bool
+    effective: float
+
+
+def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> PosteriorSummary:
+    """What a sample of combinations comes to."""
+    wheels = tally.batch.wheels
+    candidates = [
+        GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
+        for misfit, at in tally.best
+    ]
+    by = dict(zip(wheels, tally.by, strict=True))
+    # Kish's effective sample size: hits of unequal weight tell as much as so many of equal weight
+    trials = tally.weight**2 / tally.square if tally.square else None
+    posteriors = {
+        wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
+    }
+    evidence = _share(tally.weight, tally.looked, tally, question.soft)
+    correlations = _of_sizes(question, tally)
+    return PosteriorSummary(
+        tally.looked,
+        evidence,
+        _counted(tally),
+        None,
+        posteriors,
+        correlations,
+        candidates,
+        tally.ranked,
+        trials or 0.0,
+    )
+
+
+def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> CountProbability:
+    """A share with its interval: Wilson's for hits, the normal one for degrees of agreement."""
+    if not looked:
+        return CountProbability(0.0, 0.0, 1.0)
+    mean = float(weight) / looked
+    if not soft or not weight:
+        return CountProbability(mean, *wilson(float(weight), looked))
+    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)  # a variance: 0 but for rounding
+    return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
+
+
+def _counted(tally: PosteriorTally) -> CountProbability:
+    if not tally.batch.question.conditions:
+        return CountProbability(Fraction(1))
+    share = tally.turning / tally.looked if tally.looked else 0.0
+    return CountProbability(share, *wilson(tally.turning, tally.looked))
+
+
+def wheel_posterior(
+    doubt: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
+) -> WheelPosterior:
+    """The chances of one wheel's counts.
+
+    weights   of what fits with each count; None: nothing known depends on the wheel
+    total     their sum
+    trials    number of hits behind them, where they are of a sample
+    """
+    if not total:
+        return WheelPosterior(doubt, (), weights is None)
+    if weights is None:
+        return WheelPosterior(doubt, tuple(CountProbability(prior) for prior in doubt.priors), True)
+    if trials is not None:
+        shares = [float(weight) / float(total) for weight in weights]
+        return WheelPosterior(
+            doubt,
+            tuple(CountProbability(share, *wilson(share * trials, trials)) for share in shares),
+            False,
+        )
+    if isinstance(total, float | np.floating):
+        return WheelPosterior(doubt, tuple(CountProbability(float(weight) / float(total)) for weight in weights), False)
+    return WheelPosterior(
+        doubt, tuple(CountProbability(Fraction(int(weight), int(total))) for weight in weights), False
+    )
+
+
+def _of_sizes(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
+    """Correlations from sums of products of counts."""
+    if not tally.weight:
+        return {}
+    wheels = tally.batch.wheels
+    means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
+    off = [means[wheel] - origin_of(question.doubts[wheel]) for wheel in wheels]
+    found = {}
+    for i, first in enumerate(wheels):
+        for j, second in enumerate(wheels[i + 1 :], i + 1):
+            found[first, second] = float(tally.sizes[i, j]) / float(tally.weight) - off[i] * off[j]
+    return _correlated(found, spreads)
+
+
+def correlations_of(
+    question: InferenceProblem,
+    marginals: Mapping[str, Sequence[Any]],
+    total: Any,
+    covariances: Mapping[tuple[str, str], float],
+) -> dict[tuple[str, str], float]:
+    """Correlations from covariances; wheels that no output and no condition joins have none."""
+    scopes = [
+        *(one.formula.wheels for one in question.witnesses),
+        *(one.function.wheels for one in question.conditions),
+    ]
+    group = {wheel: at for at, wheels in enumerate(joined_groups(marginals, scopes)) for wheel in wheels}
+    _, spreads = _moments(question, marginals, total)
+    return _correlated(
+        {pair: value for pair, value in covariances.items() if group[pair[0]] == group[pair[1]]}, spreads
+    )
+
+
+def _moments(
+    question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Posterior mean and standard deviation of every wheel's count; 0 for one that is as good as certain."""
+    means, spreads = {}, {}
+    for wheel, weights in by.items():
+        counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
+        pairs = [(count, Fraction(plain_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
+        # in fractions: of counts near 10^12 the square of a deviation is lost in a float
+        mean = sum((chance * count for count, chance in pairs), Fraction(0))
+        means[wheel] = float(mean)
+        spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
+        spreads[wheel] = spread if spread > _CERTAIN * (counts[-1] - counts[0]) else 0.0
+    return means, spreads
+
+
+def _correlated(
+    covariances: Mapping[tuple[str, str], float], spreads: Mapping[str, float]
+) -> dict[tuple[str, str], float]:
+    found = {}
+    for (first, second), covariance in covariances.items():
+        size = spreads[first] * spreads[second]
+        if size:
+            value = min(1.0, max(-1.0, covariance / size))  # rounding may lead beyond
+            found[first, second] = value if abs(value) > _NONE else 0.0
+    return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))

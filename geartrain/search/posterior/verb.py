@@ -1,0 +1,176 @@
+"""`geartrain posterior`: which tooth counts fit what the outputs show, where evidence leaves counts open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import (
+    GOOD,
+    INTERRUPTED,
+    VERDICT,
+    File,
+    Force,
+    Json,
+    Names,
+    Out,
+    Sink,
+    StateName,
+    as_json,
+    check_distinct_outputs,
+    draw,
+    emit,
+    picture_sink,
+    read_share,
+    show,
+    sink,
+    table_text,
+    tell,
+)
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.theme import Theme
+from geartrain.errors import GearTrainError
+
+if TYPE_CHECKING:
+    from geartrain.search.posterior.posterior_result import ToothCountPosterior
+
+Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+FORMS = (".md", ".html", ".json", ".csv", ".parquet")
+
+
+def run(
+    file: File,
+    free: Annotated[
+        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: counts it may have; may be repeated.")
+    ] = None,
+    output: Annotated[Names, typer.Option("--output", help="Only this output is evidence; may be repeated.")] = None,
+    state: StateName = None,
+    tolerance: Annotated[
+        str | None, typer.Option("--tolerance", help="Relative, for targets without one, such as 0.5 % or 1/446.")
+    ] = None,
+    against: Annotated[str, typer.Option("--against", help="What counts: all, targets, or figures (expect).")] = "all",
+    scale: Annotated[str, typer.Option("--scale", help="Multiply every tolerance, such as 1/4.")] = "1",
+    soft: Annotated[
+        bool, typer.Option("--soft", help="Agreement by degree, tolerances as standard deviations.")
+    ] = False,
+    method: Annotated[
+        str | None, typer.Option("--method", help="exact or sample; default exact where the limit allows it.")
+    ] = None,
+    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Combinations to list.")] = 20,
+    limit: Annotated[
+        int, typer.Option("--limit", min=1, max=MOST_COUNT, help="Steps before a sample is drawn.")
+    ] = 2_000_000,
+    samples: Annotated[
+        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Combinations of a sample.")
+    ] = 1_000_000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the sample.")] = 1,
+    workers: Workers = None,
+    dask: Dask = None,
+    resume: Resume = False,
+    plot: Plot = None,
+    json: Json = False,
+    theme: Theme = "light",
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
+    from geartrain.numerics.files import ColumnTable
+    from geartrain.search.posterior.inference import infer_counts
+    from geartrain.train.declaration_files import read_declaration
+
+    to, drawing = sink(out, force, FORMS), picture_sink(plot, force, theme)
+    check_distinct_outputs(to, drawing)
+    if to.suffix == ".parquet" and to.path is not None:
+        ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
+    train = read_declaration(file)
+    asked: dict[str, Any] = {
+        "state": state,
+        "free": _read_free(free or ()),
+        "outputs": tuple(output or ()),
+        "tolerance": None if tolerance is None else read_share(tolerance, "--tolerance"),
+        "against": against,
+        "scale": read_share(scale, "--scale"),
+        "soft": soft,
+        "method": method,
+        "most": most,
+        "limit": limit,
+        "samples": samples,
+        "seed": seed,
+    }
+    question = {"train": train.model_dump(mode="json"), **asked}
+    with long_run("posterior", question, out, RunOptions(workers, dask, resume)) as given:
+        found = infer_counts(train, **asked, executor=given.executor, journal=given.journal, tell=given.tell)
+        close_journal(given.journal, found.cut)
+    if drawing.path is not None and not found.best:
+        tell(f"nothing fits, so {drawing.path} is not written")
+    if plot is not None and found.best and not found.cut:
+        held = {**asked, "most": 1}
+        _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**asked["free"], **one}}), drawing)
+    _answer(found, json, to)
+
+
+def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
+    from geartrain.search.posterior.posterior_report import describe_posterior, posterior_rows
+
+    if to.suffix == ".csv":
+        emit(table_text(posterior_rows(found)), to)
+    elif to.suffix == ".parquet":
+        _write_parquet(posterior_rows(found), to, {"train": found.name, "method": found.method})
+    elif to.suffix == ".json":
+        emit(as_json(found), to)
+    elif not json or to.path is not None:
+        show([describe_posterior(found)], to)
+    if json and to.suffix != ".json":
+        emit(as_json(found))
+    if found.cut:
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(GOOD if found.best else VERDICT)
+
+
+def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
+    """`m3=15:80`, `a1=45,48`, `b1=223`."""
+    from geartrain.search.tooth_count_ranges import as_array, read_counts
+
+    found: dict[str, tuple[int, ...]] = {}
+    for text in texts:
+        wheel, equals, counts = text.partition("=")
+        if not equals or not wheel.strip():
+            raise typer.BadParameter(f"'{text}' is not of the form WHEEL=60:64 or WHEEL=60,62", param_hint="--free")
+        try:
+            listed = tuple(as_array(read_counts(counts)).tolist())
+        except GearTrainError as error:
+            problem = error.problems[0]
+            raise typer.BadParameter(f"{problem.what}; {problem.fix}", param_hint="--free") from None
+        found[wheel.strip()] = found.get(wheel.strip(), ()) + listed
+    return found
+
+
+def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
+    """One row group; nothing where nothing was found."""
+    from geartrain.numerics.files import ColumnTable
+
+    assert to.path is not None
+    with ColumnTable(to.path, about, to.force) as table:
+        if rows:
+            table.write({name: [row[name] for row in rows] for name in rows[0]})
+            tell(f"wrote {to.path}")
+        else:
+            tell(f"nothing fits, so {to.path} is not written")
+
+
+def _draw_counts(
+    found: ToothCountPosterior, again: Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior], to: Sink
+) -> None:
+    """Counts of the wheels of which the outputs tell most, each and two by two, to a file.
+
+    again   sweeps the same train for the same evidence, with some wheels held to the counts given
+    """
+    from geartrain.search.posterior.corner_plot import counts_figure
+    from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels
+
+    wheels = most_informative_wheels(found)
+    draw(counts_figure(found, joint_posterior(found, wheels, again)), to)

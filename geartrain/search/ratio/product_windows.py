@@ -1,0 +1,326 @@
+"""Products of a number of tooth counts, each unordered set once, in windows of value: memory stays bounded."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from math import comb
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.decimal_text import count_digits
+from geartrain.numerics.error_free import split
+from geartrain.search.integer_columns import distinct_quotients, spread
+from geartrain.search.stern_brocot import farey_neighbours
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+    Places = NDArray[np.int64]
+    Ints = NDArray[Any]  # int64, or Python integers where those would overflow
+
+
+# Where a window of ratios cuts a list of products, exactly; and how far a ratio is from the wanted one.
+
+
+ROUNDING = 1e-28
+"""Errors from `errors` differ from the exact ones by less than this, or by 1e-12 of themselves."""
+
+
+def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
+    """For each factor f, the half-open range of `products` with low f <= product <= high f, decided exactly.
+
+    products   ascending, at least one
+    factors    positive, in the same dtype: int64 below 2^52, or Python integers
+    low, high  0 <= low <= high
+    """
+    # no ratio of these products has a longer denominator than the largest factor
+    longest = int(factors.max()) if len(factors) else 1
+    # past all products, with room for the guess in `_floors`: what lies beyond needs no exact floor
+    cap = int(products[-1]) + 8
+    first, whole = _floors(factors, farey_neighbours(low, longest)[1], cap)
+    # the ceiling: one more where the product is not whole
+    first = first + ~whole
+    last, _ = _floors(factors, farey_neighbours(high, longest)[0], cap)
+    return np.searchsorted(products, first), np.searchsorted(products, last, side="right")
+
+
+def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
+    """floor(factor x edge), no more than `cap`; and whether the product is whole.
+
+    In int64 the remainder factor n - floor d is worked out modulo 2^64: with d below 2^52 and a floor guessed in
+    float64 within 3 it is less than 2^63, hence right.
+    """
+    n, d = edge.numerator, edge.denominator
+    if factors.dtype == object:
+        exact = factors * n
+        found = np.minimum(exact // d, cap)
+        return found, np.asarray(exact % d == 0, dtype=bool)
+    near = factors * float(edge)
+    found = np.minimum(near, cap).astype(np.int64)
+    rest = factors * _wrapped(n) - found * d
+    more = rest // d
+    beyond = near > cap
+    return np.where(beyond, cap, found + more), (rest == more * d) & ~beyond
+
+
+def _wrapped(number: int) -> np.int64:
+    """The integer modulo 2^64 as a signed one."""
+    return np.int64((number + (1 << 63)) % (1 << 64) - (1 << 63))
+
+
+def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
+    """top / (beneath value) - 1 of each pair, to about 1e-30: in twice float64's digits (Dekker's products)."""
+    # the value and all products of its halves then stay within float64
+    short = abs(value.numerator.bit_length() - value.denominator.bit_length()) < 300
+    if tops.dtype == object or beneaths.dtype == object or not short:
+        n, d = value.numerator, value.denominator
+        exact = [Fraction(int(p) * d, int(q) * n) - 1 for p, q in zip(tops, beneaths, strict=True)]
+        return np.array([float(error) for error in exact], dtype=np.float64)
+    head = float(value)
+    tail = float(value - Fraction(head))
+    q = beneaths.astype(np.float64)
+    product = q * head
+    q_high, q_low = split(q)
+    head_high, head_low = split(np.float64(head))
+    # largest first: in this order no sum rounds
+    lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
+    return np.asarray(((tops - product) - (lost + q * tail)) / product)
+
+
+def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> tuple[list[Fraction], Places]:
+    """The different exact |errors| of some pairs, ascending, and the place of each pair's among them."""
+    ratios, which = distinct_quotients(tops, beneaths)
+    misses = [abs(ratio / value - 1) for ratio in ratios]
+    ascending = sorted(set(misses))
+    places = {miss: at for at, miss in enumerate(ascending)}
+    return ascending, np.array([places[miss] for miss in misses], dtype=np.int64)[which]
+
+
+def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+    """The least and the greatest |error| of ratios from `low` to `high`."""
+    first, last = low / value - 1, high / value - 1
+    return max(first, -last, Fraction(0)), max(last, -first)
+
+
+def rounded_up(bound: float | Fraction) -> Fraction:
+    """Never less than the bound, in few digits: a tolerance that may be written down."""
+    exact = Fraction(bound)
+    if exact <= 0:
+        return Fraction(0)
+    power = count_digits(exact.numerator) - count_digits(exact.denominator) - 3
+    unit = Fraction(10) ** power
+    return -(-exact // unit) * unit
+
+
+MOST_STAGES = 5
+PLAIN = 1 << 52
+"""Products below this are int64 and exact in float64; longer ones are Python integers in arrays of objects."""
+_MOST_OBJECTS = 2 * 10**6  # products as Python integers, which are held one by one
+_MOST_ROWS = 12 * 10**6  # of the tables
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ProductWindows:
+    """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, held as (low part) x (high part).
+
+    The sorted counts are cut at their middle one, m: a row is m and what is below it, and may be joined with every high
+    part whose counts are all at least m. So each unordered set is there once, and only O(n^3) numbers are in memory for
+    n counts, while the C(n+k-1, k) products are made window by window.
+
+    counts   admissible counts, ascending
+    size     k
+    rows     product of m and the counts below it, (rows,)
+    lows     these counts, ascending, (rows, a)
+    highs    products of the high parts, ascending within each table, (highs,)
+    uppers   their counts, ascending, (highs, b)
+    keys     `highs` with their table's offset added: ascending throughout
+    offsets  offset of the table of each row, (rows,)
+    starts   place of its first high part, (rows,)
+    step     distance of the offsets: more than any high part
+    """
+
+    counts: tuple[int, ...]
+    size: int
+    rows: Ints
+    lows: Ints
+    highs: Ints
+    uppers: Ints
+    keys: Ints
+    offsets: Ints
+    starts: Places
+    step: int
+
+    @property
+    def total(self) -> int:
+        """Number of unordered sets."""
+        return multisets(len(self.counts), self.size)
+
+    @property
+    def least(self) -> int:
+        """The smallest product."""
+        return int(self.counts[0] ** self.size)
+
+    @property
+    def most(self) -> int:
+        """The largest product."""
+        return int(self.counts[-1] ** self.size)
+
+    def below(self, bound: int) -> int:
+        """Number of unordered sets with a product less than `bound`, exact."""
+        if bound <= self.least:
+            return 0
+        return self.total if bound > self.most else int((_ends(self, bound) - self.starts).sum())
+
+    def values(self, low: int, high: int) -> Ints:
+        """The products in [low, high), ascending, one for each unordered set."""
+        row, column = self._places(low, high)
+        found = self.rows[row]
+        found *= self.highs[column]
+        found.sort()
+        return found
+
+    def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
+        """The sets with a product in [low, high) that is one of `among` (ascending): products (n,), counts (n, k)."""
+        row, column = self._places(low, high)
+        found = self.rows[row] * self.highs[column]
+        if not len(among):
+            return found[:0], np.empty((0, self.size), dtype=self.lows.dtype)
+        at = np.minimum(np.searchsorted(among, found), len(among) - 1)
+        here = np.flatnonzero(among[at] == found)
+        here = here[np.argsort(found[here], kind="stable")]
+        return found[here], np.concatenate([self.lows[row[here]], self.uppers[column[here]]], axis=1)
+
+    def _places(self, low: int, high: int) -> tuple[Places, Places]:
+        """Row and high part of every product in [low, high)."""
+        first = _ends(self, low)
+        return spread(first, _ends(self, high))
+
+
+def multisets(number: int, size: int) -> int:
+    """Number of unordered sets of `size` of `number` counts, repeats allowed: C(n + k - 1, k)."""
+    return comb(number + size - 1, size)
+
+
+@lru_cache(maxsize=4)
+def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -> ProductWindows:
+    """The products of `size` (1 to 5) of these counts (ascending).
+
+    plain   int64 or Python integers; None: as the largest product asks for. `RangeError` where memory would not do.
+    """
+    plain = counts[-1] ** size < PLAIN if plain is None else plain
+    check_memory(counts, size, plain)
+    numbers = np.array(counts, dtype=np.int64 if plain else object)
+    below = (size - 1) // 2
+    rows, lows, table = _rows(numbers, below)
+    if size - 1 - below < 2:
+        # one count above, or none: looked for in the counts themselves, from the middle one on
+        uppers = _chosen(numbers, size - 1 - below)
+        starts = table if size > 1 else np.zeros_like(table)
+        highs = _product(uppers)
+        return ProductWindows(counts, size, rows, lows, highs, uppers, highs, 0 * rows, starts, counts[-1] + 1)
+    # two counts above: a table of pairs for each middle count, and one ascending key for all tables
+    tables = [_by_product(_chosen(numbers[at:], 2)) for at in range(len(counts))]
+    sizes = np.array([len(part) for part in tables], dtype=np.int64)
+    uppers = np.concatenate(tables)
+    step = counts[-1] ** 2 + 1
+    offsets = np.arange(len(counts)).astype(numbers.dtype) * step
+    highs = _product(uppers)
+    keys = highs + np.repeat(offsets, sizes)
+    starts = (np.cumsum(sizes) - sizes)[table]
+    return ProductWindows(counts, size, rows, lows, highs, uppers, keys, offsets[table], starts, step)
+
+
+def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
+    """Each number with every choice of `below` numbers up to it: product, counts, place of the number."""
+    parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
+    table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
+    lows = np.concatenate([np.concatenate(parts), numbers[table][:, None]], axis=1)
+    return _product(lows), lows, table
+
+
+def _by_product(chosen: Ints) -> Ints:
+    """The same sets in the order of their products."""
+    return np.asarray(chosen[np.argsort(_product(chosen), kind="stable")])
+
+
+def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, ...]]:
+    """All unordered sets of `size` counts with this product, each ascending, in ascending order.
+
+    >>> expand(3600, tuple(range(12, 101)), 2)
+    [(36, 100), (40, 90), (45, 80), (48, 75), (50, 72), (60, 60)]
+    """
+    numbers = _array(counts)
+    # longer products do not fit int64: then no count is ruled out beforehand
+    here = [int(count) for count in numbers[product % numbers == 0]] if product < PLAIN else list(counts)
+    found: list[tuple[int, ...]] = []
+    _factor(product, here, 0, size, (), found)
+    return found
+
+
+def _factor(
+    rest: int, counts: list[int], start: int, size: int, chosen: tuple[int, ...], found: list[tuple[int, ...]]
+) -> None:
+    """Add every ascending choice from counts[start:] whose product is `rest`."""
+    if size == 1:
+        if _find(counts, rest, start):
+            found.append((*chosen, rest))
+        return
+    for at in range(start, len(counts)):
+        count = counts[at]
+        if count**size > rest:
+            return
+        if rest % count == 0 and rest // count <= counts[-1] ** (size - 1):
+            _factor(rest // count, counts, at, size - 1, (*chosen, count), found)
+
+
+def _find(counts: list[int], count: int, start: int) -> bool:
+    at = bisect_left(counts, count, start)
+    return at < len(counts) and counts[at] == count
+
+
+@lru_cache(maxsize=8)
+def _array(counts: tuple[int, ...]) -> Ints:
+    return np.array(counts, dtype=np.int64)
+
+
+@lru_cache(maxsize=4)
+def _ends(products: ProductWindows, bound: int) -> Places:
+    """For each row, the place after the last high part whose product with it is less than `bound`."""
+    # one search in one key for all tables: the offset of a row leads to its own table
+    most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
+    return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
+
+
+def _chosen(numbers: Ints, size: int) -> Ints:
+    """All unordered sets of 0, 1 or 2 of the numbers, ascending within each, (sets, size)."""
+    if size == 0:
+        return np.empty((1, 0), dtype=numbers.dtype)
+    if size == 1:
+        return numbers[:, None]
+    i, j = np.triu_indices(len(numbers))
+    return np.stack([numbers[i], numbers[j]], axis=1)
+
+
+def _product(chosen: Ints) -> Ints:
+    """Product along each row, in the dtype of the counts."""
+    found = np.ones(len(chosen), dtype=chosen.dtype)
+    for column in chosen.T:
+        found = found * column
+    return found
+
+
+def check_memory(counts: tuple[int, ...], size: int, plain: bool) -> None:
+    """`RangeError` where the tables of `products_of` would not fit in memory."""
+    number, half = len(counts), (size + 1) // 2
+    rows = multisets(number, half) if size < 4 else multisets(number, 3)
+    if rows > _MOST_ROWS or not (plain or multisets(number, size) <= _MOST_OBJECTS):
+        why = "the tables would not fit in memory" if plain else "products past 2^52 are held one by one"
+        what = f"{number} counts are too many for {size} stages" + ("" if plain else f" of up to {counts[-1]} teeth")
+        raise RangeError(Problem(what, why, "take a shorter range of counts, or fewer stages"))

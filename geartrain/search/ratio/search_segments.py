@@ -1,0 +1,452 @@
+"""How a search is cut into pieces of equal work, and how densely solutions lie: estimates, which decide nothing.
+
+One piece of the search: all products beneath in a segment of value, against the products on top that they need.
+
+The pieces are independent, their questions and results plain JSON data, and how they are cut changes no answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, exp, isqrt, log
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.search.integer_columns import spread, spread_in_blocks
+from geartrain.search.ratio.product_windows import ProductWindows, cuts, error_places, errors, expand, multisets
+from geartrain.search.ratio.solution_order import BestStages, Key, RankedStages, first_of, key_of, margin, merged
+from geartrain.search.ratio.stage_pairs import suited
+from geartrain.search.ratio.stage_problem import StageProblem, stage_problem_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.search.ratio.stage_problem import StageProblem
+
+    Ints = NDArray[Any]
+    Span = tuple[Ints, Ints]
+    from geartrain.numerics.arrays import Bools
+    from geartrain.search.ratio.stage_pairs import FeasiblePairings
+
+
+_BINS = 256  # of the logarithms of counts
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentPlan:
+    """Segments of the products beneath, and the density of pairs of sets.
+
+    bounds    products beneath, ascending: segment n is [bounds[n], bounds[n + 1])
+    densest   the segment in which most pairs are near the wanted ratio
+    density   pairs of sets for each unit of |error|, over all segments; an estimate
+    """
+
+    bounds: tuple[int, ...]
+    densest: int
+    density: float
+
+    @property
+    def segments(self) -> tuple[tuple[int, int], ...]:
+        """The segments, half-open."""
+        return tuple(zip(self.bounds, self.bounds[1:], strict=False))
+
+    def tolerance_for(self, number: float) -> Fraction:
+        """An |error| within which about so many pairs of sets lie."""
+        # without a density to go by a search begins narrow, and is widened
+        return Fraction(number / self.density) if self.density * 1e18 > number else Fraction(1, 10**18)
+
+
+def lay_out(question: StageProblem) -> SegmentPlan:
+    """Segments of about two blocks of products each, those beneath and those on top that go with them."""
+    size, value = question.stages, question.value
+    spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
+    # a single count spans nothing
+    width = max(*spans, 1e-6) / _BINS
+    over, under = (_spread(counts, size, width) for counts in (question.top, question.beneath))
+    start = size * log(question.beneath[0])
+    shift = (size * log(question.beneath[0] / question.top[0]) + log(value.numerator) - log(value.denominator)) / width
+    at = np.arange(len(under))
+    beside = np.interp(at + shift, np.arange(len(over)), over, left=0.0, right=0.0)
+    used = np.flatnonzero((at + shift > -1) & (at + shift < len(over)))
+    least, most = question.beneath[0] ** size, question.beneath[-1] ** size
+    if not len(used):
+        return SegmentPlan((least, most + 1), 0, 0.0)
+    work = np.cumsum((under + beside)[used])
+    number = max(ceil(work[-1] / (2 * block_of(question))), 1)
+    places = np.searchsorted(work, work[-1] * np.arange(1, number) / number) + used[0] + 1
+    middle = {min(max(ceil(exp(start + place * width)), least + 1), most) for place in places.tolist()}
+    bounds = (least, *sorted(middle - {least}), most + 1)
+    both = under * beside
+    peak = ceil(exp(start + (int(both.argmax()) + 0.5) * width))
+    densest = int(np.searchsorted(np.array(bounds[1:-1], dtype=np.float64), float(peak), side="right"))
+    # twice, for an |error| has a side above the ratio and one below
+    return SegmentPlan(bounds, densest, float(2 * both.sum() / width))
+
+
+def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
+    """Number of unordered sets by the logarithm of their product, in bins of `width` from the least."""
+    places = np.array([log(count / counts[0]) / width for count in counts])
+    one = np.bincount(places.astype(np.int64)).astype(np.float64)
+    found = np.ones(1)
+    for _ in range(size):
+        found = np.convolve(found, one)
+    # the convolution counts ordered choices: scaled to the number of unordered sets
+    return np.asarray(found * (multisets(len(counts), size) / found.sum()))
+
+
+BLOCK = 1 << 21
+"""Products of one side held at once: what bounds the memory."""
+PER_ROW = 3
+"""A window costs a search in every row of the tables: it should bring some products for each."""
+_FEW = 1000  # solutions that may be made one by one from their products
+
+Range = tuple[int, int]
+
+
+def task_of(
+    question: StageProblem, low: int, high: int, hint: Fraction, bound: tuple[int, Fraction, int] | None = None
+) -> dict[str, Any]:
+    """The plain data of one piece.
+
+    low, high  products beneath, half-open
+    hint       a tolerance within which some of the best may be expected
+    bound      first, |error| and sum of a solution that is surely no better than the last one kept
+    """
+    plain = [bound[0], str(bound[1]), bound[2]] if bound else None
+    return {"question": question.plain(), "low": low, "high": high, "hint": str(hint), "bound": plain}
+
+
+def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
+    """Count the solutions of a piece, exactly, and give its best.
+
+    Result: `count`; `removed`, reason -> pairs of sets within the tolerance that are no solutions; `rows`, the best as
+    [what the order asks for, counts on top, counts beneath].
+    """
+    from geartrain.search.ratio.search_segments import RowFinder, ValueFinder
+
+    question = stage_problem_of(task["question"])
+    plain = task["bound"]
+    bound = (plain[0], Fraction(plain[1]), plain[2]) if plain else None
+    by_value = listed_by_value(question)
+    finder = ValueFinder(question, Fraction(task["hint"]), bound) if by_value else RowFinder(question, bound)
+    for beneath, top in blocks(question, task["low"], task["high"]):
+        finder.look(beneath, top)
+    return finder.result()
+
+
+def listed_by_value(question: StageProblem) -> bool:
+    """True if solutions need not be looked at one by one: what is asked can be seen from their products."""
+    return question.by == "error" and question.loose and question.best <= _FEW
+
+
+def block_of(question: StageProblem) -> int:
+    """Products of one side that are held at once: `BLOCK`, or more where even the tables are longer."""
+    numbers = max(len(question.top), len(question.beneath))
+    return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
+
+
+def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
+    """Ranges of products beneath and on top that cover every pair within the tolerance once, none too long."""
+    if not question.reachable:
+        return
+    most = block_of(question)
+    for beneath in pieces(question.under, *question.beneath_within(low, high), most):
+        for top in pieces(question.over, *question.tops_for(*beneath), most):
+            yield beneath, top
+
+
+def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
+    """[low, high) in parts of no more than `most` products each, ascending; nothing where there are none."""
+    low, high = max(low, products.least), min(high, products.most + 1)
+    number = products.below(high) - products.below(low) if low < high else 0
+    if number > most and high - low > 1:
+        # the geometric mean, for products are spread evenly in logarithms
+        middle = min(max(isqrt(low * high), low + 1), high - 1)
+        yield from pieces(products, low, middle, most)
+        yield from pieces(products, middle, high, most)
+    elif number:
+        yield low, high
+
+
+# The best ratios by their error alone: compared as values, made into counts only where they are shown.
+
+
+_MANY = 1 << 20  # pairs of products looked at together
+_CLOSE = Fraction(1, 10**40)  # so near, only pairs of one and the same ratio are left
+
+
+class ValueFinder:
+    """Counts every solution by runs of equal products, and keeps the best by |error|, sum, largest and counts."""
+
+    def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
+        self.question, self.hint = question, hint
+        self.most = (bound[1], bound[2]) if bound else None
+        self.count = 0
+        self.keys: list[Key] = []
+
+    def result(self) -> dict[str, Any]:
+        """Plain data: see `search_segments.search_segment`."""
+        rows = [[0, list(key[4]), list(key[5])] for key in self.keys]
+        return {"count": self.count, "removed": {}, "rows": rows}
+
+    def look(self, beneath: Range, top: Range) -> None:
+        """Consider all pairs of products of two ranges."""
+        under, over = distinct(self.question.under.values(*beneath)), distinct(self.question.over.values(*top))
+        low, high = self.question.edges
+        whole = cuts(over[0], under[0], low, high)
+        found = weight(under, over, whole)
+        self.count += found
+        if found:
+            self._keep(*self._nearest(under, over, whole))
+
+    def _nearest(self, under: Span, over: Span, whole: Span) -> tuple[Ints, Ints, Ints]:
+        """Products on top, beneath, and sets that make them, of pairs among which the block's best are."""
+        best, limit = self.question.best, self.question.tolerance
+        if self.most:
+            limit = min(limit, self.most[0])
+        tolerance = min(self.hint, limit)
+        span = self._span(under, over, whole, tolerance)
+        # widened until the block's best are surely within
+        while weight(under, over, span) < best and tolerance < limit:
+            tolerance = min(8 * tolerance, limit)
+            span = self._span(under, over, whole, tolerance)
+        fewer = Fraction(0)
+        while _pairs(span) > _MANY and tolerance - fewer > _CLOSE:
+            # too wide a start: halve what lies between enough and too few
+            middle = (tolerance + fewer) / 2
+            inner = self._span(under, over, whole, middle)
+            if weight(under, over, inner) < best:
+                fewer = middle
+            else:
+                tolerance, span = middle, inner
+        i, j = spread(*span)
+        sets = (under[1][i + 1] - under[1][i]) * (over[1][j + 1] - over[1][j])
+        return over[0][j], under[0][i], sets
+
+    def _span(self, under: Span, over: Span, whole: Span, tolerance: Fraction) -> Span:
+        """For each product beneath, the products on top within a narrower tolerance."""
+        value, (low, high) = self.question.value, self.question.edges
+        if tolerance >= self.question.tolerance:
+            return whole
+        low, high = max(low, value * (1 - tolerance)), min(high, value * (1 + tolerance))
+        return cuts(over[0], under[0], low, high) if low <= high else (whole[0], whole[0])
+
+    def _keep(self, over: Ints, under: Ints, sets: Ints) -> None:
+        """Take the best of these pairs of products into the list."""
+        value, size, best = self.question.value, self.question.stages, self.question.best
+        error = np.abs(errors(over, under, value))
+        order = np.argsort(error, kind="stable")
+        last = int(np.searchsorted(np.cumsum(sets[order]), best))
+        if last < len(order):
+            order = np.flatnonzero(error <= margin(float(error[order[last]])))
+        over, under = over[order], under[order]
+        least = _least_sums(over, under, size)
+        misses, place = error_places(over, under, value)
+        fresh: list[Key] = []
+        # nearest first, then by the least sum that is possible: from the first that is too late on, all are
+        for at in np.lexsort((least, place)).tolist():
+            miss, total = misses[place[at]], float(least[at])
+            if self._too_late(miss, total):
+                break
+            if self.most and miss == self.most[0] and total > self.most[1]:
+                continue
+            beneaths = expand(int(under[at]), self.question.beneath, size)
+            tops = expand(int(over[at]), self.question.top, size)
+            fresh += [key_of(0, top, beneath, value) for top in tops for beneath in beneaths]
+            if len(fresh) >= best:
+                self.keys, fresh = merged([*self.keys, *fresh], best), []
+        self.keys = merged([*self.keys, *fresh], best)
+
+    def _too_late(self, miss: Fraction, total: float) -> bool:
+        """True if neither this pair nor any after it can be among the best."""
+        if self.most and miss > self.most[0]:
+            return True
+        if len(self.keys) < self.question.best:
+            return False
+        return (miss, total) > (self.keys[-1][1], self.keys[-1][2])
+
+
+def distinct(values: Ints) -> Span:
+    """The different ones of ascending values, (n,), and how many values stand before each and after all, (n + 1,)."""
+    fresh = np.ones(len(values), dtype=bool)
+    fresh[1:] = values[1:] != values[:-1]
+    at = np.flatnonzero(fresh)
+    return values[at], np.append(at, len(values))
+
+
+def weight(under: Span, over: Span, span: Span) -> int:
+    """Number of pairs of sets: for each product beneath, the sets of those on top in its span."""
+    return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
+
+
+def _pairs(span: Span) -> int:
+    """Number of pairs of products."""
+    return int((span[1] - span[0]).sum())
+
+
+def _least_sums(over: Ints, under: Ints, size: int) -> Floats:
+    """A lower bound of the sum of all counts: no sum is less than with equal counts."""
+    root = 1.0 / size
+    sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
+    # less what roots are rounded by: a lower bound must not be too great
+    return np.asarray(sums * (1 - 1e-12))
+
+
+# Solutions judged one by one, many at once: conditions on the counts, and orders other than by error.
+
+
+CHUNK = 1 << 16
+"""Pairs looked at together."""
+
+
+class RowFinder:
+    """Looks at every pair of sets within the tolerance."""
+
+    def __init__(self, question: StageProblem, bound: tuple[int, Fraction, int] | None) -> None:
+        self.question = question
+        self.loose = question.loose
+        self.judge = StageFilter(question, (bound[0], margin(float(bound[1]))) if bound else None)
+        self.count = 0
+
+    def result(self) -> dict[str, Any]:
+        """Plain data: see `search_segments.search_segment`."""
+        found = self.judge.result()
+        return {**found, "count": self.count} if self.loose else found
+
+    def look(self, beneath: Range, top: Range) -> None:
+        """Consider all pairs of sets with products in two ranges."""
+        question, (low, high) = self.question, self.question.edges
+        below, above = distinct(question.under.values(*beneath)), distinct(question.over.values(*top))
+        span = cuts(above[0], below[0], low, high)
+        self.count += weight(below, above, span)
+        used = span[1] > span[0]
+        if not used.any():
+            return
+        # products on top that some window holds: windows opened less windows closed so far
+        opened, closed = (np.bincount(ends, minlength=len(above[0]) + 1) for ends in span)
+        needed = np.cumsum(opened - closed)[:-1] > 0
+        under = self._useful(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
+        over = self._useful(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
+        if len(over.products) and len(under.products):
+            first, last = cuts(over.products, under.products, low, high)
+            for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
+                self.judge.see(over, under, j, i)
+
+    def _useful(self, sets: CountSets, least: int) -> CountSets:
+        """Without the sets that can be in no solution better than what is there; only where every pair is one."""
+        bound, by = self.judge.best.bound, self.question.by
+        if not self.loose or bound is None or by not in ("total", "largest"):
+            return sets
+        first = sets.sums + self.question.stages * least if by == "total" else sets.largest
+        return sets.taken(np.flatnonzero(first <= bound[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class CountSets:
+    """Unordered sets of counts on one side: products, counts (n, k), sums and largest of these."""
+
+    products: Ints
+    counts: Ints
+    sums: Ints
+    largest: Ints
+
+    def taken(self, at: Ints) -> CountSets:
+        """Some of them."""
+        return CountSets(self.products[at], self.counts[at], self.sums[at], self.largest[at])
+
+
+def sets_of(products: Ints, counts: Ints) -> CountSets:
+    """Sets with these products and counts (ascending in each row)."""
+    counts = counts.astype(np.int64)
+    return CountSets(products, counts, counts.sum(axis=1), counts[:, -1])
+
+
+class StageFilter:
+    """Sorts pairs of sets within the tolerance into solutions and others, and keeps the best."""
+
+    def __init__(self, question: StageProblem, bound: tuple[int, float] | None = None) -> None:
+        self.question, self.fit = question, question.fit
+        self.quick = question.loose and question.by in ("error", "total", "largest")
+        self.best = BestStages(question.best, question.value, bound)
+        self.removed: dict[str, int] = {}
+        self.count = 0
+
+    def result(self) -> dict[str, Any]:
+        """Plain data: see `search_segments.search_segment`."""
+        rows = self.best.rows()
+        plain = zip(rows.first.tolist(), rows.top.tolist(), rows.beneath.tolist(), strict=True) if rows else ()
+        return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}
+
+    def see(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> None:
+        """Judge the pairs of set j on top and set i beneath."""
+        bound = self.best.bound
+        if self.quick and bound:
+            # what is certainly not among the best needs no look at its counts
+            self.count += len(j)
+            near = np.flatnonzero(self._first(over, under, j, i) <= bound[0])
+            self._rank(over, under, j[near], i[near], None)
+        else:
+            good, found = self._suits(over, under, j, i)
+            self.count += len(good)
+            self._rank(over, under, j[good], i[good], found)
+
+    def _first(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> Ints:
+        """What the order asks for, from sums and largest counts alone."""
+        if self.question.by == "total":
+            return np.asarray(over.sums[j] + under.sums[i])
+        if self.question.by == "largest":
+            return np.maximum(over.largest[j], under.largest[i])
+        return np.zeros(len(j), dtype=np.int64)
+
+    def _rank(self, over: CountSets, under: CountSets, j: Ints, i: Ints, found: FeasiblePairings | None) -> None:
+        """Keep the best of these solutions."""
+        top, beneath = over.counts[j], under.counts[i]
+        first = first_of(self.question.by, top, beneath, self.fit, found)
+        p, q = over.products[j], under.products[i]
+        rows = RankedStages(top, beneath, p, q, first, np.abs(errors(p, q, self.question.value)))
+        if self.best.bound:
+            most, error = self.best.bound
+            rows = rows.taken(np.flatnonzero((first < most) | ((first == most) & (rows.error <= error))))
+        if len(rows):
+            self.best.add(rows)
+
+    def _suits(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
+        """Which pairs satisfy the fit, and what their pairings have; the others are counted by reason."""
+        fit, at = self.fit, np.arange(len(j))
+        top, beneath = over.counts[j], under.counts[i]
+        if fit.different:
+            # equal counts stand beside each other once they are sorted
+            both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
+            at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "a count that is there twice")
+        if fit.totals_matter:
+            total, (least, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
+            at = self._left(at, (total >= least) & (total <= most), "a sum of counts out of bounds")
+        by = self.question.by
+        if not fit.pairs_matter and by not in ("hunting", "centres"):
+            return at, None
+        found = suited(top[at], beneath[at], fit, coprime=by == "hunting", centres=by == "centres")
+        good = np.flatnonzero(found.possible)
+        at = self._left(at, found.possible, pairing_reason(self.question))
+        return at, found.taken(good)
+
+    def _left(self, at: Ints, good: Bools, reason: str) -> Ints:
+        """Those that are good; the others are charged to the reason."""
+        gone = len(at) - int(good.sum())
+        if gone:
+            self.removed[reason] = self.removed.get(reason, 0) + gone
+        return at[good]
+
+
+def pairing_reason(question: StageProblem) -> str:
+    """What no pairing of the sets has."""
+    fit = question.fit
+    asked = [
+        *(["coprime counts in every stage"] if fit.hunting else []),
+        *(["one centre distance"] if fit.reverted else []),
+        *([f"a larger ring in {fit.internal} of the stages"] if fit.internal else []),
+    ]
+    return f"no pairing with {' and '.join(asked)}"

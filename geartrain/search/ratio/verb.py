@@ -1,0 +1,100 @@
+"""`geartrain teeth ratio RATIO`: stages of gear pairs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from geartrain.cli.common import Force, Json, Out
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.search.verb_options import (
+    ANY_COUNT,
+    NEGATIVE_NUMBERS,
+    Best,
+    Csv,
+    Per,
+    Pinions,
+    Range,
+    Ratio,
+    SearchAnswer,
+    Tolerance,
+    Wheels,
+    check_number,
+    read_tolerance,
+)
+
+Flag = bool
+context_settings = NEGATIVE_NUMBERS
+
+
+def run(
+    context: typer.Context,
+    ratio: Ratio,
+    stages: Annotated[int, typer.Option("--stages", min=1, max=5, help="Gear pairs one after the other.")] = 2,
+    counts: Range = ANY_COUNT,
+    wheels: Wheels = None,
+    pinions: Pinions = None,
+    tolerance: Tolerance = None,
+    best: Best = 20,
+    by: Annotated[
+        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres.")
+    ] = "error",
+    per: Per = None,
+    internal: Annotated[int, typer.Option("--internal", min=0, help="Pairs with a ring, which keep the sense.")] = 0,
+    hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
+    reverted: Annotated[Flag, typer.Option("--reverted", help="All pairs have one centre distance.")] = False,
+    different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
+    most_total: Annotated[int | None, typer.Option("--most-total", min=2, help="Greatest sum of all counts.")] = None,
+    workers: Workers = None,
+    dask: Dask = None,
+    resume: Resume = False,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Stages of gear pairs with a wanted ratio: every solution within a tolerance counted, the best proved."""
+    from geartrain.search.ratio.stage_problem import StageConstraints
+    from geartrain.search.ratio.stage_search import find_stages
+    from geartrain.search.target_ratio import read_ratio
+    from geartrain.search.tooth_count_ranges import read_counts
+    from geartrain.search.tooth_numbers_report import describe_stages, stage_rows
+
+    answer = SearchAnswer.of(csv, json, out, force)
+    wanted = read_ratio(check_number(context, ratio), per)
+    larger, smaller = (read_counts(text or counts) for text in (wheels, pinions))
+    most_error = read_tolerance(tolerance)
+    fit: dict[str, Any] = {
+        "internal": internal,
+        "hunting": hunting,
+        "reverted": reverted,
+        "different": different,
+        "most_total": most_total,
+    }
+    question = {
+        "ratio": str(wanted.value),
+        "stages": stages,
+        "wheels": str(larger),
+        "pinions": str(smaller),
+        "tolerance": str(most_error),
+        "best": best,
+        "by": by,
+        "fit": fit,
+    }
+    with long_run("teeth", question, out, RunOptions(workers, dask, resume)) as given:
+        found = find_stages(
+            wanted,
+            stages,
+            larger,
+            smaller,
+            tolerance=most_error,
+            best=best,
+            by=by,
+            fit=StageConstraints(**fit),
+            executor=given.executor,
+            journal=given.journal,
+            tell=given.tell,
+        )
+        close_journal(given.journal, cut=not found.complete)
+    answer.give(found, stage_rows(found), describe_stages)

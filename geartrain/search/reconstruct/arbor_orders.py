@@ -1,0 +1,415 @@
+"""Orders of the arbors on chains: enumerated, or counted and drawn by dynamic programming over subsets."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
+
+from geartrain.search.reconstruct.added_counts import AddedKind, Counts
+from geartrain.search.reconstruct.candidate_names import (
+    NamedBranching,
+    NamedChain,
+    TopologyArbor,
+    TopologyWheel,
+)
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.search.reconstruct.train_topology import (
+    ADDED,
+    AddedWheels,
+    ArborPass,
+    Branching,
+    Chain,
+    CountLimit,
+    Dials,
+    Topology,
+)
+from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives
+
+# What meshes with a ring: wheels with fewer teeth that are no rings. So an order of arbors may limit added counts.
+
+
+Rings = frozenset[str]
+"""Names of rings."""
+
+
+def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
+    """Whether no ring keeps two wheels apart; an added one whose count is open may still be small enough."""
+    internal, mate_internal = wheel.name in rings, mate.name in rings
+    if internal == mate_internal:
+        return not internal
+    ring, inside = (wheel, mate) if internal else (mate, wheel)
+    return inside.teeth < ring.teeth
+
+
+def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
+    """Whether all rings from an arbor on mesh with wheels that fit into them."""
+    return all(may_mesh(wheel, mate, rings) for wheel, mate in _meshes(arbor))
+
+
+def rings_limit(topology: Topology, rings: Rings, greatest: int) -> bool:
+    """Whether an order may limit counts below the greatest: whether a ring is so small."""
+    return any(wheel.name in rings and wheel.teeth <= greatest for wheel in topology.used)
+
+
+class CountTokens:
+    """Added wheels by numbers below 0 instead of counts, so that their mates in an order can be told."""
+
+    def __init__(self, added: AddedWheels) -> None:
+        self._owners: list[tuple[Dials, bool]] = []
+        self.counts = {
+            dials: (self._tokens(dials, True, drivers), self._tokens(dials, False, driven))
+            for dials, drivers, driven in added.groups
+        }
+        self.idle = self._tokens((), False, added.idle)
+
+    def _tokens(self, dials: Dials, drives: bool, wheels: int) -> tuple[int, ...]:
+        first = len(self._owners)
+        self._owners += [(dials, drives)] * wheels
+        return tuple(-at - 1 for at in range(first, first + wheels))
+
+    def limits(self, arbor: Arbor, rings: Rings, greatest: int) -> tuple[CountLimit, ...]:
+        """The limits below the greatest count that rings set in a train whose added wheels have tokens, sorted."""
+        most = self.most(arbor, rings, greatest)
+        return tuple(sorted(CountLimit(*self.owner(token), count) for token, count in most.items()))
+
+    def owner(self, token: int) -> tuple[Dials, bool]:
+        """The dials whose speed a wheel changes, and whether it drives on the way to them."""
+        return self._owners[-token - 1]
+
+    def most(self, arbor: Arbor, rings: Rings, greatest: int) -> dict[int, int]:
+        """The same limits by token."""
+        least: dict[int, int] = {}
+        for pair in _meshes(arbor):
+            for ring, inside in (pair, pair[::-1]):
+                if ring.name in rings and inside.teeth < 0:
+                    least[inside.teeth] = min(least.get(inside.teeth, greatest), ring.teeth - 1)
+        return {token: count for token, count in least.items() if count < greatest}
+
+
+def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:
+    for wheel, child in arbor.driven_arbors():
+        assert child.driven is not None
+        yield wheel, child.driven
+        yield from _meshes(child)
+
+
+# The orders in which the arbors of a topology may stand, and the trains that they and the counts make.
+
+
+_Step = tuple[str | None, ArborPass]
+COMPOUND, IDLER = -1, -2
+_COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
+_IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
+_Driving = tuple[str | None, PlacedWheel]
+"""An arbor by name, None for an added one, and the wheel on it that drives."""
+_Pairs = frozenset[frozenset[str]]
+
+
+@dataclass(frozen=True)
+class MeshFacts:
+    """What is known of meshes: pairs of wheels that mesh, that do not, pairs of arbors that do not, and rings."""
+
+    meshes: _Pairs = frozenset()
+    apart: _Pairs = frozenset()
+    coaxial: _Pairs = frozenset()
+    rings: Rings = frozenset()
+
+    @staticmethod
+    def of(problem: ReconstructionProblem) -> MeshFacts:
+        """Those of a question."""
+        return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
+
+    @property
+    def are_any(self) -> bool:
+        """Whether anything is known."""
+        return bool(self.meshes or self.apart or self.coaxial or self.rings)
+
+    def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
+        """Which meshes that must be, a mesh is; None if it must not be."""
+        assert driven is not None
+        if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
+            return None
+        if not may_mesh(driving[1], driven, self.rings):
+            return None
+        return frozenset({pair}) & self.meshes if pair is not None else frozenset()
+
+
+def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
+    return None if one is None or other is None else frozenset((one, other))
+
+
+# orders
+
+
+def _hanging(branching: Branching) -> Iterator[tuple[PlacedWheel, tuple[Chain, ...]]]:
+    yield from branching.drives
+    if branching.passes:
+        assert branching.driven is not None
+        yield branching.driven, branching.passes
+
+
+def _met_along(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
+    found: _Pairs = frozenset()
+    for name, each in steps:
+        met = facts.met(driving, name, each.driven)
+        if met is None:
+            return None, driving
+        found |= met
+        assert each.driver is not None
+        driving = name, each.driver
+    return found, driving
+
+
+def sequences(chain: Chain) -> Iterator[tuple[_Step, ...]]:
+    """The arbors of a chain in each order; added ones are told apart by their kind only."""
+    yield from _sequences(chain.through, chain.compounds, chain.idlers)
+
+
+def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Iterator[tuple[_Step, ...]]:
+    if not through and not compounds and not idlers:
+        yield ()
+    for at, step in enumerate(through):
+        for others in _sequences(through[:at] + through[at + 1 :], compounds, idlers):
+            yield (step, *others)
+    if compounds:
+        for others in _sequences(through, compounds - 1, idlers):
+            yield (_COMPOUND, *others)
+    if idlers:
+        for others in _sequences(through, compounds, idlers - 1):
+            yield (_IDLER, *others)
+
+
+# trains
+
+
+def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: MeshFacts) -> Iterator[Arbor]:
+    """The trains of a topology whose added wheels have these counts, one an order."""
+    chains = topology.chains
+    for chosen in product(*map(sequences, chains)):
+        orders = {id(chain): steps for chain, steps in zip(chains, chosen, strict=True)}
+        if not facts.are_any or _agrees(topology, orders, facts):
+            arbor = _Assembly(orders, counts, idle).branching(topology.root, ())
+            if rings_mesh(arbor, facts.rings):
+                yield arbor
+
+
+def in_order(topology: Topology, orders: Mapping[int, list[int]], counts: Counts, idle: tuple[int, ...]) -> Arbor:
+    """The train of one order.
+
+    orders   by `id` of a chain the arbors on it, from the driving wheel on: the number of a surviving one, `COMPOUND`
+             for an added one with two wheels, or `IDLER`
+    """
+    added = {COMPOUND: _COMPOUND, IDLER: _IDLER}
+    steps = {
+        id(chain): tuple(added[at] if at in added else chain.through[at] for at in orders[id(chain)])
+        for chain in topology.chains
+    }
+    return _Assembly(steps, counts, idle).branching(topology.root, ())
+
+
+def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: MeshFacts) -> bool:
+    found: _Pairs = frozenset()
+    waiting = [(chain, (topology.root.name, driver)) for driver, chains in topology.root.drives for chain in chains]
+    while waiting:
+        chain, driving = waiting.pop()
+        met, last = _met_along(orders[id(chain)], driving, facts)
+        if met is None:
+            return False
+        found |= met
+        if isinstance(chain.end, Branching):
+            at_end = facts.met(last, chain.end.name, chain.end.driven)
+            if at_end is None:
+                return False
+            found |= at_end
+            end = chain.end
+            waiting += [(each, (end.name, driver)) for driver, chains in _hanging(end) for each in chains]
+        else:
+            waiting += [(each, last) for each in chain.end]
+    return found == facts.meshes
+
+
+class _Assembly:
+    """Puts counts into the added wheels of a topology, one after the other."""
+
+    def __init__(self, orders: dict[int, tuple[_Step, ...]], counts: Counts, idle: tuple[int, ...]) -> None:
+        self.orders = orders
+        self.drivers = {dials: iter(drivers) for dials, (drivers, _) in counts.items()}
+        self.driven = {dials: iter(driven) for dials, (_, driven) in counts.items()}
+        self.idle = iter(idle)
+
+    def branching(self, branching: Branching, dials: Dials) -> Arbor:
+        """An arbor at which paths end or part, with all that hangs from it; `dials` are all below it."""
+        past = {dial for chain in branching.passes for dial in chain.dials}
+        driven = branching.driven
+        if driven == ADDED:
+            turned = tuple(dial for dial in dials if dial not in past)
+            driven = PlacedWheel(None, next(self.driven[turned]) if turned else next(self.idle))
+        drives = []
+        for wheel, chains in branching.drives:
+            led_to = tuple(sorted(dial for chain in chains for dial in chain.dials))
+            driver = PlacedWheel(None, next(self.drivers[led_to])) if wheel == ADDED else wheel
+            drives.append((driver, self.chains(chains)))
+        return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
+
+    def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
+        """All that one wheel drives."""
+        return tuple(arbor for chain in chains for arbor in self.chain(chain))
+
+    def chain(self, chain: Chain) -> tuple[Arbor, ...]:
+        """The arbors of a chain, the first one with all others below it."""
+        end = chain.end
+        below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
+        for name, each in reversed(self.orders[id(chain)]):
+            if each.idler:
+                driven = PlacedWheel(None, next(self.idle)) if each.driven == ADDED else each.driven
+                below = (Arbor(name, driven, (), (), below),)
+                continue
+            driven = PlacedWheel(None, next(self.driven[chain.dials])) if each.driven == ADDED else each.driven
+            driver = PlacedWheel(None, next(self.drivers[chain.dials])) if each.driver == ADDED else each.driver
+            assert driver is not None
+            below = (Arbor(name, driven, (), ((driver, below),)),)
+        return below
+
+
+# Dynamic programming over the subsets of a chain's arbors: what holds in how many orders, and orders drawn. From the
+# driving wheel on, a chain goes on with one of the arbors that are left. What follows depends on which those are and
+# on the wheel that drives alone, not on how it came to that, so that orders are summed and not listed.
+
+
+_NamedDriving = tuple[TopologyArbor, TopologyWheel]
+
+
+class NamedMesh(NamedTuple):
+    """That a wheel of one arbor drives one of another."""
+
+    arbor: TopologyArbor
+    wheel: TopologyWheel
+    driven: TopologyArbor
+
+
+class AddedPlace(NamedTuple):
+    """That an added wheel of some name is of some kind."""
+
+    name: str
+    kind: AddedKind
+
+
+class ChainStep(NamedTuple):
+    """The arbor at a place on a chain: the number of a surviving one, -1 for two added wheels, -2 for an idler."""
+
+    chain: NamedChain
+    place: int
+    which: int
+
+
+@dataclass(frozen=True)
+class _Ahead:
+    """What is left to be put on a chain, what drives it, and pairs that must mesh there or below."""
+
+    chain: NamedChain
+    through: frozenset[int]
+    compounds: int
+    idlers: int
+    driving: _NamedDriving
+    pairs: _Pairs
+
+
+class _Start(NamedTuple):
+    """An arbor at which paths end or part, and pairs that must mesh below it."""
+
+    branching: NamedBranching
+    pairs: _Pairs
+
+
+def topology_orders(root: NamedBranching, facts: MeshFacts) -> WeightedAlternatives[Hashable]:
+    """The orders of a topology that agree with what is known of meshes, each of weight 1."""
+    return WeightedAlternatives(_Start(root, facts.meshes), _Orders(facts).alternatives)
+
+
+@dataclass(frozen=True)
+class _Orders:
+    facts: MeshFacts
+
+    def alternatives(self, node: Hashable) -> Iterator[Alternative[Hashable]]:
+        """What may come next."""
+        if not isinstance(node, _Ahead):
+            assert isinstance(node, _Start)
+            branching, pairs = node
+            places = tuple(_place(wheel) for wheel in branching.wheels() if wheel.kind is not None)
+            yield from self._onward(branching, pairs, places)
+            return
+        for at in node.through:
+            yield from self._step(node, node.chain.through[at], at, node.through - {at}, node.compounds, node.idlers)
+        added = node.chain.added[len(node.chain.added) - node.compounds - node.idlers :]
+        if node.compounds:
+            yield from self._step(node, added[0][0], COMPOUND, node.through, node.compounds - 1, node.idlers)
+        if node.idlers:
+            yield from self._step(node, added[0][1], IDLER, node.through, node.compounds, node.idlers - 1)
+        if not node.through and not added:
+            yield from self._end(node)
+
+    def _step(
+        self, node: _Ahead, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
+    ) -> Iterator[Alternative[Hashable]]:
+        """The arbor that stands next."""
+        left = self._left(node, arbor)
+        if left is None:
+            return
+        assert arbor.driver is not None
+        place = node.chain.chain.arbors - len(through) - compounds - idlers - 1
+        wheels = dict.fromkeys([arbor.driven, arbor.driver])
+        places = tuple(_place(wheel) for wheel in wheels if wheel is not None and wheel.kind is not None)
+        ahead = _Ahead(node.chain, through, compounds, idlers, (arbor, arbor.driver), left)
+        tells = (NamedMesh(*node.driving, arbor), ChainStep(node.chain, place, which), *places)
+        yield Alternative(1, tells, (ahead,))
+
+    def _end(self, node: _Ahead) -> Iterator[Alternative[Hashable]]:
+        """What a chain ends with."""
+        end = node.chain.end
+        if not isinstance(end, NamedBranching):
+            yield from self._hung([(node.driving, chain) for chain in end], node.pairs, ())
+            return
+        left = self._left(node, end.arbor)
+        if left is not None:
+            yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_Start(end, left),))
+
+    def _left(self, node: _Ahead, arbor: TopologyArbor) -> _Pairs | None:
+        """Pairs that must mesh still after an arbor is driven; None if it must not be driven so."""
+        source, wheel = node.driving
+        met = self.facts.met((source.survivor, wheel.placed), arbor.survivor, arbor.driven and arbor.driven.placed)
+        return None if met is None or not met <= node.pairs else node.pairs - met
+
+    def _onward(
+        self, branching: NamedBranching, pairs: _Pairs, tells: tuple[Hashable, ...]
+    ) -> Iterator[Alternative[Hashable]]:
+        hung = [((branching.arbor, wheel), chain) for wheel, chains in branching.hanging for chain in chains]
+        yield from self._hung(hung, pairs, tells)
+
+    def _hung(
+        self, hung: list[tuple[_NamedDriving, NamedChain]], pairs: _Pairs, tells: tuple[Hashable, ...]
+    ) -> Iterator[Alternative[Hashable]]:
+        """Chains that hang side by side, with each way in which the pairs may be shared out among them."""
+        known = sorted(pairs, key=sorted)
+        # a pair may mesh only where both of its wheels are: on a chain, below it, or driving it
+        inside = [chain.surviving_wheels | {driving[1].name} for driving, chain in hung]
+        able = [[at for at, wheels in enumerate(inside) if pair <= wheels] for pair in known]
+        for owners in product(*able):
+            parts = tuple(
+                _Ahead(
+                    chain,
+                    frozenset(range(len(chain.through))),
+                    chain.chain.compounds,
+                    chain.chain.idlers,
+                    driving,
+                    frozenset(pair for pair, owner in zip(known, owners, strict=True) if owner == at),
+                )
+                for at, (driving, chain) in enumerate(hung)
+            )
+            yield Alternative(1, tells, parts)
+
+
+def _place(wheel: TopologyWheel) -> AddedPlace:
+    assert wheel.kind is not None
+    return AddedPlace(wheel.name, wheel.kind)

@@ -1,0 +1,274 @@
+"""From a candidate to a complete declaration: what survives as it was declared, what is added marked as hypothetical.
+
+Names do not depend on anything but the evidence and the candidate, so that the same candidate is the same text.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from geartrain.numerics.decimal_text import fraction_text
+from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, free_name, name_train
+from geartrain.search.reconstruct.link_roles import BaseLink, couplings_of, find_base, joined_arbors
+from geartrain.search.reconstruct.reconstruction_problem import Arbor
+from geartrain.search.reconstruct.surviving_geometry import SurvivingGeometry, read_geometry_evidence
+from geartrain.train import Train, declare
+from geartrain.train.yaml_nodes import as_yaml
+
+# One module for wheels in mesh, from what was measured on each of them, so that a candidate can be built and drawn.
+
+
+def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, float | None]:
+    """The module (mm) to be declared of every measured wheel but those whose measured module stands.
+
+    Wheels that mesh share one module: the first that was measured gets the geometric mean of what was, and None stands
+    for its mates, which follow from it. None stands for all of them where the places of two axes in mesh decide.
+    """
+    mates = _meshing(train)
+    placed = {
+        mates[wheel.name]
+        for arbor, wheel, driven in train.meshes()
+        if arbor.name in geometry.places and driven.name in geometry.places
+    }
+    measured: dict[str, dict[str, float]] = {}
+    for wheel in (wheel for arbor in train.arbors() for wheel in arbor.wheels()):
+        module = geometry.module_of((None if wheel.added else wheel.name, wheel.teeth))
+        if module is not None:
+            measured.setdefault(mates[wheel.name], {})[wheel.name] = math.log(module)
+    found: dict[str, float | None] = {}
+    for group, logs in measured.items():
+        if group not in placed and len(logs) == 1 and geometry.measured[next(iter(logs))].is_module:
+            continue
+        found |= dict.fromkeys(logs)
+        if group not in placed:
+            found[next(iter(logs))] = math.exp(sum(logs.values()) / len(logs))
+    return found
+
+
+def with_module(declared: Mapping[str, Any], measured: str, module: float | None) -> dict[str, Any]:
+    """A declared wheel with the module that it is to have, and a note of what was measured where that differs.
+
+    measured   what the evidence says of it, such as "module 0.455 mm"
+    module     in mm; None where it follows from others
+    """
+    text = "" if module is None else f"{module:.4g} mm"
+    found = {key: value for key, value in declared.items() if key != "module"} | ({"module": text} if text else {})
+    if measured == f"module {text}":
+        return found
+    said = f"measured {measured}"
+    return found | {"note": f"{declared['note']}; {said}" if declared.get("note") else said}
+
+
+def _meshing(train: NamedArbor) -> dict[str, str]:
+    """Of every wheel the first of those that share its module."""
+    first: dict[str, str] = {}
+    for _, wheel, arbor in train.meshes():
+        assert arbor.driven is not None
+        first[arbor.driven.name] = first.setdefault(wheel.name, wheel.name)
+    return first
+
+
+ADDED_NOTE = "added by reconstruct"
+_LEFT_OUT = {
+    "name",
+    "title",
+    "extends",
+    "remove",
+    "reconstruct",
+    "links",
+    "axes",
+    "revolutes",
+    "gears",
+    "couplings",
+    "outputs",
+}
+
+
+def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
+    """A candidate with the names that its declaration gives to arbors and wheels."""
+    return name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels)
+
+
+def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
+    """A candidate as a checked declaration.
+
+    evidence   what it explains
+    arbor      the candidate, from its input on
+    name       of the train
+    """
+    return declare(candidate_data(evidence, arbor, name))
+
+
+def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
+    """A candidate as YAML, the same text for the same candidate."""
+    return as_yaml(candidate_data(evidence, arbor, name))
+
+
+def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
+    """A candidate with the keys of a declaration."""
+    train = TrainConstruction.of(evidence, arbor)
+    given = train.given
+    kept = {key: value for key, value in given.items() if key not in _LEFT_OUT}
+    about = {"title": f"{given['title']}, as {name}"} if given.get("title") else {}
+    data = {"name": name, **about, **kept, "frame": evidence.frame, **train.parts()}
+    unused = [link for link in evidence.links if link not in (*train.links, evidence.frame)]
+    if unused:
+        said = f"Not used: {', '.join(unused)}."
+        data["note"] = f"{kept['note']} {said}" if kept.get("note") else said
+    return data
+
+
+@dataclass
+class TrainConstruction:
+    """A declaration that is put together arbor by arbor.
+
+    given    the evidence as plain data
+    links, revolutes, gears, couplings   those of the candidate, as plain data
+    shown    link and speed of every pointer, as seen from the base
+    meshes   ids of wheels, the driving one first
+    added    ids of added wheels with their counts
+    doubtful ids of surviving wheels that may have several counts, with the one that they have here
+    modules  ids of measured wheels whose module changes, with the new one (mm); None where it follows from others
+    """
+
+    evidence: Train
+    base: BaseLink
+    given: Mapping[str, Any]
+    links: dict[str, Any] = field(default_factory=dict)
+    revolutes: list[dict[str, Any]] = field(default_factory=list)
+    gears: list[dict[str, Any]] = field(default_factory=list)
+    couplings: list[dict[str, Any]] = field(default_factory=list)
+    shown: dict[str, tuple[str, Fraction]] = field(default_factory=dict)
+    meshes: list[tuple[str, str]] = field(default_factory=list)
+    added: dict[str, int] = field(default_factory=dict)
+    doubtful: dict[str, int] = field(default_factory=dict)
+    modules: Mapping[str, float | None] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
+        """All of a candidate."""
+        given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
+        made = cls(evidence, find_base(evidence), given)
+        made._carrier()
+        made._add(named_candidate(evidence, arbor))
+        made.doubtful = {name: made.doubtful[name] for name in evidence.wheels if name in made.doubtful}
+        return made
+
+    def _add(self, source: NamedArbor) -> None:
+        """All arbors of a candidate."""
+        self.modules = fit_modules(source, read_geometry_evidence(self.evidence))
+        self._put(source, self.base.driven)
+        speeds = {source.name: self.base.driven}
+        for driving, wheel, arbor in source.meshes():
+            assert arbor.driven is not None
+            sense = 1 if self._is_ring(wheel) or self._is_ring(arbor.driven) else -1
+            speeds[arbor.name] = sense * speeds[driving.name] * wheel.teeth / arbor.driven.teeth
+            self._put(arbor, speeds[arbor.name])
+            self.gears.append(self._gear(wheel.name, arbor.driven.name))
+            self.meshes.append((wheel.name, arbor.driven.name))
+
+    def _is_ring(self, wheel: NamedWheel) -> bool:
+        return not wheel.added and self.evidence.wheels[wheel.name][1].internal
+
+    def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
+        """An arbor with its wheels and pointers, or those that given couplings join to one."""
+        links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
+        for link in links:
+            self._link(link, arbor.added)
+        self.couplings += couplings_of(self.evidence, links)
+        for wheel in arbor.wheels():
+            self._wheel(arbor.name if wheel.added else self.evidence.wheels[wheel.name][0], wheel)
+        for dial in arbor.dials:
+            of = self.evidence.outputs[dial].of
+            self.shown[dial] = (of if of in links else links[0], speed)
+
+    def parts(self) -> dict[str, Any]:
+        """What differs from the evidence."""
+        frame = self.evidence.frame
+        links = {frame: self.given["links"].get(frame, {})}
+        links |= {link: self.links[link] for link in (*self.evidence.links, *self.links) if link in self.links}
+        labels = {joint["axis"] for joint in self.revolutes}
+        axes = {label: axis for label, axis in self.given.get("axes", {}).items() if label in labels}
+        outputs = {name: self._output(name) for name in self.evidence.outputs}
+        couplings = {"couplings": self.couplings} if self.couplings else {}
+        found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, **couplings, "outputs": outputs}
+        return {"axes": axes, **found} if axes else found
+
+    def _carrier(self) -> None:
+        """The carrier, where there is one, turns in the frame."""
+        if self.base.is_carrier:
+            self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
+            self._joint(self.evidence.frame, self.base.name)
+
+    def _link(self, link: str, added: bool) -> None:
+        base = self.base
+        declared = self.given["links"].get(link) or {}
+        self.links[link] = {"wheels": {}, "note": ADDED_NOTE} if added else dict(declared)
+        if link != base.source or not base.is_carrier:
+            self._joint(base.name, link)
+        elif link != self.evidence.frame:  # driven from outside, about the axis of the carrier
+            self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
+
+    def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
+        """The joint by which a link turns, as declared; else on its bearing, about an axis of its own or the given."""
+        joints = self.given.get("revolutes", ())
+        bearings = {bearing, self.evidence.frame, self.base.name} - {link}
+        joint = next((joint for joint in joints if link in joint["pair"] and bearings & set(joint["pair"])), None)
+        if joint is None:
+            labels = {joint["axis"] for joint in (*joints, *self.revolutes)} | set(self.evidence.axes)
+            joint = {"pair": [bearing, link], "axis": axis or free_name(link, "axis", labels)}
+        self.revolutes.append(joint)
+
+    def _wheel(self, link: str, wheel: NamedWheel) -> None:
+        """A wheel on its link, with the count of the candidate."""
+        wheels = dict(self.links[link].get("wheels", {}))
+        if wheel.added:
+            self.added[wheel.name] = wheel.teeth
+            wheels[wheel.name] = {"teeth": wheel.teeth, "status": "hypothetical", "note": ADDED_NOTE}
+        else:
+            declared = wheels[wheel.name]["teeth"]
+            if isinstance(declared, Mapping) and {"range", "choices", "search"} & set(declared):
+                self.doubtful[wheel.name] = wheel.teeth
+            wheels[wheel.name] = wheels[wheel.name] | {"teeth": _with_count(wheels[wheel.name]["teeth"], wheel.teeth)}
+            if wheel.name in self.modules:
+                wheels[wheel.name] = self._with_module(wheel.name, wheels[wheel.name])
+        self.links[link]["wheels"] = wheels
+
+    def _with_module(self, name: str, wheel: Mapping[str, Any]) -> dict[str, Any]:
+        asked = self.evidence.reconstruct
+        assert asked is not None
+        assert asked.geometry is not None
+        radii = asked.geometry.radii
+        said = f"pitch radius {radii[name]}" if name in radii else f"module {wheel['module']}"
+        return with_module(wheel, said, self.modules[name])
+
+    def _gear(self, driving: str, driven: str) -> dict[str, Any]:
+        for gear in self.given.get("gears", ()):
+            if set(gear["pair"]) == {driving, driven}:
+                return {key: value for key, value in gear.items() if key != "driver"}
+        return {"pair": [driving, driven]}
+
+    def _output(self, name: str) -> dict[str, Any]:
+        link, speed = self.shown[name]
+        output = self.evidence.outputs[name]
+        speed += self.base.seen(output.relative_to or self.evidence.frame)
+        given = dict(self.given["outputs"][name] or {})
+        if output.expect is None or not output.expect.holds(speed):
+            given["expect"] = fraction_text(speed)
+        elif set(given["expect"]) == {"value"}:
+            given["expect"] = given["expect"]["value"]
+        return {"of": link} | {key: value for key, value in given.items() if key != "of"}
+
+
+def _with_count(teeth: Any, count: int) -> Any:
+    """A declared tooth count with the value of a candidate; its doubt stays."""
+    if not isinstance(teeth, Mapping):
+        return count
+    found = {"value": count, **{key: part for key, part in teeth.items() if key not in ("value", "search")}}
+    if "search" in teeth and not {"range", "choices"} & set(found):
+        found["range" if len(teeth["search"]) == 2 else "choices"] = teeth["search"]
+    return found

@@ -1,0 +1,334 @@
+"""Translation of declared evidence into a question; what cannot be asked is refused by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations
+
+from geartrain.errors import DeclarationError, Loc, Problem, first_problems
+from geartrain.kinematics.judged_outputs import goal_of
+from geartrain.search.reconstruct.link_roles import (
+    BaseLink,
+    Joined,
+    base_problems,
+    carrier_axis,
+    coupling_problems,
+    find_base,
+    join_arbors,
+    joined_arbors,
+    parted_problems,
+)
+from geartrain.search.reconstruct.reconstruction_problem import (
+    NEW,
+    Additions,
+    PriorFactors,
+    ReconstructionProblem,
+    SearchedDial,
+    SurvivingArbor,
+    SurvivingWheel,
+    find_unreachable,
+)
+from geartrain.search.reconstruct.surviving_geometry import (
+    SurvivingGeometry,
+    read_geometry_evidence,
+    refuse_unreachable,
+    unweighed_geometry,
+)
+from geartrain.train import Output, Teeth, Train, Wheel
+from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
+
+# The speeds that a pointer may have, by all that is declared of its output.
+
+
+Limits = tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True)
+class PointerBounds:
+    """Least and greatest speed, or magnitude where the sense is not known; and what is declared but bounds nothing."""
+
+    limits: Limits
+    signed: bool
+    unused: tuple[str, ...] = ()
+
+    def allow(self, speed: Fraction) -> bool:
+        """Whether a speed is within them."""
+        return self.limits[0] <= (speed if self.signed else abs(speed)) <= self.limits[1]
+
+
+def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
+    """Bounds of an output of evidence, seen from the base; with a free sense those of its magnitude.
+
+    Raises `DeclarationError` where there is no one range of speeds.
+    """
+    output, place = evidence.outputs[name], evidence.place("outputs", name)
+    if output.relative_to not in (None, evidence.frame, base.name):
+        what = f"'{name}' is seen from '{output.relative_to}', which is not taken up by a reconstruction yet"
+        carrier = "" if base.name == evidence.frame else f" or the carrier '{base.name}'"
+        why = f"a pointer of a reconstruction is seen from the frame{carrier}"
+        raise DeclarationError(Problem(what, why, f"give its speed against the frame{carrier}", place))
+    if output.of == evidence.frame:
+        raise DeclarationError(Problem(f"'{name}' is on the frame, which does not turn", "", "correct `of`", place))
+    found = _bounds(evidence, name, free_sense)
+    found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
+    if output.of is None and base.source == evidence.frame and found.allow(base.driven):
+        what = f"'{name}' turns as the frame does, and so the frame itself would show it"
+        fix = "name its arbor with `of`, or say `of: new` if that is lost"
+        raise DeclarationError(Problem(what, "its arbor is not known", fix, place))
+    return found
+
+
+def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
+    output, place = evidence.outputs[name], evidence.place("outputs", name)
+    known = list(_ranges(evidence, output))
+    unused = _unused_targets(name, output)
+    if not known:
+        why = "it has no `expect`, and no target with a tolerance"
+        fix = "add for example `expect: -5/19`, or `tolerance: 1/446` to a target"
+        raise DeclarationError(Problem(f"how fast '{name}' turns is not known", why, fix, place))
+    signed = [limits for limits, has_sign in known if has_sign and not free_sense]
+    plain = [_magnitudes(limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense]
+    if not signed:
+        return PointerBounds(_common(plain, name, place), False, unused)
+    limits = _common(signed, name, place)
+    if plain:
+        limits = _with_magnitude(limits, _common(plain, name, place), name, place)
+    return PointerBounds(limits, True, unused)
+
+
+def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
+    """Bounds for a base that turns so fast."""
+    if not turning:
+        return bounds
+    if not bounds.signed:
+        what = f"the sense of '{name}' is not known, and it is seen from the frame"
+        why = "then it has two speeds, as seen from the carrier"
+        raise DeclarationError(Problem(what, why, "give the sense, or its speed `relative_to` the carrier", place))
+    least, greatest = bounds.limits
+    return replace(bounds, limits=(least - turning, greatest - turning))
+
+
+def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
+    """What is said of a speed, and whether with its sign."""
+    if output.expect is not None:
+        value, tolerance = output.expect.value, output.expect.tolerance
+        half = tolerance.value if tolerance is not None else value.half or Fraction(0)
+        yield (value.value - half, value.value + half), True
+    for target in output.targets:
+        goal = goal_of(evidence, target)
+        if target.tolerance is not None:
+            half = target.tolerance.base * (abs(goal.speed) or 1)
+        elif target.speed is not None and output.expect is None:
+            half = (target.speed.half or Fraction(0)) * target.turns.value
+        else:
+            continue
+        yield (goal.speed - half, goal.speed + half), goal.signed
+
+
+def _unused_targets(name: str, output: Output) -> tuple[str, ...]:
+    lines = [
+        f"a target of '{name}' ({target.name or target.period or target.speed}): it has no tolerance"
+        for target in output.targets
+        if target.tolerance is None and (target.speed is None or output.expect is not None)
+    ]
+    if output.published is not None:
+        lines.append(f"what is published of '{name}': `expect` and targets with a tolerance are taken")
+    return tuple(lines)
+
+
+def _magnitudes(limits: Limits) -> Limits:
+    ends = sorted(map(abs, limits))
+    return (Fraction(0), ends[1]) if limits[0] < 0 < limits[1] else (ends[0], ends[1])
+
+
+def _common(ranges: list[Limits], name: str, place: str) -> Limits:
+    least, greatest = max(low for low, _ in ranges), min(high for _, high in ranges)
+    if least > greatest:
+        why = "no speed is within `expect` and all targets with a tolerance"
+        raise DeclarationError(Problem(f"what is said of '{name}' contradicts itself", why, "correct one", place))
+    return least, greatest
+
+
+def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
+    """Speeds within limits whose magnitude is within limits too."""
+    low, high = magnitude
+    if limits[0] >= 0:
+        return _common([limits, (low, high)], name, place)
+    if limits[1] <= 0:
+        return _common([limits, (-high, -low)], name, place)
+    if low <= 0:
+        return _common([limits, (-high, high)], name, place)
+    why = "one part of the evidence gives its sense, and one that does not leaves two ranges of speed"
+    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target", place))
+
+
+_NOT_TAKEN_UP = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
+"""Keys of a train that change what turns, or need arbors that a candidate may not have."""
+
+_MOST_COUNTS = 10_000
+"""That one wheel may have."""
+
+
+@dataclass(frozen=True)
+class EvidenceQuestion:
+    """The question that evidence asks.
+
+    base     what bears the arbors; speeds of the problem are seen from it
+    joined   links that given couplings join, by the arbor that stands for them
+    unused   what is declared and plays no part in the answer, a line each
+    """
+
+    problem: ReconstructionProblem
+    base: BaseLink
+    joined: Joined
+    unused: tuple[str, ...]
+
+
+def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
+    """What evidence asks.
+
+    wheels   the most wheels that may be added, instead of what the evidence says
+    idlers   a driven wheel may drive, also where the evidence does not say so
+
+    Raises `DeclarationError` with the place of everything that is not taken up yet, or gives no question.
+    """
+    asked = evidence.reconstruct
+    assert asked is not None, "no evidence"
+    found = [*_not_taken_up(evidence), *coupling_problems(evidence), *_wheels(evidence)]
+    unclear = list(base_problems(evidence))
+    base = None if unclear else find_base(evidence)
+    found += unclear
+    if wheels and asked.add.teeth is None:
+        fix = "add for example `teeth: [12, 225]`"
+        place = evidence.place("reconstruct")
+        found.append(Problem("wheels are to be added whose counts have no bounds", "", fix, place))
+    bounds = {}
+    for name in evidence.outputs:
+        try:
+            if base is not None:
+                bounds[name] = find_bounds(evidence, name, asked.sense == "free", base)
+        except DeclarationError as error:
+            found += error.problems
+    if not evidence.outputs:
+        fix = "add `outputs:`, each with `expect` or a target with its tolerance"
+        found.append(Problem("nothing is known of any pointer", "a train explains what pointers show", fix))
+    if found or base is None:
+        raise DeclarationError(first_problems(found))
+    places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
+    others = (link for link in evidence.links if link not in (base.source, base.name, evidence.frame))
+    arbors = tuple(_arbor(evidence, link) for link in others)
+    geometry = read_geometry_evidence(evidence)
+    unreachable = frozenset(find_unreachable((_arbor(evidence, base.source), *arbors), geometry))
+    refuse_unreachable(evidence, unreachable)
+    problem = ReconstructionProblem(
+        input=_arbor(evidence, base.source),
+        arbors=arbors,
+        dials=tuple(SearchedDial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
+        additions=_additions(asked.add, wheels),
+        input_speed=base.driven,
+        meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
+        apart=frozenset(frozenset(pair) for pair in asked.apart) | unreachable,
+        coaxial=frozenset(_coaxial(evidence, base, geometry)),
+        use=asked.use,
+        idlers=asked.idlers or idlers,
+        factors=PriorFactors(asked.cost.wheel.value, asked.cost.arbor.value, asked.cost.unused.value),
+        geometry=geometry,
+    )
+    unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
+    joined = joined_arbors(evidence)
+    if parted := list(parted_problems(evidence, problem, joined)):
+        raise DeclarationError(first_problems(parted))
+    return EvidenceQuestion(join_arbors(problem, joined), base, joined, tuple(unused))
+
+
+def _additions(add: AddedParts, wheels: int | None) -> Additions:
+    least, greatest = add.teeth or (1, 1)  # where none are added, it does not matter
+    return Additions(add.wheels if wheels is None else wheels, least, greatest, add.arbors, add.on)
+
+
+def _arbor(evidence: Train, link: str) -> SurvivingArbor:
+    wheels = evidence.links[link].wheels if link in evidence.links else {}  # a frame need not be listed
+    return SurvivingArbor(
+        link, tuple(SurvivingWheel(name, _counts(wheel), wheel.internal) for name, wheel in wheels.items())
+    )
+
+
+def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
+    """Arbors that are declared on one axis, or on axes of one place."""
+    on_axis: dict[str, set[str]] = {}
+    for joint in evidence.revolutes:
+        on_axis.setdefault(joint.axis, set()).update(joint.pair)
+    if base.name != evidence.frame:
+        on_axis.setdefault(carrier_axis(evidence, base.name) or "", set()).add(base.source)
+    for links in on_axis.values():
+        # what bears the others is on none; with a carrier, the frame is where the train begins there
+        links -= {base.name, evidence.frame} - {base.source}
+        yield from map(frozenset, combinations(sorted(links), 2))
+    for one, other in combinations(geometry.arbors, 2):
+        if one.place == other.place:
+            yield frozenset((one.name, other.name))
+
+
+def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
+    """The counts that a wheel may have, with weights whose sum is 1."""
+    teeth = wheel.teeth
+    if isinstance(teeth, int):
+        return ((teeth, Fraction(1)),)
+    chances = teeth.chances
+    if not chances:
+        assert teeth.value is not None
+        return ((teeth.value, Fraction(1)),)
+    return tuple(chances.items())
+
+
+# what cannot be asked
+
+
+def _not_taken_up(evidence: Train) -> Iterator[Problem]:
+    for key in _NOT_TAKEN_UP:
+        if getattr(evidence, key):
+            yield _later(evidence, f"`{key}` is not taken up by a reconstruction yet", key)
+    if evidence.crank is not None and evidence.crank not in evidence.inputs:
+        yield _later(evidence, "a crank that is not the input is not taken up by a reconstruction yet", "crank")
+    for label, axis in evidence.axes.items():
+        if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
+            yield _later(evidence, "axes that are not parallel are not taken up by a reconstruction yet", "axes", label)
+
+
+def _later(evidence: Train, what: str, *loc: str | int) -> Problem:
+    return Problem(
+        what, "it would change which trains are found", "leave it out to ask without it", evidence.place(*loc)
+    )
+
+
+def _wheels(evidence: Train) -> Iterator[Problem]:
+    for link, part in evidence.links.items():
+        for name, wheel in part.wheels.items():
+            place = ("links", link, "wheels", name)
+            if wheel.kind != "spur":
+                what = f"'{name}' is a {wheel.kind} wheel, which is not taken up by a reconstruction yet"
+                yield _later(evidence, what, *place)
+            yield from _teeth(evidence, wheel, place)
+
+
+def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
+    teeth = wheel.teeth
+    if not isinstance(teeth, Teeth):
+        return
+    for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
+        if count > _MOST_COUNTS:
+            what = f"{count} counts are too many for one wheel"
+            yield Problem(what, f"{_MOST_COUNTS} are the most", "narrow the range", evidence.place(*place, "teeth"))
+    if why := teeth.fault_of_weights:
+        fix = "give weights of 0 or more, at least one of them above 0"
+        yield Problem("the weights of a count are no weights", why, fix, evidence.place(*place, "teeth", "weights"))
+
+
+def _unused(evidence: Train) -> Iterator[str]:
+    """Evidence that is declared and plays no part yet."""
+    yield from unweighed_geometry(evidence)
+    for gear in evidence.gears:
+        if gear.driver is not None:
+            yield f"the driver of '{gear.name}': either wheel may drive"

@@ -1,0 +1,402 @@
+"""Enumeration of topologies by recursion: every one with one given path a dial, each once.
+
+Where two paths have surviving arbors in common, these are above their branching. So what is open is little: how many
+added arbors stand on each chain, at which of them paths part, and how added driving wheels are shared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import reduce
+from itertools import combinations, product
+from operator import and_, or_
+from typing import NamedTuple
+
+from geartrain.search.reconstruct.path_lists import PathList
+from geartrain.search.reconstruct.reconstruction_problem import PlacedWheel, ReconstructionProblem
+from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
+
+# How an arbor at which paths part shares out its dials: which it shows, and which each of its wheels leads to.
+
+
+HERE = "="
+IDLER = "~"
+BESIDE = "+"
+"""Ways on from an arbor, beside the names of its surviving wheels: its own dial, its driven wheel, an added one."""
+
+Block = tuple[str, Dials]
+"""A way on from an arbor, and the dials to which it leads."""
+
+
+def way_on(each: ArborPass) -> str:
+    """The way on that a path takes from an arbor."""
+    if each.driver is None:
+        return HERE
+    if each.idler:
+        return IDLER
+    return BESIDE if each.driver.name is None else each.driver.name
+
+
+def shared_out(
+    dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
+) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
+    """Each way in which an arbor shows some of the dials and leads to the others; by added wheels to blocks of them.
+
+    arbors   by dial bits of the surviving arbors on its path: dials with one in common stay together
+    """
+    for chosen in product(*(ways[dial] for dial in dials)):
+        by_way: dict[str, list[str]] = {}
+        for dial, way in zip(dials, chosen, strict=True):
+            by_way.setdefault(way, []).append(dial)
+        named = tuple((way, tuple(block)) for way, block in by_way.items() if way not in (HERE, BESIDE))
+        for blocks in partitions(tuple(by_way.get(BESIDE, ())), arbors):
+            yield tuple(by_way.get(HERE, ())), (*named, *((BESIDE, block) for block in blocks))
+
+
+def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
+    """Each way to part dials into blocks with no surviving arbor in common, the first of them in the first block."""
+    place = {dial: at for at, dial in enumerate(dials)}
+    for blocks in _parted(_together(dials, arbors)):
+        yield tuple(
+            tuple(sorted((dial for group in block for dial in group), key=place.__getitem__)) for block in blocks
+        )
+
+
+def _together(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
+    """Dials in groups, by what they and others between them have in common."""
+    groups: list[tuple[int, Dials]] = []
+    for dial in dials:
+        joined = [group for group in groups if group[0] & arbors[dial]]
+        groups = [group for group in groups if not group[0] & arbors[dial]]
+        bits = reduce(or_, (own for own, _ in joined), arbors[dial])
+        groups.append((bits, (*(one for _, group in joined for one in group), dial)))
+    first = dials.index
+    return tuple(sorted((group for _, group in groups), key=lambda group: min(map(first, group))))
+
+
+def _parted(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
+    if not groups:
+        yield ()
+        return
+    for size in range(len(groups)):
+        for others in combinations(groups[1:], size):
+            rest = tuple(group for group in groups[1:] if group not in others)
+            for blocks in _parted(rest):
+                yield ((groups[0], *others), *blocks)
+
+
+_Drive = tuple[PlacedWheel | None, tuple[Chain, ...]]
+_ENDLESS = 1 << 20
+
+
+class DialPath(NamedTuple):
+    """A dial's path, and what of it is still below.
+
+    arbors               surviving ones, a bit each
+    passes               by surviving arbor that it has, the input first, the way through it
+    compounds, idlers    added arbors before the last
+    wheels               added wheels
+    ends_new             whether its last arbor is added
+    """
+
+    arbors: int
+    passes: Mapping[int, ArborPass]
+    compounds: int
+    idlers: int
+    wheels: int
+    ends_new: bool
+
+    @property
+    def is_at_end(self) -> bool:
+        """Whether nothing but an added last arbor is below."""
+        return not (self.arbors or self.compounds or self.idlers)
+
+    @property
+    def new(self) -> int:
+        """Number of added arbors."""
+        return self.compounds + self.idlers + self.ends_new
+
+
+Paths = dict[str, DialPath]
+"""By dial, sorted by name."""
+
+
+class _Left(NamedTuple):
+    """Added wheels that must still be used, and added arbors that still may be."""
+
+    wheels: int
+    new: int
+
+    def without(self, wheels: int, new: int = 0) -> _Left:
+        return _Left(self.wheels - wheels, self.new - new)
+
+    @property
+    def is_possible(self) -> bool:
+        return self.wheels >= 0 and self.new >= 0
+
+
+class PathTrees:
+    """Topologies from paths.
+
+    lists   by dial, sorted by its name
+    """
+
+    def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList]) -> None:
+        self.problem, self.lists = problem, lists
+        self.names = (problem.input.name, *(arbor.name for arbor in problem.arbors))
+        self._new = _ENDLESS if problem.additions.arbors is None else problem.additions.arbors
+
+    def topologies(self, choice: Mapping[str, int], added: int) -> Iterator[Topology]:
+        """All with just so many added wheels and these rows of the lists."""
+        roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
+        if roots:
+            wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
+            yield from (Topology(root, wanted) for root in roots)
+
+    def roots(self, paths: Paths, added: int) -> list[Branching]:
+        """The input arbor of each tree that has these paths and just so many added wheels."""
+        return [root for root, left in self._branching(0, paths, _Left(added, self._new)) if not left.wheels]
+
+    def _path(self, dial: str, row: int) -> DialPath:
+        paths = self.lists[dial]
+        codes = paths.codes[row].tolist()
+        passes = {at: paths.passes[at][code - 1] for at, code in enumerate(codes) if code}
+        figures = (paths.arbors, paths.compounds, paths.idlers, paths.wheels)
+        arbors, compounds, idlers, wheels = (int(each[row]) for each in figures)
+        return DialPath(arbors, passes, compounds, idlers, wheels, bool(paths.ends_new[row]))
+
+    # what hangs from a driving wheel
+
+    def _forest(self, paths: Paths, left: _Left, least: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+        """Chains that share out some dials; those that have an arbor in common stay together."""
+        for blocks in partitions(tuple(paths), _own_arbors(paths)):
+            if len(blocks) >= least:
+                yield from self._chains([_some(paths, block) for block in blocks], left)
+
+    def _chains(self, blocks: Sequence[Paths], left: _Left) -> Iterator[tuple[tuple[Chain, ...], _Left]]:
+        """Chains to the dials of each block; what the later ones need at least is kept for them."""
+        if not blocks:
+            yield (), left
+            return
+        kept = sum(map(_need, blocks[1:]))
+        for chain, after in self._chain(blocks[0], left.without(kept)):
+            for others, end in self._chains(blocks[1:], after.without(-kept)):
+                yield (chain, *others), end
+
+    def _chain(self, paths: Paths, left: _Left) -> Iterator[tuple[Chain, _Left]]:
+        if _need(paths) > left.wheels:
+            return
+        if len(paths) == 1:
+            ((dial, path),) = paths.items()
+            yield from self._leg(dial, path, left)
+            return
+        found = self._common(paths)
+        if found is None:
+            return
+        through, end = found
+        added = sum(paths_first(paths).passes[at].added for at in through)
+        for compounds, idlers in product(
+            range(min(path.compounds for path in paths.values()) + 1),
+            range(min(path.idlers for path in paths.values()) + 1),
+        ):
+            after = left.without(added + 2 * compounds + idlers, compounds + idlers)
+            if not after.is_possible:
+                continue
+            below = _below(paths, through, compounds, idlers)
+            if end is not None:
+                yield from self._ended(
+                    tuple(paths), paths, through, compounds, idlers, self._branching(end, below, after)
+                )
+                continue
+            if through or compounds or idlers:
+                forests = self._forest(below, after, 2)
+                yield from self._ended(tuple(paths), paths, through, compounds, idlers, forests)
+            yield from self._ended(tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after))
+        if end is None:
+            yield from self._parted_by_added(paths, through, left)
+
+    def _parted_by_added(self, paths: Paths, through: tuple[int, ...], left: _Left) -> Iterator[tuple[Chain, _Left]]:
+        """Chains that end at a surviving arbor which all leave by added wheels, by several ones."""
+        for end in through:
+            if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
+                continue
+            others = tuple(at for at in through if at != end)
+            added = sum(paths_first(paths).passes[at].added for at in others)
+            for compounds, idlers in product(
+                range(min(path.compounds for path in paths.values()) + 1),
+                range(min(path.idlers for path in paths.values()) + 1),
+            ):
+                after = left.without(added + 2 * compounds + idlers, compounds + idlers)
+                if after.is_possible:
+                    branchings = self._branching(end, _below(paths, others, compounds, idlers), after)
+                    yield from self._ended(tuple(paths), paths, others, compounds, idlers, branchings)
+
+    def _ended(
+        self,
+        dials: Dials,
+        paths: Paths,
+        through: tuple[int, ...],
+        compounds: int,
+        idlers: int,
+        ends: Iterator[tuple[Branching, _Left]] | Iterator[tuple[tuple[Chain, ...], _Left]],
+    ) -> Iterator[tuple[Chain, _Left]]:
+        passes = paths_first(paths).passes
+        named = tuple((self.names[at], passes[at]) for at in through)
+        for end, after in ends:
+            yield Chain(dials, named, compounds, idlers, end), after
+
+    def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
+        """Surviving arbors that all paths pass in the same way, and the one where they part; None if that cannot be."""
+        through, ends = [], []
+        for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):
+            passes = {path.passes[at] for path in paths.values()}
+            if len(passes) > 1 or next(iter(passes)).driver is None:
+                ends.append(at)
+            else:
+                through.append(at)
+        return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
+
+    def _leg(self, dial: str, path: DialPath, left: _Left) -> Iterator[tuple[Chain, _Left]]:
+        """The only chain that leads to one dial alone."""
+        after = left.without(path.wheels, path.new)
+        if not after.is_possible:
+            return
+        through, end = [], Branching(None, ADDED, (dial,))
+        for at in _arbors(path.arbors):
+            each = path.passes[at]
+            if each.driver is None:
+                end = Branching(self.names[at], each.driven, (dial,))
+            else:
+                through.append((self.names[at], each))
+        if path.ends_new or end.name is not None:
+            yield Chain((dial,), tuple(through), path.compounds, path.idlers, end), after
+
+    # arbors at which paths end or part
+
+    def _branching(self, at: int, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
+        """A surviving arbor that shows some of the dials, or leads to them by several wheels; or the input arbor."""
+        first = paths_first(paths).passes[at]
+        ways = {dial: (way_on(path.passes[at]),) for dial, path in paths.items()}
+        paid = int(first.driven == ADDED)
+        bit = 1 << (at - 1) if at else 0
+        below = {
+            dial: path._replace(arbors=path.arbors & ~bit, wheels=path.wheels - path.passes[at].added)
+            for dial, path in paths.items()
+        }
+        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(below)):
+            if at and not here and len(blocks) < 2:
+                continue
+            if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):
+                drivers = [None if way == IDLER else paths[dials[0]].passes[at].driver for way, dials in blocks]
+                yield from self._hung(self.names[at], first.driven, here, blocks, drivers, below, left.without(paid))
+
+    def _new_branching(self, paths: Paths, left: _Left) -> Iterator[tuple[Branching, _Left]]:
+        """An added arbor that shows some of the dials, or leads to them by several wheels."""
+        ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
+        after = left.without(1, 1)
+        if not after.is_possible or not all(ways.values()):
+            return
+        for here, blocks in shared_out(tuple(paths), ways, _own_arbors(paths)):
+            if not here and len(blocks) < 2:
+                continue
+            below = dict(paths)
+            for way, dials in blocks:
+                for dial in dials:
+                    path = paths[dial]
+                    below[dial] = (
+                        path._replace(idlers=path.idlers - 1, wheels=path.wheels - 1)
+                        if way == IDLER
+                        else path._replace(compounds=path.compounds - 1, wheels=path.wheels - 2)
+                    )
+            drivers = [None if way == IDLER else ADDED for way, _ in blocks]
+            yield from self._hung(None, ADDED, here, blocks, drivers, below, after)
+
+    def _hung(
+        self,
+        name: str | None,
+        driven: PlacedWheel | None,
+        here: Dials,
+        blocks: Sequence[Block],
+        drivers: Sequence[PlacedWheel | None],
+        paths: Paths,
+        left: _Left,
+    ) -> Iterator[tuple[Branching, _Left]]:
+        """An arbor with what hangs from each of its wheels."""
+        if not _are_parted([dials for _, dials in blocks], paths):
+            return
+        after = left.without(sum(way == BESIDE for way, _ in blocks))
+        for drives, end in self._drives([_some(paths, dials) for _, dials in blocks], drivers, after):
+            driving = tuple((wheel, chains) for wheel, chains in drives if wheel is not None)
+            passes = tuple(chain for wheel, chains in drives if wheel is None for chain in chains)
+            yield Branching(name, driven, here, driving, passes), end
+
+    def _drives(
+        self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Left
+    ) -> Iterator[tuple[tuple[_Drive, ...], _Left]]:
+        if not blocks:
+            yield (), left
+            return
+        kept = sum(map(_need, blocks[1:]))
+        if kept + _need(blocks[0]) > left.wheels:
+            return
+        for chains, after in self._forest(blocks[0], left.without(kept)):
+            for drives, end in self._drives(blocks[1:], drivers[1:], after.without(-kept)):
+                yield ((drivers[0], chains), *drives), end
+
+
+def paths_first(paths: Paths) -> DialPath:
+    """Any of some paths, for what all of them have."""
+    return next(iter(paths.values()))
+
+
+def _some(paths: Paths, dials: Dials) -> Paths:
+    return {dial: paths[dial] for dial in dials}
+
+
+def _own_arbors(paths: Paths) -> dict[str, int]:
+    return {dial: path.arbors for dial, path in paths.items()}
+
+
+def _need(paths: Paths) -> int:
+    """Added wheels that are needed at least."""
+    return max(path.wheels for path in paths.values())
+
+
+def _are_parted(blocks: Sequence[Dials], paths: Paths) -> bool:
+    """Whether dials of different blocks have no surviving arbor in common."""
+    masks = [reduce(lambda bits, dial: bits | paths[dial].arbors, block, 0) for block in blocks]
+    return not any(one & other for one, other in combinations(masks, 2))
+
+
+def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) -> Paths:
+    """What is left of paths after a chain."""
+    bits = sum(1 << (at - 1) for at in through)
+    added = sum(paths_first(paths).passes[at].added for at in through) + 2 * compounds + idlers
+    return {
+        dial: path._replace(
+            arbors=path.arbors & ~bits,
+            compounds=path.compounds - compounds,
+            idlers=path.idlers - idlers,
+            wheels=path.wheels - added,
+        )
+        for dial, path in paths.items()
+    }
+
+
+def _ways_from_added(path: DialPath) -> Iterator[str]:
+    if path.is_at_end and path.ends_new:
+        yield HERE
+    if path.compounds:
+        yield BESIDE
+    if path.idlers:
+        yield IDLER
+
+
+def _arbors(bits: int) -> Iterator[int]:
+    """Numbers of surviving arbors, a bit each."""
+    at = 1
+    while bits:
+        if bits & 1:
+            yield at
+        bits >>= 1
+        at += 1

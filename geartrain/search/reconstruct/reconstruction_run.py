@@ -1,0 +1,128 @@
+"""How `geartrain reconstruct` runs its search: progress, journals, interruptions; and its page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from geartrain.cli.common import Sink, tell
+from geartrain.cli.long_runs import RunOptions, close_journal, long_run, progress
+from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.work import Execution, Journal
+from geartrain.search.reconstruct.expected_cost import count_choices, done_shares, rough
+from geartrain.search.reconstruct.reconstruction import ReconstructionRun
+from geartrain.search.reconstruct.reconstruction_problem import AskedQuestion, question_digest
+
+if TYPE_CHECKING:
+    from geartrain.search.reconstruct.dropped_facts import ChangedCount, ChangedQuestion
+    from geartrain.search.reconstruct.expected_cost import ExpectedCost
+    from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
+    from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+
+_LARGE = 15  # decimal logarithm of choices of counts above which their number is printed first
+_STEPS = 1000
+"""Of a progress bar."""
+_PATIENCE = 2.0  # seconds before a progress bar is shown
+
+
+class CommandRun(ReconstructionRun):
+    """A run with progress bars on standard error and journals in a folder, whose parts Ctrl-C stops one by one."""
+
+    def __init__(self, folder: Path | None, options: RunOptions) -> None:
+        self._folder, self._options = folder, options
+        self._journal: Journal | None = None
+        self._is_taken_up_with_another = False
+
+    def begin(self, problem: ReconstructionProblem) -> None:
+        """Print what is asked."""
+        tell(f"asked: {AskedQuestion.of(problem)}")
+        if (size := count_choices(problem)) >= _LARGE:
+            tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
+
+    def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
+        """Print what it will cost."""
+        tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
+        if seconds := rough(cost.whole):
+            workers = self._options.workers
+            shared = f", shared by {workers}" if workers not in (None, 1) else ""
+            timed = f"one part in {cost.parts} of the search was timed"
+            tell(f"expected: about {_lasting(seconds)} in one process{shared}; {timed}")
+
+    @contextmanager
+    def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> Iterator[Execution]:
+        """With a journal that is kept until all is searched."""
+        asked = {"question": question_digest(problem)}  # how much is listed, and per what, changes no task
+        with long_run("reconstruct", asked, self._folder, self._options) as given:
+            self._journal = given.journal
+            yield _weighted(given, problem, cost)
+
+    @contextmanager
+    def assume(
+        self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
+    ) -> Iterator[Execution]:
+        """If it is stopped, what was counted is reported, and the rest can be taken up."""
+        asked = {"question": question_digest(problem), "without": [each.change for each in changed]}
+        with long_run("reconstruct_assumptions", asked, self._folder, self._options) as given:
+            try:
+                yield given
+            except KeyboardInterrupt:
+                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is left out")
+            cut = len(counted) < len(changed)
+            self._is_taken_up_with_another = cut and given.journal is not None and bool(len(given.journal))
+            close_journal(given.journal, cut)
+
+    def searched(self, complete: bool) -> None:
+        """The journal of the search goes, unless it is taken up with that of the assumptions."""
+        if not self._is_taken_up_with_another:
+            close_journal(self._journal, not complete)
+
+    @contextmanager
+    def part(self, what: str) -> Iterator[Execution]:
+        """With a progress bar; if it is stopped, the answer is given without it."""
+        try:
+            with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
+                yield Execution(executor, tell=bar.reach)
+        except KeyboardInterrupt:
+            tell(f"stopped: {what} is left out")
+
+
+def _weighted(execution: Execution, problem: ReconstructionProblem, expected: ExpectedCost) -> Execution:
+    """The same, whose progress is the share of the time that all is expected to take."""
+    shares, said = done_shares(problem, expected), execution.tell
+
+    def reach(done: int, _: int) -> None:
+        if said is not None:
+            said(round(_STEPS * shares[done]), _STEPS)
+
+    return replace(execution, tell=reach)
+
+
+def _lasting(seconds: float) -> str:
+    """A rough time in the unit that fits."""
+    for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} seconds"
+
+
+def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
+    """The page, on which the first so many candidates turn."""
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.report.html_page import to_html
+    from geartrain.scene import build_scene
+    from geartrain.search.reconstruct.candidate_train import candidate_train
+    from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
+    from geartrain.viewer import page
+
+    assert found.evidence is not None
+    with progress("scenes", min(turning, len(found.candidates)), patience=_PATIENCE) as bar:
+        scenes = []
+        for rank, candidate in enumerate(found.candidates[:turning], 1):
+            scenes.append(build_scene(GearTrain(candidate_train(found.evidence, candidate.arbor, f"rank {rank}"))))
+            bar.advance()
+    viewer = page(scenes) if scenes else ""
+    data = to_html([describe_reconstruction(found, viewer, len(scenes))]).encode("utf-8")
+    to.write(data, f": {plural(len(scenes), 'train')} turning, {len(data) / 1000:,.0f} kB")

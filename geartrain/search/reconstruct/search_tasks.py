@@ -1,0 +1,305 @@
+"""Independent tasks of the search: topologies are enumerated, and the trains of each are counted."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from random import Random
+from typing import Any, NamedTuple
+
+from geartrain.numerics.work import Execution
+from geartrain.search.reconstruct.added_counts import AddedCounts, AddedCountSums, AddedKind, OpenCounts
+from geartrain.search.reconstruct.arbor_orders import (
+    AddedPlace,
+    ChainStep,
+    CountTokens,
+    MeshFacts,
+    NamedMesh,
+    arranged,
+    in_order,
+    rings_limit,
+    topology_orders,
+)
+from geartrain.search.reconstruct.candidate_names import (
+    NamedArbor,
+    NamedWheel,
+    TopologyArbor,
+    TopologyWheel,
+    name_topology,
+    name_train,
+)
+from geartrain.search.reconstruct.path_choice import PathChoice
+from geartrain.search.reconstruct.path_lists import PathList
+from geartrain.search.reconstruct.path_trees import PathTrees
+from geartrain.search.reconstruct.quotient_keys import QuotientKeys
+from geartrain.search.reconstruct.reconstruction_problem import (
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    question_digest,
+)
+from geartrain.search.reconstruct.train_topology import Topology, plain_topology, topology_of
+from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives, draw_index
+
+# All trains of a topology as orders times choices of counts: what holds in how many of them, and trains drawn.
+# Orders and counts are independent but where rings limit counts in some orders. Then orders are parted by the
+# limits, and are independent of the counts in each part.
+
+
+class OrderPart(NamedTuple):
+    """Orders of one topology in all of which the added counts have the same choices.
+
+    A train is one of the orders and one of the choices. The orders tell `NamedMesh` and `AddedPlace`.
+    """
+
+    open: OpenCounts
+    choices: int
+    orders: WeightedAlternatives[Hashable]
+
+
+class TopologyTrains:
+    """Sums over the trains of a question's topologies, and draws from them.
+
+    Parameters
+    ----------
+    problem : ReconstructionProblem
+    dials : sequence of str
+        In the order of the evidence.
+    """
+
+    def __init__(self, problem: ReconstructionProblem, dials: Sequence[str]) -> None:
+        limits, arbors = problem.additions, (problem.input, *problem.arbors)
+        self.counts = AddedCountSums(AddedCounts(limits.least, limits.greatest))
+        self._facts, self._greatest = MeshFacts.of(problem), limits.greatest
+        links, wheels = {arbor.name for arbor in arbors}, {wheel.name for arbor in arbors for wheel in arbor.wheels}
+        self._names = tuple(dials), links, wheels
+
+    def count(self, topology: Topology) -> int:
+        """How many trains it is."""
+        if not self._facts.are_any:
+            return topology.orders * self.counts.total(OpenCounts(topology.added, topology.wanted))
+        return sum(part.choices * part.orders.total for part in self.parts(topology))
+
+    def parts(self, topology: Topology) -> list[OrderPart]:
+        """All trains of a topology, every one in one part."""
+        if not rings_limit(topology, self._facts.rings, self._greatest):
+            orders = topology_orders(name_topology(topology, *self._names), self._facts)
+            return [self._part(OpenCounts(topology.added, topology.wanted), orders)]
+        tokens = CountTokens(topology.added)
+        by_limits: dict[OpenCounts, list[Arbor]] = defaultdict(list)
+        for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
+            limits = tokens.limits(arbor, self._facts.rings, self._greatest)
+            by_limits[OpenCounts(topology.added, topology.wanted, limits)].append(arbor)
+        return [self._part(asked, self._listed(tokens, arbors)) for asked, arbors in by_limits.items()]
+
+    def _part(self, asked: OpenCounts, orders: WeightedAlternatives[Hashable]) -> OrderPart:
+        return OrderPart(asked, self.counts.total(asked), orders)
+
+    def _listed(self, tokens: CountTokens, arbors: list[Arbor]) -> WeightedAlternatives[Hashable]:
+        """Orders one by one, as trains with tokens for counts."""
+
+        def each(_: Hashable) -> Iterator[Alternative[Hashable]]:
+            for arbor in arbors:
+                named = name_train(arbor, *self._names)
+                yield Alternative(1, (*_meshes(named), *self._places(tokens, arbor, named), arbor))
+
+        return WeightedAlternatives((), each)
+
+    def _places(self, tokens: CountTokens, arbor: Arbor, named: NamedArbor) -> Iterator[AddedPlace]:
+        kinds = self._kinds(tokens, arbor)
+        for wheel in (wheel for each in named.arbors() for wheel in each.wheels() if wheel.added):
+            yield AddedPlace(wheel.name, kinds(wheel.teeth))
+
+    def _kinds(self, tokens: CountTokens, arbor: Arbor) -> Callable[[int], AddedKind]:
+        most = tokens.most(arbor, self._facts.rings, self._greatest)
+        return lambda token: AddedKind(*tokens.owner(token), most.get(token))
+
+    def draw(self, topology: Topology, chance: Random) -> Arbor:
+        """One of the trains of a topology, each with the same chance."""
+        parts = self.parts(topology)
+        part = parts[draw_index([part.choices * part.orders.total for part in parts], chance)]
+        told, tokens = part.orders.draw(chance), CountTokens(topology.added)
+        arbor = next((one for one in told if isinstance(one, Arbor)), None)
+        if arbor is None:
+            steps = sorted((one for one in told if isinstance(one, ChainStep)), key=lambda one: one.place)
+            orders: dict[int, list[int]] = {id(chain): [] for chain in topology.chains}
+            for step in steps:
+                orders[id(step.chain.chain)].append(step.which)
+            arbor = in_order(topology, orders, tokens.counts, tokens.idle)
+        kinds, asked, counts = self._kinds(tokens, arbor), part.open, dict[int, int]()
+        for token in _tokens(arbor):
+            counts[token], asked = self.counts.draw(asked, kinds(token), chance)
+        return _with_counts(arbor, counts)
+
+
+def _meshes(named: NamedArbor) -> Iterator[NamedMesh]:
+    for driving, wheel, driven in named.meshes():
+        assert driven.driven is not None
+        yield NamedMesh(_arbor(driving, None), _wheel(wheel), _arbor(driven, _wheel(driven.driven)))
+
+
+def _arbor(named: NamedArbor, driven: TopologyWheel | None) -> TopologyArbor:
+    return TopologyArbor(named.name, named.added, driven, None)
+
+
+def _wheel(named: NamedWheel) -> TopologyWheel:
+    return TopologyWheel(named.name, PlacedWheel(None if named.added else named.name, named.teeth), None)
+
+
+def _tokens(arbor: Arbor) -> Iterator[int]:
+    own = [wheel for wheel, _ in arbor.drives] + ([] if arbor.driven is None else [arbor.driven])
+    yield from (wheel.teeth for wheel in own if wheel.name is None)
+    for _, child in arbor.driven_arbors():
+        yield from _tokens(child)
+
+
+def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
+    """A train with counts for its tokens."""
+
+    def counted(wheel: PlacedWheel) -> PlacedWheel:
+        return wheel if wheel.name is not None else PlacedWheel(None, counts[wheel.teeth])
+
+    drives = ((counted(wheel), tuple(_with_counts(one, counts) for one in below)) for wheel, below in arbor.drives)
+    passes = tuple(_with_counts(one, counts) for one in arbor.passes)
+    driven = None if arbor.driven is None else counted(arbor.driven)
+    return Arbor(arbor.name, driven, arbor.dials, tuple(drives), passes)
+
+
+# Every topology that may explain the dials, with its number of choices of added counts. Paths are chosen for all
+# dials, and put together to trees.
+
+
+class TopologySearch:
+    """All topologies of a question with a given number of added wheels.
+
+    Parameters
+    ----------
+    counts : AddedCountSums
+        By which choices of counts are counted.
+    """
+
+    def __init__(self, problem: ReconstructionProblem, counts: AddedCountSums) -> None:
+        self.problem, self._counts = problem, counts
+        self._keys = QuotientKeys(problem.additions.least, problem.additions.greatest)
+
+    @cached_property
+    def paths(self) -> dict[str, PathList]:
+        """By dial, the list of its paths."""
+        dials = sorted(self.problem.dials, key=lambda dial: dial.name)
+        return {dial.name: PathList(dial, self.problem, self._keys) for dial in dials}
+
+    @cached_property
+    def _by_paths(self) -> tuple[PathChoice, PathTrees]:
+        return PathChoice(self.problem, self.paths, self._keys), PathTrees(self.problem, self.paths)
+
+    def topologies(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Topology, int]]:
+        """All topologies with just so many added wheels that have choices, and how many; of several parts one."""
+        choice, trees = self._by_paths
+        for chosen in choice.choices(added, part, parts):
+            for topology in trees.topologies(chosen, added):
+                choices = self._counts.total(OpenCounts(topology.added, topology.wanted))
+                if choices:
+                    yield topology, choices
+
+
+# The search of topologies in independent parts: each finds and counts some of them, in whichever process.
+
+
+QUICK = 2
+"""Added wheels up to which a search is not worth parting."""
+_PARTS = 24
+
+
+@dataclass(frozen=True)
+class CountedTopology:
+    """A topology with its number of choices of the added wheels' counts, and how many trains it is; neither is 0."""
+
+    topology: Topology
+    choices: int
+    mechanisms: int
+
+
+class TopologyTask(NamedTuple):
+    """A part of the search with a given number of added wheels."""
+
+    problem: ReconstructionProblem
+    added: int
+    part: int
+    parts: int
+
+
+class CountedPart(NamedTuple):
+    """What a part of the search found.
+
+    last        whether it is the last with so many added wheels
+    topologies   each with its trains
+    """
+
+    added: int
+    last: bool
+    topologies: list[CountedTopology]
+
+
+def topology_tasks(problem: ReconstructionProblem) -> list[TopologyTask]:
+    """All parts, those with few added wheels first."""
+    return [
+        TopologyTask(problem, added, part, parts)
+        for added in range(problem.additions.wheels + 1)
+        for parts in [1 if added <= QUICK else _PARTS]
+        for part in range(parts)
+    ]
+
+
+def count_topologies(problem: ReconstructionProblem, execution: Execution | None = None) -> Iterator[CountedPart]:
+    """What each part of the search finds."""
+    tasks = topology_tasks(problem)
+    answers = (execution or Execution()).run(_counted, tasks)
+    for task, answer in zip(tasks, answers, strict=True):
+        found = [CountedTopology(topology_of(plain), own, trains) for plain, own, trains in answer]
+        yield CountedPart(task.added, task.part + 1 == task.parts, found)
+
+
+def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
+    """By dial, how many paths to it are possible."""
+    search, _ = _search(question_digest(problem), problem)
+    return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
+
+
+def timed_part(task: TopologyTask, clock: Callable[[], float]) -> float:
+    """How long a part of the search takes (s)."""
+    start = clock()
+    _counted(task)
+    return clock() - start
+
+
+def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
+    """Topologies as plain data, each with its choices and trains."""
+    search, trains = _search(question_digest(task.problem), task.problem)
+    topologies = search.topologies(task.added, task.part, task.parts)
+    return [(plain_topology(each), choices, number) for each, choices in topologies if (number := trains.count(each))]
+
+
+class _Known:
+    """A question that is told from others by its digest alone, for it need not be hashable."""
+
+    def __init__(self, digest: str, problem: ReconstructionProblem) -> None:
+        self.digest, self.problem = digest, problem
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Known) and other.digest == self.digest
+
+
+def _search(digest: str, problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
+    return _made_search(_Known(digest, problem))
+
+
+@lru_cache(maxsize=2)
+def _made_search(known: _Known) -> tuple[TopologySearch, TopologyTrains]:
+    """Lists of paths are made once a process."""
+    trains = TopologyTrains(known.problem, [dial.name for dial in known.problem.dials])
+    return TopologySearch(known.problem, trains.counts), trains

@@ -1,0 +1,346 @@
+"""Topology of a train: a rooted tree of arbors, without counts of added wheels.
+
+The arbors between two branchings, a chain, are in no order. So a topology is an equivalence class of trains up to the
+order of arbors on chains and the counts of added wheels.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import factorial
+from typing import Any, NamedTuple
+
+from geartrain.search.reconstruct.reconstruction_problem import (
+    PlacedWheel,
+    ReconstructionProblem,
+    SurvivingArbor,
+    SurvivingWheel,
+)
+
+# How the path to a dial may lead through a surviving arbor: which of its wheels is driven and which one drives.
+
+
+ADDED = PlacedWheel(None, 0)
+"""An added wheel whose count is still open."""
+
+
+@dataclass(frozen=True)
+class ArborPass:
+    """One way through an arbor.
+
+    driven   the wheel by which the path comes in, None on the input arbor
+    driver   the wheel by which it goes on, the driven one itself where that is an idler; None where the path ends
+    idle     number of surviving wheels that it passes by
+    """
+
+    driven: PlacedWheel | None
+    driver: PlacedWheel | None
+    idle: int
+    idler: bool = False
+
+    @property
+    def added_drivers(self) -> int:
+        """Whether the wheel that drives is an added one: 0 or 1; an idler has no part in the speed."""
+        return int(self.driver == ADDED and not self.idler)
+
+    @property
+    def added_driven(self) -> int:
+        """Whether the wheel that is driven is an added one that has a part in the speed: 0 or 1."""
+        return int(self.driven == ADDED and not self.idler)
+
+    def meshes_with(self, rings: frozenset[str]) -> int:
+        """Number of its meshes in which one of some wheels is; an idler is in two."""
+        return sum(wheel is not None and wheel.name in rings for wheel in (self.driven, self.driver))
+
+    @property
+    def added(self) -> int:
+        """Number of added wheels."""
+        return (self.driven == ADDED) + self.added_drivers
+
+
+def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Iterator[ArborPass]:
+    """All ways through a surviving arbor, and those that end at it.
+
+    An added wheel beside surviving ones only drives; where no wheel survives, one is added that is driven.
+    """
+    beside = problem.additions.on == "any" and problem.additions.wheels > 0
+    is_input = arbor is problem.input
+    for driven in _driven_wheels(arbor, problem, beside):
+        others = [wheel for wheel in arbor.wheels if driven is None or wheel.name != driven.name]
+        drivers = [reading for wheel in others for reading in readings(wheel)]
+        for driver in drivers:
+            yield ArborPass(driven, driver, len(others) - 1)
+        if beside:
+            yield ArborPass(driven, ADDED, len(others))
+        if problem.idlers and not is_input:
+            yield ArborPass(driven, driven, len(others), idler=True)
+        yield ArborPass(driven, None, len(others))
+
+
+def _driven_wheels(arbor: SurvivingArbor, problem: ReconstructionProblem, beside: bool) -> Iterator[PlacedWheel | None]:
+    if arbor is problem.input:
+        yield None
+    elif arbor.wheels:
+        for wheel in arbor.wheels:
+            yield from readings(wheel)
+    elif beside:
+        yield ADDED
+
+
+def readings(wheel: SurvivingWheel) -> Iterator[PlacedWheel]:
+    """A surviving wheel with each count that it may have."""
+    for teeth, _ in wheel.counts:
+        yield PlacedWheel(wheel.name, teeth)
+
+
+# A train whose added wheels have no counts yet, and whose arbors stand in any order between two branchings.
+
+
+Dials = tuple[str, ...]
+"""Names of dials, sorted."""
+
+
+@dataclass(frozen=True)
+class Branching:
+    """An arbor at which paths to dials end or part.
+
+    name      of the surviving arbor, None for an added one
+    driven    the wheel that is driven, `ADDED` for one that is added, None on the input arbor
+    here      dials that it shows
+    drives    driving wheels, each with what hangs from it
+    passes    what the driven wheel itself drives
+    """
+
+    name: str | None
+    driven: PlacedWheel | None
+    here: Dials
+    drives: tuple[tuple[PlacedWheel, tuple[Chain, ...]], ...] = ()
+    passes: tuple[Chain, ...] = ()
+
+    @property
+    def chains(self) -> Iterator[Chain]:
+        """All that hangs from it."""
+        for _, chains in self.drives:
+            yield from chains
+        yield from self.passes
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Arbors that lead to some dials without branching, and where they end.
+
+    dials               to which it leads
+    through             surviving arbors by name, with the way through each
+    compounds, idlers   number of added arbors with two wheels, and with one that is driven and drives
+    end                 the arbor at which it ends, or what hangs from the last driving wheel
+    """
+
+    dials: Dials
+    through: tuple[tuple[str, ArborPass], ...]
+    compounds: int
+    idlers: int
+    end: Branching | tuple[Chain, ...]
+
+    @property
+    def arbors(self) -> int:
+        """How many arbors stand in a row."""
+        return len(self.through) + self.compounds + self.idlers
+
+    @property
+    def orders(self) -> int:
+        """How many orders they have; added ones of one kind are told apart by their counts only."""
+        return factorial(self.arbors) // (factorial(self.compounds) * factorial(self.idlers))
+
+    @property
+    def next_chains(self) -> tuple[Chain, ...]:
+        """What follows."""
+        return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
+
+
+@dataclass(frozen=True)
+class Topology:
+    """A whole train without counts of added wheels, and how fast the surviving ones on each path are.
+
+    root     the input arbor
+    wanted   by dial, least and greatest quotient that the added wheels on its path must have
+    """
+
+    root: Branching
+    wanted: tuple[tuple[str, Quotients], ...]
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """All of them, from the input on."""
+        found: list[Chain] = []
+        waiting = list(self.root.chains)[::-1]
+        while waiting:
+            found.append(waiting.pop())
+            waiting += found[-1].next_chains[::-1]
+        return tuple(found)
+
+    @cached_property
+    def branchings(self) -> tuple[Branching, ...]:
+        """All arbors at which paths end or part, from the input on."""
+        return self.root, *(chain.end for chain in self.chains if isinstance(chain.end, Branching))
+
+    @cached_property
+    def orders(self) -> int:
+        """How many orders its arbors have if any of them may stand anywhere on its chain."""
+        found = 1
+        for chain in self.chains:
+            found *= chain.orders
+        return found
+
+    @cached_property
+    def added(self) -> AddedWheels:
+        """Its added wheels."""
+        drivers, driven, idle = Counter[Dials](), Counter[Dials](), 0
+        for chain in self.chains:
+            drivers[chain.dials] += chain.compounds + sum(each.added_drivers for _, each in chain.through)
+            driven[chain.dials] += chain.compounds + sum(each.added_driven for _, each in chain.through)
+            idle += chain.idlers + sum(each.idler and each.driven == ADDED for _, each in chain.through)
+            if isinstance(chain.end, Branching):
+                idle += _count_end(chain.end, chain.dials, drivers, driven)
+        for wheel, chains in self.root.drives:
+            drivers[_led_to(chains)] += wheel == ADDED
+        groups = tuple((dials, drivers[dials], driven[dials]) for dials in sorted({*drivers, *driven}))
+        return AddedWheels(tuple(group for group in groups if group[1] or group[2]), idle)
+
+    @cached_property
+    def used(self) -> tuple[PlacedWheel, ...]:
+        """Surviving wheels that mesh, each with its count."""
+        found = dict.fromkeys(wheel for chain in self.chains for _, each in chain.through for wheel in _both(each))
+        for branching in self.branchings:
+            found.update(dict.fromkeys([branching.driven, *(wheel for wheel, _ in branching.drives)]))
+        return tuple(wheel for wheel in found if wheel is not None and wheel != ADDED)
+
+    @cached_property
+    def added_arbors(self) -> int:
+        """How many arbors are added."""
+        return sum(chain.compounds + chain.idlers for chain in self.chains) + sum(
+            branching.name is None for branching in self.branchings
+        )
+
+
+Quotients = tuple[Fraction, Fraction]
+"""Least and greatest quotient of products of counts, equal where it must be exact."""
+
+
+class CountLimit(NamedTuple):
+    """The most teeth that one added wheel may have.
+
+    dials    whose speed it changes; none for a wheel that changes no speed
+    drives   whether it drives on the way to them
+    """
+
+    dials: Dials
+    drives: bool
+    most: int
+
+
+@dataclass(frozen=True)
+class AddedWheels:
+    """How many wheels are added, by the dials whose speed they change.
+
+    groups   dials, number of wheels that drive on the way to them, and of those that are driven
+    idle     number of wheels that change no speed
+    """
+
+    groups: tuple[tuple[Dials, int, int], ...]
+    idle: int
+
+    def without(self, limit: CountLimit) -> AddedWheels:
+        """All but one of those of a limit."""
+        if not limit.dials:
+            return AddedWheels(self.groups, self.idle - 1)
+        left = [
+            (dials, drivers - limit.drives, driven - (not limit.drives)) if dials == limit.dials else group
+            for group in self.groups
+            for dials, drivers, driven in [group]
+        ]
+        return AddedWheels(tuple(group for group in left if group[1] or group[2]), self.idle)
+
+    @property
+    def number(self) -> int:
+        """All of them."""
+        return self.idle + sum(drivers + driven for _, drivers, driven in self.groups)
+
+
+def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Counter[Dials]) -> int:
+    """Add the added wheels of an arbor at which paths end or part; those that change no speed are returned."""
+    for wheel, chains in end.drives:
+        drivers[_led_to(chains)] += wheel == ADDED
+    if end.driven != ADDED:
+        return 0
+    past = set(_led_to(end.passes))  # what an idler drives does not know its count
+    turned = tuple(dial for dial in dials if dial not in past)
+    driven[turned] += bool(turned)
+    return not turned
+
+
+def _led_to(chains: tuple[Chain, ...]) -> Dials:
+    return tuple(sorted(dial for chain in chains for dial in chain.dials))
+
+
+def _both(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
+    return each.driven, each.driver
+
+
+# as plain data, to cross between processes and to be kept
+
+
+def plain_topology(topology: Topology) -> list[Any]:
+    """A topology as lists, texts and numbers."""
+    wanted = [[dial, str(low), str(high)] for dial, (low, high) in topology.wanted]
+    return [_plain_branching(topology.root), wanted]
+
+
+def topology_of(plain: list[Any]) -> Topology:
+    """The topology again."""
+    root, wanted = plain
+    return Topology(_branching_of(root), tuple((dial, (Fraction(low), Fraction(high))) for dial, low, high in wanted))
+
+
+def _plain_branching(branching: Branching) -> list[Any]:
+    drives = [[_plain_wheel(wheel), [*map(_plain_chain, chains)]] for wheel, chains in branching.drives]
+    return [
+        branching.name,
+        _plain_wheel(branching.driven),
+        [*branching.here],
+        drives,
+        [*map(_plain_chain, branching.passes)],
+    ]
+
+
+def _branching_of(plain: list[Any]) -> Branching:
+    name, driven, here, drives, passes = plain
+    driving = tuple((PlacedWheel(*wheel), tuple(map(_chain_of, chains))) for wheel, chains in drives)
+    return Branching(name, _wheel_of(driven), tuple(here), driving, tuple(map(_chain_of, passes)))
+
+
+def _plain_chain(chain: Chain) -> list[Any]:
+    through = [[name, *map(_plain_wheel, _both(each)), each.idle, each.idler] for name, each in chain.through]
+    end = [_plain_branching(chain.end)] if isinstance(chain.end, Branching) else [None, [*map(_plain_chain, chain.end)]]
+    return [[*chain.dials], through, chain.compounds, chain.idlers, end]
+
+
+def _chain_of(plain: list[Any]) -> Chain:
+    dials, through, compounds, idlers, end = plain
+    passes = tuple(
+        (name, ArborPass(_wheel_of(driven), _wheel_of(driver), idle, idler))
+        for name, driven, driver, idle, idler in through
+    )
+    ends = _branching_of(end[0]) if end[0] is not None else tuple(map(_chain_of, end[1]))
+    return Chain(tuple(dials), passes, compounds, idlers, ends)
+
+
+def _plain_wheel(wheel: PlacedWheel | None) -> list[Any] | None:
+    return None if wheel is None else [wheel.name, wheel.teeth]
+
+
+def _wheel_of(plain: list[Any] | None) -> PlacedWheel | None:
+    return None if plain is None else PlacedWheel(*plain)

@@ -1,0 +1,206 @@
+"""`geartrain reconstruct`: from what survives and what the pointers show to every train that explains it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from geartrain.cli.common import (
+    GOOD,
+    INTERRUPTED,
+    VERDICT,
+    Force,
+    Json,
+    Names,
+    Out,
+    Seed,
+    as_json,
+    check_distinct_outputs,
+    give,
+    sink,
+    tell,
+)
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers
+from geartrain.cli.option_values import MOST_COUNT
+from geartrain.numerics.decimal_text import plural
+
+if TYPE_CHECKING:
+    from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
+
+Evidence = Annotated[
+    str,
+    typer.Argument(
+        help="A YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`); "
+        "with --without a train.",
+        metavar="FILE",
+    ),
+]
+
+
+_EVIDENCE = "evidence.yaml"
+_FAMILY = "family.json"
+MOST_DRAWN = 100_000
+"""Trains that are drawn at most."""
+MOST_TURNING = 200
+
+
+def run(
+    evidence: Evidence,
+    without: Annotated[
+        Names, typer.Option("--without", help="Ask of a train as if this arbor were lost; several may be.")
+    ] = None,
+    source: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            help="With --without: of several parts of the train that with this link at its beginning; default the "
+            "first that has the arbors.",
+        ),
+    ] = None,
+    seen: Annotated[
+        bool,
+        typer.Option(
+            "--seen",
+            help="With --without: the meshes of wheels that survive were seen, and no more arbors are added than are "
+            "lost.",
+        ),
+    ] = False,
+    most: Annotated[
+        int | None,
+        typer.Option("-k", min=0, max=1000, help="The most wheels that may be added; default what the evidence says."),
+    ] = None,
+    count: Annotated[bool, typer.Option("--count", help="Count only, list nothing.")] = False,
+    best: Annotated[int, typer.Option("--best", min=0, max=MOST_COUNT, help="How many trains are listed.")] = 20,
+    every: Annotated[bool, typer.Option("--all", help="List all of them.")] = False,
+    idlers: Annotated[bool, typer.Option("--idlers", help="A driven wheel may drive.")] = False,
+    folder: Annotated[
+        Path | None, typer.Option("--write", help="Write what is listed into this folder, a declaration a file.")
+    ] = None,
+    page: Annotated[
+        Path | None, typer.Option("--page", help="Write a page of HTML with the family tree and the trains turning.")
+    ] = None,
+    turning: Annotated[
+        int, typer.Option("--turning", min=1, max=MOST_TURNING, help="How many trains turn on the page.")
+    ] = 12,
+    per: Annotated[
+        Literal["mechanism", "class"],
+        typer.Option("--per", help="What has a weight of its own: every train, or every class of equal ratios."),
+    ] = "mechanism",
+    sample: Annotated[
+        int,
+        typer.Option("--sample", min=0, max=MOST_DRAWN, help="Draw so many trains, with the chance of their weight."),
+    ] = 0,
+    seed: Seed = 1,
+    assumptions: Annotated[
+        bool, typer.Option("--assumptions", help="Drop each hard fact in turn and count again; asks once for each.")
+    ] = False,
+    rank: Annotated[
+        Names,
+        typer.Option(
+            "--rank", help="Say what this train costs here: a file or a shipped train; several may be.", metavar="TRAIN"
+        ),
+    ] = None,
+    same: Annotated[
+        Names,
+        typer.Option(
+            "--same",
+            help="A wheel or output of a ranked train, and what that is here: E4=e3.",
+            metavar="ITS=OURS",
+        ),
+    ] = None,
+    workers: Workers = None,
+    dask: Dask = None,
+    resume: Resume = False,
+    out: Out = None,
+    json: Json = False,
+    force: Force = False,
+) -> None:
+    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none."""
+    from geartrain.numerics.files import check_folder
+    from geartrain.search.reconstruct.reconstruction import ReconstructionRequest, reconstruct
+    from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
+    from geartrain.search.reconstruct.reconstruction_run import CommandRun, write_page
+    from geartrain.train.declaration_files import read_declaration, read_evidence
+
+    if not without and (seen or source is not None):
+        raise typer.BadParameter("it is said of a train without some arbors", param_hint="--seen" if seen else "--from")
+    if count and folder is not None:
+        raise typer.BadParameter("with --count there is nothing to write", param_hint="--write")
+    if count and page is not None:
+        raise typer.BadParameter("with --count there is nothing to show", param_hint="--page")
+    if same and not rank:
+        raise typer.BadParameter("it names what is in a train that --rank gives", param_hint="--same")
+    to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
+    check_distinct_outputs(to, turning_page)
+    if folder is not None:
+        check_folder(folder, [_file(1)], force)
+    request = ReconstructionRequest(
+        read_declaration(evidence) if without else read_evidence(evidence),
+        lost=tuple(without or ()),
+        source=source,
+        seen=seen,
+        wheels=most,
+        idlers=idlers,
+        best=None if every else best,
+        counts_only=count,
+        per=per,
+        sample=sample,
+        seed=seed,
+        assumptions=assumptions,
+        known=tuple(map(read_declaration, rank or ())),
+        same=dict(map(_name_pair, same or ())),
+    )
+    found = reconstruct(request, CommandRun(folder, RunOptions(workers, dask, resume)))
+    if folder is not None and found.candidates:
+        _write(found, folder, force, with_evidence=bool(without))
+    if page is not None:
+        write_page(turning_page, found, turning)
+    give(to, json, lambda: found, lambda: [describe_reconstruction(found)])
+    if not found.complete:
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(GOOD if found.total else VERDICT)
+
+
+def _name_pair(text: str) -> tuple[str, str]:
+    """`E4=e3`."""
+    own, _, called = map(str.strip, text.partition("="))
+    if not own or not called:
+        raise typer.BadParameter(f"'{text}' is not like E4=e3", param_hint="--same")
+    return own, called
+
+
+def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
+    """Every listed candidate as a declaration of its own, the family tree, and the evidence where it was made."""
+    from geartrain.numerics.files import check_folder, write_folder
+    from geartrain.search.reconstruct.candidate_train import candidate_text
+    from geartrain.train.declaration_files import write_declaration
+
+    evidence = found.evidence
+    assert evidence is not None
+    extra = {_FAMILY: _family_text(found)}
+    if with_evidence:
+        extra[_EVIDENCE] = write_declaration(evidence)
+
+    def files() -> Iterator[tuple[str, bytes]]:
+        for rank, candidate in enumerate(found.candidates, 1):
+            name = f"{evidence.name}-{_file(rank).removesuffix('.yaml')}"
+            yield _file(rank), candidate_text(evidence, candidate.arbor, name).encode("utf-8")
+        yield from ((file, text.encode("utf-8")) for file, text in extra.items())
+
+    check_folder(folder, [*(_file(rank) for rank in range(1, len(found.candidates) + 1)), *extra], force)
+    tell(f"wrote {plural(write_folder(folder, files(), force), 'file')} to {folder}")
+
+
+def _family_text(found: ReconstructionAnswer) -> str:
+    """The family tree as JSON, with what was asked."""
+    from geartrain.search.reconstruct.reconstruction_problem import question_digest
+
+    asked = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
+    return as_json({**asked, "family": found.findings.family}) + "\n"
+
+
+def _file(rank: int) -> str:
+    return f"rank-{rank:04}.yaml"

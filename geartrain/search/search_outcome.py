@@ -1,0 +1,124 @@
+"""What a search for tooth numbers found, and why it found no more."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
+
+
+@dataclass(frozen=True, slots=True)
+class Shortfall(Result):
+    """Where candidates went: the infeasibility certificate of an empty or short list.
+
+    Attributes
+    ----------
+    considered : int
+        Candidates there were before any constraint.
+    removed : mapping of str to int, optional
+        Reason -> candidates it removed; each candidate is charged to the first reason that refuses it.
+    nearest : str
+        The nearest miss in words, with its teeth and its error; empty where something was found.
+    advice : str
+        What to relax, and what that would give; empty where something was found.
+
+    See Also
+    --------
+    geartrain.search.find_stages, geartrain.search.find_sets : whose findings hold one.
+    """
+
+    KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
+
+    considered: int = 0
+    removed: Mapping[str, int] | None = None
+    nearest: str = ""
+    advice: str = ""
+
+    @property
+    def removals(self) -> Mapping[str, int]:
+        """The same; nothing where it was not counted."""
+        return self.removed or {}
+
+
+class CountSizes(ABC):
+    """How large tooth counts are, taken together."""
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def counts(self) -> Collection[int]:
+        """All the counts."""
+
+    @property
+    def total(self) -> int:
+        """Their sum."""
+        return sum(self.counts)
+
+    @property
+    def largest(self) -> int:
+        """The greatest; 0 where there are none."""
+        return max(self.counts, default=0)
+
+    @property
+    def distinct(self) -> int:
+        """How many different ones there are."""
+        return len(set(self.counts))
+
+
+@dataclass(frozen=True, slots=True)
+class GearStages(CountSizes, Result):
+    """Tooth numbers of one ratio: the counts on top over the counts beneath, each an unordered set.
+
+    Attributes
+    ----------
+    top, beneath : tuple of int
+        Counts, ascending, as many as there are stages.
+    ratio : Fraction
+        Product of `top` over product of `beneath`, exact; positive.
+    error : Fraction
+        `ratio` over the wanted magnitude, less 1; exact.
+    pairs : tuple of (int, int)
+        The stages as they are best paired: count on top, count beneath.
+
+    See Also
+    --------
+    find_stages : finds them.
+    """
+
+    KEYS = (
+        Key("teeth", "sides"),
+        "ratio",
+        Key("value", "ratio", as_float),
+        Key("error", to=float),
+        Key("exact_error", "error"),
+        Key("stages", "pairs"),
+        "total",
+        "largest",
+        "distinct",
+    )
+
+    top: tuple[int, ...]
+    beneath: tuple[int, ...]
+    ratio: Fraction
+    error: Fraction
+    pairs: tuple[tuple[int, int], ...]
+
+    @property
+    def teeth(self) -> tuple[int, ...]:
+        """All counts, those on top first."""
+        return self.top + self.beneath
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """All counts."""
+        return self.teeth
+
+    @property
+    def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """The counts on top, and those beneath."""
+        return self.top, self.beneath

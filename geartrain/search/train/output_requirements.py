@@ -1,0 +1,361 @@
+"""What a train asks of its outputs, as exact intervals of their speeds, and how far a speed is off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import chain
+from math import prod
+
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
+from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas
+from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of
+from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.graphs import joined_groups
+from geartrain.numerics.quantity import Figure
+from geartrain.search.constraints.count_conditions import CountConstraint
+from geartrain.search.join.product_lists import Domains
+from geartrain.search.join.wheel_monomials import Function, Interval, IntervalConstraint, is_within
+from geartrain.search.train.train_findings import ReachedSpeed
+from geartrain.train import Output, Published, StateCase, Teeth, Train
+
+_ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedRequirement:
+    """One requirement on the speed of an output.
+
+    label      in words, such as "period 583.92 d" or "expect 2/7"
+    wanted     the speed asked for, in the train's unit; positive where only the magnitude counts
+    signed     False: only the magnitude counts
+    allowed    the speeds that are in order, closed and apart; None: all
+    graded     True if the output's error is counted from it
+    approached True if no tolerance is stated: the nearer the better
+    target     True for what the sky does, False for what is expected or printed
+    """
+
+    label: str
+    wanted: Fraction
+    signed: bool
+    allowed: tuple[Interval, ...] | None
+    graded: bool
+    approached: bool = False
+    target: bool = False
+
+    @classmethod
+    def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
+        """What a target demands, within a share of it or as near as may be."""
+        said = "" if share is None else f" within {decimal(share, 3)}"
+        demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
+        if share is None:
+            return demand.loosened()
+        return replace(demand, allowed=demand.within(share), approached=False)
+
+    def loosened(self) -> SpeedRequirement:
+        """The same, to be come near to: with nothing required of a speed but its sense."""
+        allowed: tuple[Interval, ...] | None = None
+        if self.signed and self.wanted:
+            allowed = ((Fraction(0), None),) if self.wanted > 0 else ((None, Fraction(0)),)
+        return replace(self, allowed=allowed, approached=True)
+
+    def error(self, speed: Fraction) -> Fraction:
+        """Relative error; the speed itself where 0 is wanted."""
+        return Fraction(error_against(speed, self.wanted, self.signed))
+
+    def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
+        """The allowed speeds, for a graded demand no further off than a share of what is wanted."""
+        if share is None or not self.graded:
+            return self.allowed
+        size = abs(self.wanted) or Fraction(1)
+        near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share)
+        return near if self.allowed is None else meet(near, self.allowed)
+
+    def met(self, speed: Fraction) -> bool:
+        """True if a speed is in order."""
+        return self.allowed is None or is_within(speed, self.allowed)
+
+
+def _around(middle: Fraction, half: Fraction) -> Interval:
+    return middle - half, middle + half
+
+
+def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
+    """Speeds of either sense whose magnitude is within a share of the wanted one."""
+    return of_either_sense(wanted * (1 - share), wanted * (1 + share))
+
+
+def of_either_sense(least: Fraction, most: Fraction) -> tuple[Interval, ...]:
+    """Speeds whose magnitude lies between two numbers."""
+    return ((-most, most),) if least <= 0 else ((-most, -least), (least, most))
+
+
+def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
+    """What two unions of intervals have in common."""
+    found = []
+    for a, b in left:
+        for c, d in right:
+            low = a if c is None else c if a is None else max(a, c)
+            high = b if d is None else d if b is None else min(b, d)
+            if low is None or high is None or low <= high:
+                found.append((low, high))
+    return tuple(sorted(set(found), key=lambda interval: (interval[0] is not None, interval[0] or 0)))
+
+
+@dataclass(frozen=True, slots=True)
+class OutputRequirement:
+    """An output with all its requirements.
+
+    name      of the output; "state: output" where several states are asked at once
+    function  its speed, of the free wheels
+    demands   all hold at once; one at least
+    """
+
+    name: str
+    function: Function
+    demands: tuple[SpeedRequirement, ...]
+
+    @property
+    def approached(self) -> bool:
+        """True if a target without a tolerance is to be approached."""
+        return any(demand.approached for demand in self.demands)
+
+    @property
+    def exact(self) -> bool:
+        """True if one exact speed is asked for, so that no solution has an error."""
+        common = self.asked(None)
+        return common is not None and all(low == high for low, high in common.intervals)
+
+    @property
+    def text(self) -> str:
+        """The demands in words."""
+        return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
+
+    def asked(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
+        """The demand on the function, with graded demands no further off than `share`; None if all is allowed."""
+        common: tuple[Interval, ...] = ((None, None),)
+        for demand in self.demands:
+            near = demand.within(share)
+            common = common if near is None else meet(common, near)
+        return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
+
+    def reached(self, speed: Fraction) -> ReachedSpeed:
+        """How the output stands at a speed: by the graded demand it misses by most."""
+        graded = [demand for demand in self.demands if demand.graded] or self.demands
+        worst = max(graded, key=lambda demand: abs(demand.error(speed)))
+        met = all(demand.met(speed) for demand in self.demands)
+        return ReachedSpeed(speed, worst.label, worst.error(speed), met)
+
+
+def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
+    """What must hold for a train to turn: loops that close, links driven in one way.
+
+    Raises `QuestionError` where it does not whatever the counts.
+    """
+    for condition in formulas.conditions:
+        if not condition.wheels:
+            what = f"'{train.name}' does not turn, whatever counts are chosen"
+            raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
+        yield IntervalConstraint(condition.label, condition, ((Fraction(0), Fraction(0)),))
+    for exclusion in formulas.exclusions:
+        yield IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)
+
+
+def find_output_requirements(
+    train: Train, case: StateCase, functions: Mapping[str, Function], tolerance: Fraction | None
+) -> list[OutputRequirement]:
+    """The outputs of a case that have a function and of which something is asked."""
+    moving = [speed for speed in case.inputs.values() if speed]
+    found = []
+    for name, function in functions.items():
+        output = case.outputs[name]
+        demands = tuple(_demands(train, output, moving[0] if len(moving) == 1 else None, tolerance))
+        if demands:
+            found.append(OutputRequirement(name, function, demands))
+    return found
+
+
+def _demands(
+    train: Train, output: Output, drive: Fraction | None, tolerance: Fraction | None
+) -> Iterator[SpeedRequirement]:
+    asked = [target for target in output.targets if target.tolerance is not None]
+    figures = output.expect is not None or output.published is not None
+    if not asked and output.targets and (tolerance is not None or not figures):
+        asked = [output.targets[0]]
+    if output.expect is not None:
+        value = output.expect.value
+        allowed = _around(value.value, _half(value, output.expect.tolerance))
+        yield SpeedRequirement(f"expect {value}", value.value, True, (allowed,), not asked)
+    if output.published is not None:
+        yield from _printed(output.published, drive, not asked)
+    for target in asked:
+        yield SpeedRequirement.of(
+            goal_of(train, target), tolerance if target.tolerance is None else target.tolerance.base
+        )
+
+
+def _half(value: Figure, tolerance: Figure | None) -> Fraction:
+    return abs(tolerance.value) if tolerance is not None else value.half or Fraction(0)
+
+
+def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iterator[SpeedRequirement]:
+    """A figure as printed, as speeds; ratios need the speed of the one input, and hold for none without it."""
+    label = f"published {published.value} {published.as_}"
+    half = _half(published.value, published.tolerance)
+    low, high = published.value.value - half, published.value.value + half
+    if published.as_ == "speed":
+        yield SpeedRequirement(label, published.value.value, True, ((low, high),), graded)
+    elif drive is None:
+        yield SpeedRequirement(label, Fraction(1), True, (), False)
+    elif published.as_ == "output/input":
+        ends = sorted((low * drive, high * drive))
+        yield SpeedRequirement(label, published.value.value * drive, True, ((ends[0], ends[1]),), graded)
+    else:
+        wanted = drive / published.value.value if published.value.value else Fraction(0)
+        allowed = tuple(_inverse(low, high, drive))
+        yield SpeedRequirement(label, wanted, True, allowed, graded and bool(wanted))
+
+
+def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
+    """The speeds for which drive over speed lies between two numbers."""
+    if low > 0 or high < 0:
+        ends = sorted((drive / low, drive / high))
+        yield ends[0], ends[1]
+        return
+    rays = [drive / end for end in (low, high) if end]
+    yield from ((None, ray) if ray < 0 else (ray, None) for ray in sorted(rays))
+
+
+# The free wheels of a train and their requirements, in parts that share neither output nor constraint.
+
+
+_MOST_COUNTS = 10**6
+
+
+@dataclass(frozen=True, slots=True)
+class SearchPart:
+    """Wheels that outputs or constraints join, and their requirements.
+
+    domains      wheel -> its counts, ascending, in the order declared
+    askings      outputs that they move
+    conditions   loops and locks that must close for the train to turn
+    rules        constraints on counts
+    """
+
+    domains: Domains
+    askings: tuple[OutputRequirement, ...]
+    conditions: tuple[IntervalConstraint, ...]
+    rules: tuple[CountConstraint, ...]
+
+    @property
+    def considered(self) -> int:
+        """Assignments there are."""
+        return prod(len(counts) for counts in self.domains.values())
+
+
+@dataclass(frozen=True, slots=True)
+class TrainRequirements:
+    """The requirements of a train in one or several states.
+
+    remarks   outputs that no free wheel moves and that are not as asked, and outputs that nothing determines
+    """
+
+    askings: tuple[OutputRequirement, ...]
+    conditions: tuple[IntervalConstraint, ...]
+    remarks: tuple[str, ...]
+
+
+def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
+    """The counts of each free wheel, ascending, in the order declared; see `search_train` for `free`.
+
+    Raises `QuestionError` where there is none, or where one has no counts to choose from.
+    """
+    if isinstance(free, str) and free not in ("search", "uncertain"):
+        free = [free]
+    if not isinstance(free, str):
+        unknown = [name for name in free if name not in train.wheels]
+        if unknown:
+            fix = suggest(unknown[0], train.wheels)
+            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "it is not declared", fix))
+    found = {}
+    for wheel, (link, declared) in train.wheels.items():
+        teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
+        chosen = wheel in free if not isinstance(free, str) else teeth.search is not None or free == "uncertain"
+        counts = tuple(_counts(train, wheel, link, teeth)) if chosen or teeth.value is None else ()
+        if counts:
+            found[wheel] = counts
+        elif chosen and not isinstance(free, str):
+            why = f"its count is {teeth.value}, with no search, range or choices"
+            fix = "declare it as {search: [15, 80]}"
+            raise QuestionError(
+                Problem(f"wheel '{wheel}' is not free", why, fix, train.place("links", link, "wheels", wheel))
+            )
+    if not found:
+        fix = "write `teeth: {search: [15, 80]}` at the wheels to be found"
+        if free == "search" and any(train.uncertain_wheels()):
+            fix += ", or ask for the uncertain ones"
+        raise QuestionError(Problem(f"'{train.name}' has no wheel to be found", "none has `search`", fix))
+    return found
+
+
+def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
+    """The counts a wheel may have: those of `search`, else what its evidence allows."""
+    counts = teeth.searched or sorted(set(teeth.choices or ()))
+    if not counts and teeth.range is not None:
+        counts = range(teeth.range[0], teeth.range[1] + 1)
+    if len(counts) > _MOST_COUNTS:
+        why = f"{counts[0]} to {counts[-1]} are more than {_MOST_COUNTS} counts"
+        place = train.place("links", link, "wheels", wheel)
+        raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow it", place))
+    return counts
+
+
+def find_requirements(
+    train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
+) -> TrainRequirements:
+    """All requirements on the outputs, in one state or in all of them."""
+    train.check_state(state)
+    states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
+    askings: list[OutputRequirement] = []
+    conditions: dict[IntervalConstraint, None] = {}
+    remarks: list[str] = []
+    for one in states:
+        prefix = f"{one}: " if len(states) > 1 else ""
+        case, formulas = train.case(one), find_formulas(train, one, domains)
+        conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
+        for asking in find_output_requirements(train, case, formulas.outputs, tolerance):
+            asking = OutputRequirement(prefix + asking.name, asking.function, asking.demands)
+            if asking.function.wheels:
+                askings.append(asking)
+            else:
+                remarks.extend(_idle(asking))
+        remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
+    return TrainRequirements(tuple(askings), tuple(conditions), tuple(remarks))
+
+
+def _idle(asking: OutputRequirement) -> Iterator[str]:
+    """A remark on an output that no free wheel moves, if it is not as it should be."""
+    speed = asking.function.value({})
+    if speed is not None:
+        reached = asking.reached(speed)
+        if not reached.met:
+            said = f"its speed is {speed}, {decimal(reached.error, 3)} off ({reached.label})"
+            yield f"no free wheel moves '{asking.name}', which is not as asked: {said}"
+
+
+def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
+    """The wheels parted by what joins them, in the order declared; idle wheels are parts by themselves."""
+    scopes = chain(
+        (asking.function.wheels for asking in demands.askings),
+        (condition.function.wheels for condition in demands.conditions),
+        (rule.wheels for rule in rules),
+    )
+    for wheels in joined_groups(domains, scopes):
+        group = set(wheels)
+        yield SearchPart(
+            {wheel: domains[wheel] for wheel in wheels},
+            tuple(asking for asking in demands.askings if not group.isdisjoint(asking.function.wheels)),
+            tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
+            tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
+        )

@@ -1,0 +1,398 @@
+"""One pass of a search over a part: its requirements as a join, planned, cut into tasks, and run."""
+
+from __future__ import annotations
+
+import pickle
+import random
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import lru_cache, partial
+from math import ceil, prod
+from typing import Any, cast
+
+import numpy as np
+
+from geartrain.numerics.work import Journal, run
+from geartrain.search.constraints.count_conditions import CountConstraint
+from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
+from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
+from geartrain.search.join.product_lists import Domains
+from geartrain.search.join.wheel_monomials import IntervalConstraint, quotients
+from geartrain.search.train.best_assignments import AssignmentOrder, BestAssignments
+from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
+from geartrain.search.train.train_findings import Assignment
+
+# A pass of a search cut into independent tasks: what a worker does with one, and what all of them come to together.
+
+
+Task = dict[str, Any]
+"""What `do_task` takes."""
+
+_SMALL = 3e6
+"""Steps below which a pass is one task: about a second."""
+_MOST_TASKS = 100_000
+_SAMPLED = 16
+"""Tasks of a sample."""
+
+
+def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
+    """A pass cut into tasks, and the part of it they are: less than 1 where all would pass the limit.
+
+    Tasks are runs of the values of the first item, and of the next one below where the first has few. A sample is
+    drawn always alike.
+    """
+    if question.steps <= _SMALL <= limit:
+        return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
+    sampled = question.steps > limit
+    wanted = question.steps * _SAMPLED / limit if sampled else question.steps / _SMALL
+    chain = _chain(question, min(wanted, _MOST_TASKS))
+    number = prod(of for _, of in chain)
+    # twice its share, for tasks are uneven
+    budget = 2 * limit / _SAMPLED if sampled else limit
+    chosen: Sequence[int] = range(number)
+    if sampled and number > _SAMPLED:
+        # always the same sample, so that a question has one answer
+        chosen = sorted(random.Random(0).sample(range(number), _SAMPLED))
+    tasks = [{"parts": _digits(at, chain), "budget": budget, "pieces": 16} for at in chosen]
+    return tasks, len(tasks) / number if sampled else 1.0
+
+
+def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
+    """Items from the root down, each with the number of runs its values are cut into; about `wanted` together."""
+    node: PlanNode | None = question.plan
+    found: list[tuple[int, int]] = []
+    while node is not None and (wanted > 1 or not found):
+        recipe = question.recipes[node.item]
+        runs = int(min(max(ceil(wanted), 1), quotients(recipe.top, recipe.bottom, question.domains)))
+        found.append((node.item, runs))
+        wanted /= runs
+        node = node.children[0] if len(node.children) == 1 and len(found) < 2 else None
+    return found
+
+
+def _digits(number: int, chain: Sequence[tuple[int, int]]) -> list[list[int]]:
+    parts = []
+    for item, of in chain:
+        number, at = divmod(number, of)
+        parts.append([item, at, of])
+    return parts
+
+
+@dataclass(frozen=True, slots=True)
+class PassWork:
+    """What all tasks of one pass share.
+
+    question  to be answered
+    order     of what is listed
+    most      assignments that one task may bring out to list the best of them
+    """
+
+    question: JoinProblem
+    order: AssignmentOrder
+    most: int
+
+    def packed(self) -> bytes:
+        """As a worker takes it."""
+        return pickle.dumps(self)
+
+
+@lru_cache(maxsize=1)
+def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
+    work = pickle.loads(packed)
+    assert isinstance(work, PassWork)
+    return work, ExactJoin(work.question)
+
+
+def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
+    """One piece of a search: a part of the values of some items.
+
+    task   `parts`: [[item, number, of], ...], the part with this number of so many; `budget`: steps it may take;
+           `pieces`: into how many it is cut, so that not all is lost when the budget ends
+    Returns `count`, `removed` (one number for each constraint), `listed` (whether `best` holds the best), `best`
+    (counts in the order of the wheels), `steps`, and `cut` (whether the budget ended it).
+    """
+    work, join = _unpacked(packed)
+    total: dict[str, Any] = {"count": 0, "removed": [0] * len(work.question.reasons), "listed": True, "cut": False}
+    pool, spent = BestAssignments(work.order, work.question.wheels), 0
+    for slices in _slices(join, task["parts"], task["pieces"]):
+        join.cut(slices, task["budget"] - spent)
+        try:
+            found = _do_piece(work, join, pool, total["count"])
+        except BudgetSpentError:
+            total["cut"] = True
+            break
+        finally:
+            spent += join.steps
+        total["count"] += found["count"]
+        total["removed"] = [a + b for a, b in zip(total["removed"], found["removed"], strict=True)]
+        total["listed"] &= found["listed"]
+    return total | {"best": pool.best() if total["listed"] else [], "steps": spent}
+
+
+def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
+    """The runs of values that some parts are, the first of them cut into pieces."""
+    runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
+    item = parts[0][0]
+    first, last = runs[item]
+    step = max(1, -(-(last - first) // pieces))
+    if all(start < end for start, end in runs.values()):
+        for start in range(first, last, step):
+            yield runs | {item: (start, min(start + step, last))}
+
+
+def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: int) -> dict[str, Any]:
+    """Count; then bring out what is to be listed, or what late rules must see."""
+    question = work.question
+    counts, gone = join.count(question.plan, join.start())
+    count = int(counts[0])
+    removed = [int(gone[at][0]) if at in gone else 0 for at in range(len(question.reasons))]
+    listed = before + count <= work.most
+    if question.late or listed:
+        count = 0
+        for rows in join.stream((question.plan,), join.start()):
+            for columns in join.wheels(rows):
+                columns = _late(question, columns, removed)
+                count += len(next(iter(columns.values())))
+                pool.add(columns)
+        listed = True
+    return {"count": count, "removed": removed, "listed": listed}
+
+
+def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int]) -> AssignmentColumns:
+    """The assignments that the late rules let pass."""
+    number = len(question.reasons) - len(question.late)
+    for at, rule in enumerate(question.late, number):
+        met = rule.holds(columns)
+        removed[at] += int((~met).sum())
+        columns = {wheel: column[met] for wheel, column in columns.items()}
+    return columns
+
+
+@dataclass(frozen=True, slots=True)
+class PassTally:
+    """What the tasks of a pass came to.
+
+    count     assignments that meet everything
+    removed   for each constraint, how many it refused
+    best      the best, best first
+    listed    False if there were too many to bring out: `best` is then empty
+    cut       True if a task spent its budget
+    stopped   True if the run was interrupted: the rest is of the tasks that were done
+    """
+
+    count: int
+    removed: tuple[int, ...]
+    best: tuple[Assignment, ...]
+    listed: bool
+    cut: bool
+    stopped: bool
+
+
+def merged(work: PassWork, results: Iterable[Mapping[str, Any]]) -> PassTally:
+    """Add up the results of tasks; an interrupt ends the sum, not the search."""
+    count, listed, cut, stopped = 0, True, False, False
+    removed = [0] * len(work.question.reasons)
+    pool = BestAssignments(work.order, work.question.wheels)
+    try:
+        for result in results:
+            count += result["count"]
+            removed = [a + b for a, b in zip(removed, result["removed"], strict=True)]
+            listed, cut = listed and result["listed"], cut or result["cut"]
+            if result["best"]:
+                pool.add(dict(zip(pool.wheels, np.array(result["best"], dtype=np.int64).T, strict=True)))
+    except KeyboardInterrupt:
+        stopped = True
+    found = (dict(zip(pool.wheels, counts, strict=True)) for counts in (pool.best() if listed else ()))
+    best = tuple(one for teeth in found if (one := work.order.assignment(teeth)) is not None)
+    return PassTally(count, tuple(removed), best, listed, cut, stopped)
+
+
+NOTHING = PassTally(0, (), (), True, False, True)
+"""What a pass comes to that was not begun, because the search was interrupted."""
+
+Tell = Callable[[int, int], None]
+
+
+@dataclass
+class PassRunner:
+    """How the tasks of all passes are run: executor, journal of finished tasks, report of progress.
+
+    Several passes share a journal: each begins where the last one ended.
+    """
+
+    executor: Executor | None = None
+    journal: Journal | None = None
+    tell: Tell | None = None
+    done: int = 0
+    stopped: bool = False
+
+    def run(self, work: PassWork, tasks: Sequence[Task]) -> PassTally:
+        """Do the tasks of a pass. After an interrupt nothing more is done."""
+        if self.stopped:
+            return NOTHING
+        journal = None if self.journal is None else cast(Journal, _Section(self.journal, self.done))
+        before, tell = self.done, self.tell
+        self.done += len(tasks)
+
+        def told(done: int, total: int) -> None:
+            if tell is not None:
+                tell(before + done, before + total)
+
+        tally = merged(work, run(partial(do_task, work.packed()), tasks, self.executor, journal, told))
+        self.stopped = tally.stopped
+        return tally
+
+    def release(self) -> None:
+        """The search is over: further questions are answered in this process, without journal or report."""
+        self.executor = self.journal = self.tell = None
+        self.stopped = False
+
+
+class _Section:
+    """A journal whose tasks are numbered from somewhere on."""
+
+    def __init__(self, journal: Journal, offset: int) -> None:
+        self._journal, self._offset = journal, offset
+
+    @property
+    def closed(self) -> bool:
+        """As of the journal."""
+        return self._journal.closed
+
+    def recall(self, task: int, mark: str = "") -> str | None:
+        """As of the journal."""
+        return self._journal.recall(task + self._offset, mark)
+
+    def keep(self, task: int, mark: str, text: str) -> None:
+        """As of the journal."""
+        self._journal.keep(task + self._offset, mark, text)
+
+
+@dataclass(frozen=True, slots=True)
+class PassResult:
+    """What a pass came to.
+
+    share      the common tolerance it was run with, if any
+    searched   part of the assignments that it looked at; 1 where it is complete
+    tally      counts and the best
+    reasons    what refused assignments, parallel to the tally's numbers
+    order      indices of the reasons in the order in which they are decided
+    steps      about how many it was forecast to take
+    """
+
+    share: Fraction | None
+    searched: float
+    tally: PassTally
+    reasons: tuple[str, ...] = ()
+    order: tuple[int, ...] = ()
+    steps: float = 0.0
+
+    @property
+    def complete(self) -> bool:
+        """True if every assignment was looked at."""
+        return self.searched == 1 and not self.tally.cut and not self.tally.stopped
+
+    @property
+    def removed(self) -> dict[str, int]:
+        """Reason -> assignments it refused, in the order asked; rules of one name together."""
+        found: dict[str, int] = {}
+        for at in self.order:
+            reason = self.reasons[at]
+            found[reason] = found.get(reason, 0) + (self.tally.removed[at] if self.tally.removed else 0)
+        return found
+
+
+NOT_BEGUN = PassResult(None, 0.0, NOTHING)
+"""A pass that an interrupt kept from beginning."""
+
+
+@dataclass
+class PartSearch:
+    """The passes over one part.
+
+    limit     steps that one pass may take
+    """
+
+    part: SearchPart
+    order: AssignmentOrder
+    runner: PassRunner
+    limit: float
+    alone: tuple[tuple[str, int], ...] = field(init=False)
+    domains: Domains = field(init=False)
+    rules: tuple[CountConstraint, ...] = field(init=False)
+    _sample: SelectivitySample | None = field(init=False, default=None)
+
+    def __post_init__(self) -> None:
+        """Rules on one wheel narrow its counts, and are done with."""
+        domains: Domains = self.part.domains
+        alone = []
+        for rule in self.part.rules:
+            if len(rule.wheels) == 1:
+                narrowed = narrow(domains, rule)
+                alone.append((rule.name, size_of(domains) - size_of(narrowed)))
+                domains = narrowed
+        self.alone, self.domains = tuple(alone), domains
+        self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
+
+    @property
+    def sample(self) -> SelectivitySample:
+        """Some assignments."""
+        if self._sample is None:
+            self._sample = SelectivitySample.of(self.domains)
+        return self._sample
+
+    def without(self, *, rule: str = "", asking: OutputRequirement | None = None) -> PartSearch:
+        """The same search without the rules of one name, or one output less."""
+        part = replace(
+            self.part,
+            rules=tuple(one for one in self.part.rules if one.name != rule),
+            askings=tuple(one for one in self.part.askings if one is not asking),
+        )
+        return PartSearch(part, self.order, self.runner, self.limit)
+
+    def asked(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
+        """Every demand of a pass."""
+        found = [asking.asked(share, strict) for asking in self.part.askings]
+        return (*self.part.conditions, *(one for one in found if one is not None))
+
+    def chances(self, asked: Sequence[IntervalConstraint]) -> dict[str, float]:
+        """About which part of the assignments meets each rule and demand."""
+        chances = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
+        return chances | {one.name: self.sample.of_demand(one) for one in asked}
+
+    def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
+        """One pass: all counted, and the best brought out if there are at most `most`.
+
+        share    graded demands are narrowed to this common tolerance
+        strict   leave out what lies on the ends of intervals
+        """
+        if not size_of(self.domains):
+            return PassResult(share, 1.0, PassTally(0, (), (), True, False, False))
+        asked = self.asked(share, strict)
+        question = find_join_problem(self.domains, asked, self.rules, self.chances(asked))
+        tasks, searched = cut(question, self.limit)
+        work = PassWork(question, self.order, int(min(most, 1 << 62)))
+        tally = self.runner.run(work, tasks)
+        return PassResult(share, searched, tally, question.reasons, question.order, question.steps)
+
+
+def size_of(domains: Domains) -> int:
+    """Assignments there are."""
+    total = 1
+    for counts in domains.values():
+        total *= len(counts)
+    return total
+
+
+def narrow(domains: Domains, rule: CountConstraint) -> Domains:
+    """The counts that a rule on one wheel leaves."""
+    import numpy as np
+
+    (wheel,) = rule.wheels
+    counts = domains[wheel]
+    if not counts:
+        return domains
+    met = rule.holds({wheel: np.array(counts, dtype=np.int64)})
+    return {**domains, wheel: tuple(count for count, good in zip(counts, met.tolist(), strict=True) if good)}

@@ -1,0 +1,525 @@
+"""Tooth numbers in a train: every assignment of its free wheels with which all outputs meet their requirements."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from math import ceil, floor, prod, sqrt
+from typing import Any
+
+from geartrain.errors import Problem, QuestionError, suggest
+from geartrain.numerics.bounded_polynomials import WholeTerm
+from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import log10
+from geartrain.numerics.work import Execution, Journal
+from geartrain.search.constraints.assembly_constraints import find_constraints
+from geartrain.search.constraints.constraint_options import ConstraintOptions
+from geartrain.search.constraints.count_conditions import CountConstraint
+from geartrain.search.join.wheel_monomials import Interval
+from geartrain.search.search_outcome import Shortfall
+from geartrain.search.train.best_assignments import AssignmentOrder
+from geartrain.search.train.output_requirements import (
+    OutputRequirement,
+    SearchPart,
+    find_domains,
+    find_parts,
+    find_requirements,
+)
+from geartrain.search.train.search_passes import NOT_BEGUN, PartSearch, PassResult, PassRunner, size_of
+from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
+from geartrain.train import Train
+
+# How far to look: a tolerance that holds the best assignments asked for, and not too many to list.
+
+
+_LISTED = 100_000
+"""Assignments that are brought out to find the best few by error; more are narrowed down first."""
+_TRIES = 40  # passes with one tolerance after the other
+_LEAST = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
+_WIDEST = Fraction(10**6)
+
+
+def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
+    """The pass that counts, the best assignments, and whether they are shown to be the best."""
+    if any(asking.approached for asking in search.part.askings):
+        passed = widened(search)
+        return passed, passed.tally.best, passed.tally.listed and passed.complete
+    by_error = search.order.by == "error" and not search.order.level
+    passed = search.run(None, _most(search) if by_error else search.limit / 8)
+    if passed.tally.listed or not passed.complete:
+        return passed, passed.tally.best, passed.tally.listed and passed.complete
+    top, some = _top(search), ceil(sqrt(search.order.best * _most(search)))
+    guess = top * Fraction(some, passed.tally.count) if _powers(search) == 1 else top / 10
+    narrowed = _fitting(search, guess, top, some)
+    return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete
+
+
+def widened(search: PartSearch) -> PassResult:
+    """A pass with a tolerance that holds as many assignments as are wanted, or all there are."""
+    return _fitting(search, _first(search), None, 3 * search.order.best)
+
+
+def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: int) -> PassResult:
+    """A pass with a tolerance in which enough lie, all of them listed.
+
+    long   a tolerance that holds too many to list; None if none is known
+    some   how many it should hold, about
+    Where no tolerance will do, because too many have one error, the pass lists what it can in its time.
+    """
+    short = Fraction(0)
+    for _ in range(_TRIES):
+        share = _rounded(guess)
+        if share < _LEAST or share > _WIDEST or (long is not None and not short < share < long):
+            break
+        passed = search.run(share, _most(search))
+        enough = passed.tally.count >= search.order.best
+        if not passed.complete or (enough and passed.tally.listed):
+            return passed
+        if enough:
+            long = share
+            guess = long / 8
+        else:
+            short = share
+            guess = share * _growth(search, passed.tally.count, some)
+        if short and long is not None:
+            # between too few and too many, halved in logarithms
+            guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
+    if long is None:
+        return search.run(None, search.limit / 8)
+    return search.run(long if short else Fraction(0), search.limit / 8)
+
+
+def _most(search: PartSearch) -> int:
+    """How many assignments are brought out at most to find the best by error."""
+    return max(_LISTED, 4 * search.order.best)
+
+
+def _powers(search: PartSearch) -> int:
+    """How many outputs have an error to narrow."""
+    return sum(not asking.exact for asking in search.part.askings)
+
+
+def _first(search: PartSearch) -> Fraction:
+    """The tolerance in which about as many lie as are wanted."""
+    trial = Fraction(1, 1000)
+    # hits grow as the tolerance to the power of the outputs that have an error
+    hits = size_of(search.domains) * prod(search.chances(search.asked(trial)).values())
+    # 1e-300: a forecast may be so small that it is 0 in float64
+    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
+    return Fraction(min(max(guess, 1e-12), 1.0))
+
+
+def _growth(search: PartSearch, count: int, some: int) -> Fraction:
+    """By how much to widen when only `count` were found."""
+    # nothing found: as wide a step as is taken
+    missing = some / count if count else 1e9
+    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_powers(search), 1)))))
+
+
+def _rounded(share: Fraction) -> Fraction:
+    """To two digits, so that it can be said in words."""
+    return Fraction(f"{float(share):.1e}")
+
+
+def _top(search: PartSearch) -> Fraction:
+    """No solution has a larger error than this."""
+    largest = Fraction(0)
+    for asking in search.part.askings:
+        asked = asking.asked(None)
+        for interval in asked.intervals if asked else ():
+            for end in interval:
+                errors = [abs(one.error(end)) for one in asking.demands if one.graded and end is not None]
+                largest = max([largest, *errors])
+    return largest or Fraction(1)
+
+
+def relaxed_search(search: PartSearch) -> PartSearch:
+    """The same search with every graded demand approached: what comes nearest."""
+    askings = tuple(
+        replace(asking, demands=tuple(one.loosened() if one.graded else one for one in asking.demands))
+        for asking in search.part.askings
+    )
+    part = replace(search.part, askings=askings)
+    order = replace(search.order, by="error", best=1, askings=askings)
+    return PartSearch(part, order, search.runner, search.limit)
+
+
+# Why a search found little: where the assignments went, what comes nearest, and what to relax.
+
+
+def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
+    """The tallies of a pass; where nothing was found, also the nearest miss and what would help."""
+    found = tallied(search, passed)
+    if passed.tally.count or not passed.complete:
+        return found
+    # an explanation must not cost more than the answer
+    nearest, advice = _explained(PartSearch(search.part, search.order, search.runner, search.limit / 4))
+    return found if search.runner.stopped else replace(found, nearest=nearest, advice=advice)
+
+
+def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
+    """How many assignments each rule and demand refused, in the order in which they were decided."""
+    removed = dict(search.alone)
+    for reason, number in passed.removed.items():
+        removed[reason] = removed.get(reason, 0) + number
+    return Shortfall(search.part.considered, removed)
+
+
+def _explained(search: PartSearch) -> tuple[str, str]:
+    """The nearest miss in words, and what to relax."""
+    wrong = [asking for asking in search.part.askings if _turns_wrong(asking)]
+    if wrong:
+        names = ", ".join(f"'{asking.name}'" for asking in wrong)
+        return f"{names} turn in the other sense, whatever the counts", "change the sign asked for, or add an idler"
+    best = _nearest(search)
+    others = "; ".join(_without(search))
+    if best is None:
+        return "", others or "nothing asked is to blame alone: widen the ranges of the wheels"
+    alone = "; ".join(_alone(search)) if len(search.part.askings) > 1 else ""
+    nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (alone, {alone})" if alone else "")
+    advice = f"with a relative tolerance of {_up(best.error)} this one is in"
+    return nearest, advice + (f"; {others}" if others else "")
+
+
+def _turns_wrong(asking: OutputRequirement) -> bool:
+    """True if a sense is asked for that no counts give."""
+    asked = asking.asked(None)
+    senses = [_sense(terms) for terms in (asking.function.numerator, asking.function.denominator)]
+    if asked is None or not all(senses):
+        return False
+    lasting = senses[0] * senses[1]
+    return bool(asked.intervals) and all(_against(interval, lasting) for interval in asked.intervals)
+
+
+def _against(interval: Interval, sense: int) -> bool:
+    """True if an interval has speeds of the other sense, and none of this one."""
+    low, high = interval
+    # an interval whose end is 0 is met by a standstill, so it is not of the other sense alone
+    near, far = (high, low) if sense > 0 else (low, high)
+    return near is not None and near * sense <= 0 and far != 0
+
+
+def _sense(terms: Sequence[WholeTerm]) -> int:
+    """1 or -1 where all terms have that sign, else 0."""
+    signs = {term[0] > 0 for term in terms}
+    return (1 if signs.pop() else -1) if len(signs) == 1 else 0
+
+
+def _nearest(search: PartSearch) -> Assignment | None:
+    """What comes nearest, with all rules kept; None if the rules leave nothing, or it cannot be found in time."""
+    if not search.part.askings or not size_of(search.domains):
+        return None
+    best = widened(relaxed_search(search)).tally.best
+    return search.order.assignment(best[0].teeth) if best else None
+
+
+def _alone(search: PartSearch) -> Iterator[str]:
+    """How near every output comes when the others are not asked."""
+    for asking in search.part.askings:
+        part = replace(search.part, askings=(asking,))
+        order = replace(search.order, askings=(asking,))
+        best = _nearest(PartSearch(part, order, search.runner, search.limit))
+        if best is not None:
+            yield f"{asking.name} comes to {decimal(best.error, 3)}"
+
+
+def _without(search: PartSearch) -> Iterator[str]:
+    """What there would be without one rule, or one output's demands, where there is more than one thing asked."""
+    names = dict.fromkeys(rule.name for rule in search.part.rules)
+    if len(names) + len(search.part.askings) < 2:
+        return
+    for name in names:
+        passed = search.without(rule=name).run(None, 0)
+        if passed.tally.count:
+            yield f'without the rule "{name}" there {_are(passed)}'
+    for asking in search.part.askings:
+        passed = search.without(asking=asking).run(None, 0)
+        if passed.tally.count:
+            yield f"without what is asked of '{asking.name}' there {_are(passed)}"
+
+
+def _are(passed: PassResult) -> str:
+    count = passed.tally.count
+    least = "" if passed.complete else "at least "
+    return f"is {least}1" if count == 1 else f"are {least}{count}"
+
+
+def _teeth(assignment: Assignment) -> str:
+    return ", ".join(f"{wheel} {count}" for wheel, count in assignment.teeth.items())
+
+
+def _errors(assignment: Assignment) -> str:
+    return ", ".join(
+        f"{name} {'meets' if reached.met else 'misses'} {reached.label} by {decimal(reached.error, 3)}"
+        for name, reached in assignment.outputs.items()
+    )
+
+
+def _up(error: Fraction) -> str:
+    """A size rounded up to two digits."""
+    if not error:
+        return "0"
+    unit = Fraction(10) ** (floor(log10(error)) - 1)
+    return decimal(ceil(error / unit) * unit, 2)
+
+
+LIMIT = 10**9
+"""Steps (partial assignments looked at) that a pass may take by default: a few minutes."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrainSearchRequest:
+    """What is requested of a search for tooth numbers in a train; see `search_train`.
+
+    Attributes
+    ----------
+    train : Train
+    state : str, optional
+    free : str or tuple of str
+    rules : ConstraintOptions
+    tolerance : Fraction, optional
+    best : int
+    by : {"error", "total", "largest", "distinct", "change"}
+    where : tuple of mapping of str to int
+        Assignments whose place among all is requested besides.
+    """
+
+    train: Train
+    state: str | None = None
+    free: str | tuple[str, ...] = "search"
+    rules: ConstraintOptions = field(default_factory=ConstraintOptions)
+    tolerance: Fraction | None = None
+    best: int = 20
+    by: By = "error"
+    where: tuple[Mapping[str, int], ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data: equal for two requests that need the same work."""
+        return {
+            "train": self.train.model_dump(mode="json"),
+            "state": self.state,
+            "free": self.free,
+            "rules": self.rules.to_dict(),
+            "tolerance": str(self.tolerance),
+            "best": self.best,
+            "by": self.by,
+        }
+
+
+def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
+    """Answer a request: the solutions of `search_train`, and where the requested assignments are among them.
+
+    Parameters
+    ----------
+    request : TrainSearchRequest
+    execution : Execution, optional
+        How the tasks are done; default in this process.
+    """
+    run = execution or Execution()
+    found = search_train(
+        request.train,
+        request.state,
+        free=request.free,
+        rules=request.rules,
+        tolerance=request.tolerance,
+        best=request.best,
+        by=request.by,
+        executor=run.executor,
+        journal=run.journal,
+        tell=run.tell,
+    )
+    return replace(found, where=tuple(place for teeth in request.where for place in found.standing(teeth)))
+
+
+def search_train(
+    train: Train,
+    state: str | None = None,
+    *,
+    free: str | Sequence[str] = "search",
+    rules: ConstraintOptions | Sequence[CountConstraint] | None = None,
+    tolerance: Fraction | None = None,
+    best: int = 20,
+    by: By = "error",
+    limit: int = LIMIT,
+    executor: Executor | None = None,
+    journal: Journal | None = None,
+    tell: Callable[[int, int], None] | None = None,
+) -> TrainFindings:
+    """All tooth counts of a train's free wheels that meet every requirement, counted, and the best: an exact join.
+
+    Lists of products of counts are joined along what the outputs share, so that far more assignments are counted than
+    could be listed; integers decide. What is required of an output: its `expect` and `published`, at their digits and
+    in their sense; every target that has a tolerance; with `tolerance`, the first target where none has. An output with
+    targets and none of all these is approached: the best `best` by error are found, proved by widening a common
+    tolerance.
+
+    Parameters
+    ----------
+    train : Train
+        The declaration, such as `geartrain.load(name).declaration`.
+    state : str, optional
+        In which state of a train with states; default in all of them at once.
+    free : str or sequence of str
+        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those and all wheels whose count has a `range`
+        or `choices`. Or wheels by name, which must have one of the three. Wheels without any count are free anyway.
+    rules : ConstraintOptions or sequence of constraints, optional
+        What else must hold of the counts; default what holds without being asked for, `ConstraintOptions()`.
+    tolerance : Fraction, optional
+        Relative, for targets that have none: the first target of an output none of whose targets has one.
+    best : int
+        How many solutions to list.
+    by : {"error", "total", "largest", "distinct", "change"}
+        Their order: largest error of an output, total teeth, largest wheel, distinct counts, or wheels changed from
+        their declared count; ties by error, total, largest, and the counts.
+    limit : int
+        Steps (partial assignments looked at) that a pass may take; beyond them a sample is searched, and `complete` is
+        False.
+    executor : concurrent.futures.Executor, optional
+        Where tasks run; default in this process. The answer does not depend on it.
+    journal : Journal, optional
+        Where finished work is kept, for a run that may be cut.
+    tell : callable, optional
+        Called with (tasks done, tasks in all).
+
+    Returns
+    -------
+    TrainFindings
+        Part by part. Interrupted from the keyboard, it holds what is known, with `complete` False.
+
+    Raises
+    ------
+    QuestionError
+        If no wheel is free, nothing is required of them, or there is no such order or state.
+    RangeError
+        For a range of counts that is too wide to be listed.
+
+    References
+    ----------
+    Counting over a tree of joins is bucket elimination (R. Dechter, Artificial Intelligence 113, 1999).
+
+    Examples
+    --------
+    The lost wheels of the planets' trains (Pennestri, Valentini and Petti 2002, Table 6), within a quarter per cent;
+    of 35,937 assignments for Jupiter 15 will do:
+
+    >>> import geartrain
+    >>> found = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1)
+    >>> jupiter = found.parts[2]
+    >>> jupiter.wheels, jupiter.considered, jupiter.count
+    (('JO1', 'JO2', 'JX'), 35937, 15)
+    >>> dict(jupiter.solutions[0].teeth)
+    {'JO1': 31, 'JO2': 55, 'JX': 31}
+    """
+    if by not in ORDERS:
+        raise QuestionError(Problem(f"there is no order '{by}'", "solutions have others", suggest(by, ORDERS)))
+    domains = find_domains(train, free)
+    demands = find_requirements(train, state, domains, tolerance)
+    if rules is None or isinstance(rules, ConstraintOptions):
+        rules = find_constraints(train, domains, rules or ConstraintOptions())
+    if not demands.askings and not rules:
+        fix = "declare `targets`, or an `expect`, at an output that the wheels move"
+        raise QuestionError(Problem("nothing is asked of the free wheels", "no output depends on them", fix))
+    declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
+    runner = PassRunner(executor, journal, tell)
+    searches = [
+        PartSearch(part, AssignmentOrder(by, max(best, 1), part.askings, declared), runner, float(limit))
+        for part in find_parts(demands, domains, rules)
+    ]
+    parts = tuple(_found(one) for one in searches)
+    runner.release()
+    links = {wheel: train.wheels[wheel][0] for wheel in domains}
+    return TrainFindings(train.name, by, best, parts, links, demands.remarks, (), _Standings(tuple(searches)).find)
+
+
+def _found(search: PartSearch) -> PartFindings:
+    """All that is said of a part."""
+    try:
+        passed, solutions, ranked = solve(search)
+    except KeyboardInterrupt:
+        search.runner.stopped = True
+        passed, solutions, ranked = NOT_BEGUN, (), False
+    part = search.part
+    return PartFindings(
+        tuple(part.domains),
+        tuple(asking.name for asking in part.askings),
+        tuple(asking.text for asking in part.askings),
+        tuple(dict.fromkeys(rule.name for rule in part.rules)),
+        part.considered,
+        passed.tally.count,
+        passed.share,
+        passed.complete,
+        ranked,
+        _reason(search, passed, ranked),
+        solutions,
+        _shortfall(search, passed),
+    )
+
+
+def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
+    try:
+        return find_shortfall(search, passed)
+    except KeyboardInterrupt:
+        search.runner.stopped = True
+        return tallied(search, passed)
+
+
+def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
+    """Why a part is not complete or not ranked, in words."""
+    if passed.tally.stopped:
+        return "interrupted: the count is of what had been searched"
+    if passed.searched < 1:
+        share = decimal(Fraction(passed.searched), 2)
+        return f"about {passed.steps:.1e} steps and a limit of {search.limit:.1e}: a random part, {share}, was searched"
+    if passed.tally.cut:
+        return f"the limit of {search.limit:.1e} steps was reached"
+    if not ranked and search.runner.stopped:
+        return "interrupted: all are counted, the best are not listed"
+    return "" if ranked else f"too many to bring them all out within {search.limit:.1e} steps"
+
+
+@dataclass(frozen=True, slots=True)
+class _Standings:
+    """Answers where an assignment stands, by counting what comes before it."""
+
+    searches: tuple[PartSearch, ...]
+
+    def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
+        """For one part, all of whose wheels are in `teeth`."""
+        search = self.searches[part]
+        own = {wheel: teeth[wheel] for wheel in search.part.domains}
+        assignment = search.order.assignment(own)
+        refused = tuple(_refusals(search.part, own, assignment))
+        rank = None if refused or assignment is None else _rank(search, assignment)
+        return Standing(tuple(own), assignment, rank, refused)
+
+
+def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
+    """All that refuses an assignment, in words."""
+    import numpy as np
+
+    columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
+    found = [
+        f"'{wheel}' is not to have {count} teeth" for wheel, count in teeth.items() if count not in part.domains[wheel]
+    ]
+    found += [rule.name for rule in part.rules if not rule.holds(columns).all()]
+    for asked in part.conditions:
+        value = asked.function.value(teeth)
+        if value is None or (value != 0) != asked.strict:
+            found.append(asked.name)
+    if assignment is None:
+        return [*found, "the train is locked or free"]
+    askings = {asking.name: asking for asking in part.askings}
+    for name, reached in assignment.outputs.items():
+        if not reached.met:
+            found.append(f"{askings[name].text}: {decimal(reached.error, 3)} off")
+    return found
+
+
+def _rank(search: PartSearch, assignment: Assignment) -> int | None:
+    """One more than the number of assignments with a smaller error."""
+    if not assignment.error or not search.part.askings:
+        return 1
+    passed = search.run(assignment.error, 0, strict=True)
+    return passed.tally.count + 1 if passed.complete else None

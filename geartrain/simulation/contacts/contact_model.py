@@ -1,0 +1,338 @@
+"""A train as coordinates, contacts, bearings, stops and springs, and its order of solution: what kernels are made from.
+
+Coordinates are whatever moves independently while no contact touches. A pair has two rows over them, the speeds of its
+driver and of its driven side in forward angles. In the solved order each pair that touches determines one coordinate,
+which appears in its driven side alone, from others before it; prescribed coordinates come first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import floor
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.law_tables import LawTables, TabledFunction, join_tables
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+Form = Mapping[int, float]
+"""A linear form of coordinates: number -> coefficient."""
+
+# a row that determines no coordinate yields as if it were so much heavier than all it holds; at most, than its own
+_STIFF, _STIFFEST = 1e6, 1e9
+
+
+@dataclass(frozen=True)
+class ContactPair:
+    """Two flanks, or a pin in its slot.
+
+    driver, driven        forward speeds of both sides
+    start                 forward angles of both sides where all coordinates are 0 (rad)
+    front, back           driven angles on the drive and the coast flank; the same for what has no play
+    rubbing               what friction adds to the driver's arm (its torque over the driven side's), for front and back
+                          flank, each turning forward and back; None without friction
+    restitution           closing speed that comes back
+    never_stands          True if the driven side moves wherever the driver does, so that it could as well drive
+    """
+
+    name: str
+    driver: Form
+    driven: Form
+    start: tuple[float, float]
+    front: TabledFunction
+    back: TabledFunction
+    rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
+    restitution: float = 0.0
+    never_stands: bool = False
+
+    @property
+    def two_sided(self) -> bool:
+        """True where there is no play."""
+        return self.front is self.back
+
+    @property
+    def row(self) -> tuple[int, ...]:
+        """The coordinates of both sides."""
+        return tuple(dict.fromkeys((*self.driven, *self.driver)))
+
+    def moved(self, angle: Floats) -> ContactPair:
+        """The pair where coordinates start at other angles; whole periods of its law are left out: they cost digits."""
+        S, q = (
+            start + sum(float(angle[at]) * value for at, value in form.items())
+            for start, form in zip(self.start, (self.driver, self.driven), strict=True)
+        )
+        whole = floor(S / self.front.table.period) * self.front.table.period
+        return replace(self, start=(S - whole, q - whole * self.front.slope))
+
+    def could_determine(self, coordinate: int) -> bool:
+        """True if one side alone holds the coordinate, and the row is never without it."""
+        driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
+        return driven != driver and (driven or self.never_stands)
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """Dry friction against a relative speed: torques while it slides, and up to which it sticks (N m)."""
+
+    name: str
+    speed: Form
+    sliding: float
+    sticking: float
+
+
+@dataclass(frozen=True)
+class Stop:
+    """What may not pass an angle, which moves on by a pitch each beat (rad, s): an escapement."""
+
+    name: str
+    angle: Form
+    pitch: float
+    beat: float
+    restitution: float = 0.0
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A torque stiffness (rest + rate t - angle) on a row of coordinates (N m/rad, rad, rad/s)."""
+
+    name: str
+    angle: Form
+    stiffness: float
+    rest: float = 0.0
+    rate: float = 0.0
+
+
+class SolvedOrder(NamedTuple):
+    """Coordinates in order, the pair that determines each (-1 none), and for each those before it that it may meet."""
+
+    coordinates: tuple[int, ...]
+    owner: tuple[int, ...]
+    near: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class ContactModel:
+    """A train that moves in time.
+
+    mass, viscous   matrices over the coordinates (kg m2, N m s)
+    torque          constant torques on them (N m)
+    given           prescribed speeds (rad/s)
+    typical         speeds of all coordinates in mean motion, for scales
+    """
+
+    mass: Floats
+    viscous: Floats
+    torque: Floats
+    given: Mapping[int, float]
+    typical: Floats
+    pairs: Sequence[ContactPair] = ()
+    bearings: Sequence[Bearing] = ()
+    stops: Sequence[Stop] = ()
+    springs: Sequence[Spring] = ()
+    start: Floats | None = field(default=None)
+
+    @cached_property
+    def order(self) -> SolvedOrder:
+        """The solved order: a pair whose row holds one unknown determines it; where none does, one is left free."""
+        order = list(self.given)
+        owner = [-1] * len(order)
+        left = list(range(len(self.pairs)))
+        while left:
+            found = False
+            for m in list(left):
+                unknown = [each for each in self.pairs[m].row if each not in order]
+                if len(unknown) > 1:
+                    continue
+                left.remove(m)
+                if unknown and self.pairs[m].could_determine(unknown[0]):
+                    order.append(unknown[0])
+                    owner.append(m)
+                    found = True
+            if not found and left:
+                driven = {each for m in left for each in self.pairs[m].row if self.pairs[m].could_determine(each)}
+                rows = [each for m in left for each in self.pairs[m].row if each not in order]
+                order.append(next((each for each in rows if each not in driven), rows[0]))
+                owner.append(-1)
+        rest = [each for each in range(len(self.torque)) if each not in order]
+        order += rest
+        owner += [-1] * len(rest)
+        return SolvedOrder(tuple(order), tuple(owner), self._near(order, owner))
+
+    def _near(self, order: Sequence[int], owner: Sequence[int]) -> tuple[tuple[int, ...], ...]:
+        """Fill of the elimination: coordinates that meet in a row, or after one behind both is eliminated."""
+        place = {each: at for at, each in enumerate(order)}
+        near: list[set[int]] = [set() for _ in order]
+        free = [pair.row for m, pair in enumerate(self.pairs) if m not in owner]
+        forms = [list(each.speed) for each in self.bearings]
+        forms += [list(each.angle) for each in self.stops] + [list(each.angle) for each in self.springs]
+        coupled = np.argwhere((self.mass != 0) | (self.viscous != 0)).tolist()
+        for group in (*free, *forms, *coupled):
+            places = sorted(place[each] for each in group)
+            for at, d in enumerate(places):
+                near[d].update(each for each in places[:at] if each != d)
+        for d, m in enumerate(owner):
+            if m >= 0:
+                near[d].update(place[each] for each in self.pairs[m].row if place[each] != d)
+        for d in range(len(order) - 1, -1, -1):
+            for each in near[d]:
+                near[each].update(other for other in near[d] if other < each)
+        return tuple(tuple(sorted(each)) for each in near)
+
+    def elsewhere(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
+        """The same train at a share of its speeds, from other angles (rad) and speeds (rad/s) on: tables are kept.
+
+        Where pairs that touch determine all, speeds are those of their laws at the angles: those of a step are means.
+        """
+        given = {at: share * value for at, value in self.given.items()}
+        pairs = self.pairs if angle is None else [pair.moved(angle) for pair in self.pairs]
+        start = self.start if speed is None else share * speed
+        if given and all(m >= 0 or at in given for at, m in zip(*self.order[:2], strict=True)):
+            start = None
+        found = replace(self, given=given, typical=share * self.typical, pairs=pairs, start=start)
+        found.__dict__.update(order=self.order, laws=self.laws, _functions=self._functions)
+        return found
+
+    @property
+    def falls(self) -> list[float]:
+        """How long each stopped link takes from one stop to the next, all coordinates in their mean ratios (s).
+
+        By what drives at the start, without what resists it.
+        """
+        torque = float(self.typical @ self.torque)
+        for spring in self.springs:
+            torque += spring.stiffness * spring.rest * sum(self.typical[at] * c for at, c in spring.angle.items())
+        heavy = float(self.typical @ self.mass @ self.typical)
+        found = []
+        for stop in self.stops:
+            speed = sum(self.typical[at] * c for at, c in stop.angle.items())
+            if torque > 0 and speed:
+                found.append(float(np.sqrt(2 * stop.pitch * heavy / (torque * abs(speed)))))
+        return found
+
+    @cached_property
+    def laws(self) -> LawTables:
+        """The tables of all pairs."""
+        return join_tables(self._functions[0])
+
+    @cached_property
+    def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
+        """Each function once; numbers of the laws and of the friction of each pair."""
+        known: dict[int, int] = {}
+        functions: list[TabledFunction] = []
+
+        def number(function: TabledFunction) -> int:
+            if id(function) not in known:
+                known[id(function)] = len(functions)
+                functions.append(function)
+            return known[id(function)]
+
+        laws = [[number(pair.front), number(pair.back)] for pair in self.pairs]
+        rubbing = [[-1] * 4 if pair.rubbing is None else list(map(number, pair.rubbing)) for pair in self.pairs]
+        return functions, laws, rubbing
+
+    def system(self, step: float) -> ContactSystem:
+        """The arrays for one length of step (s)."""
+        order, n = self.order, len(self.torque)
+        place = {each: at for at, each in enumerate(order.coordinates)}
+        mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
+        matrix = mass + step * viscous
+        for spring in self.springs:
+            c = np.zeros(n)
+            for each, value in spring.angle.items():
+                c[place[each]] = value
+            matrix = matrix + step**2 * spring.stiffness * np.outer(c, c)
+        near_at, near = _sparse([dict.fromkeys(each, 0.0) for each in order.near])[:2]
+        _, laws, rubbing = self._functions
+        owned = [at for at in order.owner if at >= 0]
+        return ContactSystem(
+            np.ascontiguousarray(mass),
+            np.ascontiguousarray(viscous),
+            np.ascontiguousarray(matrix),
+            np.array([self.torque[each] for each in order.coordinates], dtype=np.float64),
+            np.array([each in self.given for each in order.coordinates], dtype=np.int64),
+            np.array(order.owner, dtype=np.int64),
+            near_at,
+            near,
+            *self._pair_rows(place, near_at, near),
+            np.array([pair.start[0] for pair in self.pairs], dtype=np.float64),
+            np.array([pair.start[1] for pair in self.pairs], dtype=np.float64),
+            np.array([pair.two_sided for pair in self.pairs], dtype=np.int64),
+            np.array([pair.restitution for pair in self.pairs], dtype=np.float64),
+            np.array(laws, dtype=np.int64).reshape(-1, 2),
+            np.array(rubbing, dtype=np.int64).reshape(-1, 4),
+            np.array([0.0 if m in owned else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]),
+            *_sparse([_placed(each.speed, place) for each in self.bearings]),
+            np.array([each.sliding for each in self.bearings], dtype=np.float64),
+            np.array([each.sticking for each in self.bearings], dtype=np.float64),
+            *_sparse([_placed(each.angle, place) for each in self.stops]),
+            np.zeros(len(self.stops)),
+            np.array([each.pitch for each in self.stops], dtype=np.float64),
+            np.array([each.beat for each in self.stops], dtype=np.float64),
+            np.array([each.restitution for each in self.stops], dtype=np.float64),
+            np.array([self._stiffness(each.angle) for each in self.stops], dtype=np.float64),
+            *_sparse([_placed(each.angle, place) for each in self.springs]),
+            np.array([each.stiffness for each in self.springs], dtype=np.float64),
+            np.array([each.rest for each in self.springs], dtype=np.float64),
+            np.array([each.rate for each in self.springs], dtype=np.float64),
+        )
+
+    def _pair_rows(
+        self, place: Mapping[int, int], near_at: Ints, near: Ints
+    ) -> tuple[Ints, Ints, Floats, Floats, Ints]:
+        """Rows of pairs, the coordinate that each determines first; and where the others stand near that."""
+        owner = {m: d for d, m in enumerate(self.order.owner) if m >= 0}
+        at, of, S, q, slot = [0], [], [], [], []
+        for m, pair in enumerate(self.pairs):
+            own = owner.get(m)
+            row = [own] if own is not None else []
+            row += [place[each] for each in pair.row if place[each] != own]
+            back = {place[each]: each for each in pair.row}
+            for each in row:
+                of.append(each)
+                S.append(float(pair.driver.get(back[each], 0.0)))
+                q.append(float(pair.driven.get(back[each], 0.0)))
+                if m not in owner:
+                    slot.append(-2)
+                elif each == owner[m]:
+                    slot.append(-1)
+                else:
+                    low, high = near_at[owner[m]], near_at[owner[m] + 1]
+                    slot.append(int(low + np.searchsorted(near[low:high], each)))
+            at.append(len(of))
+        ints = (np.array(each, dtype=np.int64) for each in (at, of, slot))
+        starts, places, slots = ints
+        return starts, places, np.array(S, dtype=np.float64), np.array(q, dtype=np.float64), slots
+
+    def _stiffness(self, form: Form) -> float:
+        """Inverse compliance of a row (kg m2): much above the inertia it can stop, that of all that turns with it."""
+        row = np.zeros(len(self.torque))
+        for each, value in form.items():
+            row[each] = value
+        heavy = float(self.typical @ self.mass @ self.typical)
+        speed = float(row @ self.typical)
+        # a prescribed coordinate gives way to nothing, as if it were heavy without bound
+        free = [at for at, value in form.items() if value and at not in self.given]
+        with np.errstate(divide="ignore"):
+            own = float(1 / np.sum(row[free] ** 2 / np.diag(self.mass)[free])) if free else heavy
+        return min(_STIFF * max(own, heavy / speed**2 if speed else 0.0), _STIFFEST * own)
+
+
+def _joined(pair: ContactPair) -> Form:
+    return {each: pair.driven.get(each, 0.0) or pair.driver.get(each, 0.0) for each in pair.row}
+
+
+def _placed(form: Form, place: Mapping[int, int]) -> dict[int, float]:
+    return {place[each]: float(value) for each, value in form.items()}
+
+
+def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
+    """Rows one behind another: where each begins, columns, coefficients."""
+    at = np.cumsum([0, *(len(row) for row in rows)]).astype(np.int64)
+    of = np.array([each for row in rows for each in row], dtype=np.int64)
+    return at, of, np.array([value for row in rows for value in row.values()], dtype=np.float64)

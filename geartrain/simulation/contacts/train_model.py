@@ -1,0 +1,366 @@
+"""From a train and what drives it to coordinates and contacts: ideal pairs merge links, real ones join coordinates.
+
+Rows of ideal pairs, locks and brakes are eliminated exactly, so that speeds of links are forms of few coordinates,
+docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs that lose a declared part of their
+power are contacts between coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.dynamics.motion.motion_model import Motion
+from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.relative_speeds import axis_sense
+from geartrain.numerics.elimination import eliminate
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
+from geartrain.simulation.contacts.law_tables import TOLERANCE, TabledFunction, tabled_angle
+from geartrain.simulation.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
+from geartrain.simulation.contacts.time_case import TimeCase
+from geartrain.teeth.transmission import ExactRatio
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.dynamics.motion.error_composition import PairErrorSource
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.kinematics.circuits import Circuit, Tree
+    from geartrain.numerics.arrays import Floats
+    from geartrain.simulation.contacts.tooth_yield import ToothYield
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.train import Train
+
+
+_FREE = 0.05  # of the mean ratio: a pair whose ratio stays above is followed the other way round as well
+
+
+class SlackPin(ExactRatio):
+    """The law of a pin on one side of its slot, which is wider than the pin by `clearance`, docs/dynamics.md (9).
+
+    The slot stands asin(clearance/(2 rho)) ahead of where a tight pin would have it (`side` 1), or behind (-1), rho the
+    pin's distance from the slot's axis.
+    """
+
+    def __init__(self, law: PinTransmission, clearance: float, side: int) -> None:
+        super().__init__(law.ratio, law.period)
+        self.law, self.clearance, self.side, self.friction = law, clearance, side, law.friction
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the slot) at pin angles S (rad)."""
+        return np.asarray(self.law.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S))))
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """Speed ratio at pin angles S (rad)."""
+        square, half = self._square(S), self.clearance / 2
+        turning = half * self.law.r * self.law.e * np.sin(S) / (square * np.sqrt(square - half**2))
+        return np.asarray(self.law.speed(S) - self.side * turning)
+
+    def _square(self, S: ArrayLike) -> Floats:
+        half = np.sin(np.asarray(S, dtype=float) / 2)
+        return np.asarray((self.law.r - self.law.e) ** 2 + 4 * self.law.r * self.law.e * half**2)
+
+
+@dataclass(frozen=True)
+class TrainModel:
+    """A train in one case as a model of contacts.
+
+    problem   its rows, mean speeds, laws and drivers
+    case      inertia, drag, what drives
+    tree      its turning pairs
+    tolerance of the tables in which laws are read (driven pitches)
+    """
+
+    train: Train
+    problem: MotionProblem
+    case: TimeCase
+    tree: Tree
+    state: str | None = None
+    tolerance: float = TOLERANCE
+
+    def typical(self, link: str) -> float:
+        """Speed of a link in mean motion (rad/s)."""
+        return float(self.problem.ratio(link)) * self.case.rate
+
+    def sense(self, link: str, base: str) -> int:
+        """1, or -1 where the axes of two links point against each other."""
+        return axis_sense(link, base, self.problem.signs)
+
+    @cached_property
+    def sources(self) -> Mapping[str, PairErrorSource]:
+        """Pairs and pins with laws of their own, with the phases in which they start."""
+        names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
+        return {source.id: source for source in self.motion.with_sources(names).sources}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is left out."""
+        found = []
+        if not self.contacts:
+            found.append("play and impacts: no pair has real teeth, a pin or a loss, so that all links turn as one")
+        left = [mesh.name for mesh in self.problem.teeth if mesh.rubs and not mesh.tells_losses]
+        if left:
+            found.append(f"friction of {', '.join(left)}: it depends on a speed that is not known")
+        return tuple(found)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What nothing declares and was estimated."""
+        return ()
+
+    @property
+    def yields(self) -> ToothYield | None:
+        """How the teeth of each pair yield; None where they are rigid."""
+        return None
+
+    @property
+    def fastest(self) -> float:
+        """Circular frequency that steps have to follow (rad/s); 0 where teeth are rigid."""
+        return 0.0
+
+    # ------------------------------------------------------------------------------------------------------ coordinates
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """The column of each link."""
+        return {link: at for at, link in enumerate(self.problem.system.links)}
+
+    @cached_property
+    def contacts(self) -> tuple[Circuit, ...]:
+        """The circuits that are contacts: all that do not keep their ratio without play and loss."""
+        return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
+
+    def _is_contact(self, circuit: Circuit) -> bool:
+        if circuit.id in self._pins:
+            return True
+        mesh = self._meshes.get(circuit.id)
+        if mesh is not None:
+            return not mesh.rigid or mesh.verdict.play > 0 or (mesh.rubs and mesh.tells_losses)
+        gear = self._gears.get(circuit.id)
+        return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
+
+    @cached_property
+    def _meshes(self) -> Mapping[str, GearMesh]:
+        return {mesh.name: mesh for mesh in self.problem.teeth}
+
+    @cached_property
+    def _pins(self) -> Mapping[str, PinTransmission]:
+        return {joint.coupling.name: joint.law for joint in self.problem.pins}
+
+    @cached_property
+    def _gears(self) -> Mapping[str, Any]:
+        return {gear.name: gear for gear in self.train.gears}
+
+    @cached_property
+    def prescribed(self) -> Mapping[str, float]:
+        """Links whose speed is given (rad/s)."""
+        unit = self.case.rate / float(self.problem.speeds[self.problem.lead])
+        held = {row.label.removeprefix("input "): float(row.right) for row in self._rows("input")}
+        found = {link: speed * unit for link, speed in held.items()}
+        drive = self.case.drive
+        if drive.kind != "rate" or drive.link not in found:
+            # power enters at one link instead; where it is not an input, the first input that turns is let go
+            found.pop(drive.link if drive.link in found else self.problem.lead)
+        return found if drive.kind != "rate" else {**found, drive.link: drive.rate}
+
+    def _rows(self, kind: str) -> Iterator[Any]:
+        return (row for row in self.problem.system.equations if row.kind == kind)
+
+    @cached_property
+    def forms(self) -> tuple[tuple[str, ...], Floats]:
+        """The links that serve as coordinates, and speeds of all links over theirs, (links, coordinates)."""
+        free = {circuit.id for circuit in self.contacts}
+        symbols = {self.index[link]: -1 - at for at, link in enumerate(self.prescribed)}
+        rows = []
+        for row in self.problem.system.equations:
+            if row.label not in free and row.kind != "input":
+                rows.append({symbols.get(self.index[link], self.index[link]): Fraction(c) for link, c in row.terms})
+        solved = eliminate(rows)
+        if solved.conditions:
+            what = f"the prescribed speeds of {', '.join(self.prescribed)} depend on each other"
+            raise QuestionError(Problem(what, "ideal pairs tie them together", "prescribe one of them"))
+        pivots = solved.forms()
+        columns = [each for each in range(len(self.index)) if each not in pivots and each not in symbols]
+        place = {symbol: at for at, symbol in enumerate((*symbols.values(), *columns))}
+        speeds = np.zeros((len(self.index), len(place)))
+        for link in range(len(self.index)):
+            own = symbols.get(link, link)
+            for column, value in pivots.get(own, {own: Fraction(1)}).items():
+                speeds[link, place[column]] += float(value)
+        names = tuple(self.prescribed) + tuple(self.problem.system.links[each] for each in columns)
+        return names, speeds
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The links that serve as coordinates."""
+        return self.forms[0]
+
+    @property
+    def speeds(self) -> Floats:
+        """Speeds of all links over those of the coordinates, (links, coordinates)."""
+        return self.forms[1]
+
+    def _form(self, link: str, base: str | None = None) -> Floats:
+        own: Floats = self.speeds[self.index[link]]
+        if base is not None:
+            own = own - self.sense(link, base) * self.speeds[self.index[base]]
+        return own
+
+    @cached_property
+    def mass(self) -> Floats:
+        """M = N^T diag(J) N (kg m2)."""
+        inertia = np.array([self.case.inertia.get(link, 0.0) for link in self.index])
+        inertia[self.index[self.case.drive.link]] += self.case.drive.inertia
+        found: Floats = self.speeds.T @ (inertia[:, None] * self.speeds)
+        lacking = [
+            name for at, name in enumerate(self.coordinates) if found[at, at] <= 0 and name not in self.prescribed
+        ]
+        if lacking:
+            what = f"nothing says what inertia turns with {', '.join(lacking)}"
+            why = "where teeth part, a link without inertia has no motion of its own"
+            raise QuestionError(Problem(what, why, "declare `inertia`, or `thickness` and `density`"))
+        return found
+
+    # --------------------------------------------------------------------------------------------------------- contacts
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion in which all drive flanks touch, of all links."""
+        frame = self.problem.frame
+        return Motion(self.problem, {link: (link, frame) for link in self.problem.system.links})
+
+    def _pairs(self) -> Iterator[ContactPair]:
+        for circuit in self.contacts:
+            restitution = self.case.restitution.get(circuit.id, 0.0)
+            driver, driven = self._sides(circuit)
+            if circuit.id not in self.sources:
+                law = self._even(circuit)
+                front = self._tabled(law)
+                arms = self._even_arms(circuit, law)
+                yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
+                continue
+            front, back, arms, first = self._flanks(circuit)
+            S = self.sources[circuit.id].phase
+            start = S, float(first.angle(S))
+            free = first.speed_range()[0] > _FREE * float(first.ratio)
+            yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
+
+    def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
+        """Tables of both flanks, what friction adds, and the law of the front."""
+        if circuit.id in self._pins:
+            law = self._pins[circuit.id]
+            clearance = self.case.clearance.get(circuit.id, 0.0)
+            if not clearance:
+                front = self._tabled(law)
+                return front, front, pin_arms(law), law
+            before, behind = SlackPin(law, clearance, -1), SlackPin(law, clearance, 1)
+            return self._tabled(before), self._tabled(behind), pin_arms(law), before
+        mesh = self._meshes[circuit.id]
+        front = self._tabled(mesh.law)
+        back = front if mesh.verdict.play <= 0 else self._tabled(mesh.coast)
+        return front, back, tooth_arms(mesh), mesh.law
+
+    def _tabled(self, law: TransmissionFunction) -> TabledFunction:
+        return tabled_angle(law, self.tolerance)
+
+    def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
+        """Forward speeds of driver and driven side of a pair, seen from its carrier."""
+        source = self.sources.get(circuit.id)
+        # forwards is the sense in which the input turns: front flanks are those that drive that way
+        way = self.problem.way
+        forward = way * (source.forward if source else 1)
+        sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
+        path = self.motion.path(circuit.id)
+        signs, names = self.problem.signs, self.problem.system.links
+        own, mate, base = (signs.get(names[at], 1) * self.speeds[at] for at in path[:3])
+        return _sparse(forward * (own - base)), _sparse(sense * (mate - base))
+
+    def _even(self, circuit: Circuit) -> ExactRatio:
+        """The law of a pair that keeps its ratio."""
+        path = self.motion.path(circuit.id)
+        own = circuit.b if path.coefficient == circuit.a else circuit.a
+        return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
+
+    def _even_arms(self, circuit: Circuit, law: ExactRatio) -> Arms | None:
+        ways = self._gears[circuit.id].efficiency
+        passed = float(ways.forward.base), float(ways.backward.base)
+        if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
+            passed = passed[1], passed[0]
+        return even_arms(law, *passed, f"pair '{circuit.id}'")
+
+    # --------------------------------------------------------------------------------------------------------- the rest
+
+    def _bearings(self) -> Iterator[Bearing]:
+        """Friction in bearings; those of links that turn with each other are one."""
+        joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float]]] = {}
+        for link, (sliding, sticking) in self.case.bearing.items():
+            form = self._form(link, self.tree.parent[link][0])
+            scale = float(np.max(np.abs(form), initial=0.0))
+            if not scale or not sticking:
+                continue
+            first = form[np.argmax(np.abs(form) > 1e-12 * scale)]
+            scale = float(first)
+            key = tuple((at, round(value / scale, 12)) for at, value in _sparse(form).items())
+            joined.setdefault(key, []).append((link, abs(scale) * sliding, abs(scale) * sticking))
+        for key, parts in joined.items():
+            links = ", ".join(link for link, _, _ in parts)
+            yield Bearing(links, dict(key), sum(each[1] for each in parts), sum(each[2] for each in parts))
+
+    def _viscous(self) -> Floats:
+        found = np.zeros((len(self.coordinates),) * 2)
+        for link, drag in self.case.drag.items():
+            form = self._form(link, self.tree.parent[link][0])
+            found += drag * np.outer(form, form)
+        return found
+
+    def _stops(self) -> Iterator[Stop]:
+        for link, (pitch, beat) in self.case.escapements.items():
+            base = self.tree.top[link]  # pallets ride on what bears the escape wheel
+            way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
+            restitution = self.case.restitution.get(link, 0.0)
+            yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
+
+    def _springs(self) -> Iterator[Spring]:
+        drive = self.case.drive
+        if drive.kind in ("spring", "hand"):
+            rate = drive.rate if drive.kind == "hand" else 0.0
+            yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
+
+    def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
+        """What torques on links, and one where power enters, are on the coordinates (N m)."""
+        torque = drive * self._form(self.case.drive.link)
+        for link, load in loads.items():
+            torque += load * self._form(link)
+        return torque
+
+    @cached_property
+    def model(self) -> ContactModel:
+        """The model that kernels step."""
+        torque = self.torque_of(self.case.load, self.case.drive.torque)
+        typical = np.array([self.typical(link) for link in self.coordinates])
+        given = dict(enumerate(self.prescribed.values()))
+        return ContactModel(
+            self.mass,
+            self._viscous(),
+            torque,
+            given,
+            typical,
+            tuple(self._pairs()),
+            tuple(self._bearings()),
+            tuple(self._stops()),
+            tuple(self._springs()),
+        )
+
+
+def _sparse(form: Floats) -> dict[int, float]:
+    """What of a form is not 0."""
+    scale = float(np.max(np.abs(form), initial=0.0))
+    return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

@@ -1,0 +1,236 @@
+"""What runs within a co-simulation unit: variables of the train, and a `Simulation` that other tools advance.
+
+Names are those of FMI's structured convention: `angles.moon`, `apart.'d2~e'`.
+"""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import json
+import re
+import sys
+from collections.abc import Callable
+from functools import cache
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+from uuid import NAMESPACE_URL, uuid5
+from xml.etree.ElementTree import Element, SubElement
+
+from pythonfmu import Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Real
+from pythonfmu.enums import Fmi2Status
+
+from geartrain.analysis.gear_train import load
+from geartrain.errors import GearTrainError
+from geartrain.simulation.fmu.co_simulation import CASE, DECLARATION
+from geartrain.simulation.time.stepwise_simulation import Simulation
+
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+# exponents of kg, m, s, rad
+_UNITS = {
+    "rad": (0, 0, 0, 1),
+    "rad/s": (0, 0, -1, 1),
+    "N.m": (1, 2, -2, 0),
+    "J": (1, 2, -2, 0),
+    "s": (0, 0, 1, 0),
+}
+
+
+class TrainSlave(Fmi2Slave):  # type: ignore[misc]
+    """The train that is packed in the unit's resources."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**options)
+        folder = Path(self.resources)
+        text = [(folder / name).read_text(encoding="utf-8") for name in (DECLARATION, CASE)]
+        case = json.loads(text[1])
+        train = load(folder / DECLARATION)
+        self._simulation: Simulation = train.simulation(**case, fast=None)
+        self._drive, self._step = self._simulation.drive, self._simulation.step
+        self._restitution = dict(self._simulation.restitution)
+        self._loads = dict.fromkeys(self._simulation.output_links, 0.0) | self._simulation.loads
+        self._changed = self._begun = False
+        self._start = 0.0
+        self._units: dict[str, str] = {}
+        self.modelName = re.sub(r"\W|^(?=\d)", "_", train.name, flags=re.ASCII)
+        self.description = train.declaration.title or None
+        self.guid = uuid5(NAMESPACE_URL, sha256("\0".join((version("geartrain"), *text)).encode()).hexdigest())
+        self._register()
+        part_in_order(folder.parent / "binaries" / "linux64" / f"{self.modelName}.so")
+
+    # -------------------------------------------------------------------------------------------------------- variables
+
+    def _register(self) -> None:
+        kind = self._simulation.drive_kind
+        name, unit, what = {
+            "rate": ("drive.speed", "rad/s", "speed that is kept"),
+            "torque": ("drive.torque", "N.m", "torque"),
+            "hand": ("drive.speed", "rad/s", "speed of the hand"),
+            "spring": ("", "", ""),
+        }[kind]
+        link = self._simulation.drive_link
+        if name:
+            self._input(name, unit, f"{what}, at {link}", lambda: self._drive, self._set_drive)
+        for each in self._loads:
+            self._input(f"loads.{_quoted(each)}", "N.m", f"torque on {each}", self._load(each), self._set_load(each))
+        self._parameter("step", "s", "length of a step", lambda: self._step, self._set_step)
+        for each in self._restitution:
+            what = f"speed of parting over speed of meeting, of {each}"
+            self._parameter(f"restitution.{_quoted(each)}", "", what, self._bounce(each), self._set_bounce(each))
+        if kind in ("torque", "spring", "hand"):
+            self._output("drive.link.speed", "rad/s", f"speed of {link}", lambda of: of.speed)
+        if kind != "torque":
+            self._output("drive.torque", "N.m", f"mean torque at {link} since the last time", lambda of: of.torque)
+        self._output("drive.angle", "rad", f"angle of {link} since the start", lambda of: of.angle)
+        for each in self._simulation.angles:
+            self._output(f"angles.{_quoted(each)}", "rad", f"angle of {each}", _item("angles", each))
+            self._output(f"speeds.{_quoted(each)}", "rad/s", f"speed of {each}", _item("speeds", each))
+        for each in self._simulation.apart:
+            own = _quoted(each)
+            share = f"share of time in which no flank of {each} touches, since the last time"
+            self._output(f"apart.{own}", "", share, _item("apart", each))
+            torque = f"mean torque on the driven side of {each} since the last time"
+            self._output(f"torques.{own}", "N.m", torque, _item("torques", each))
+            blows = f"energy that blows of {each} took since the last time"
+            self._output(f"blows.{own}", "J", blows, _item("blows", each))
+
+    def _input(self, name: str, unit: str, what: str, get: Callable[[], float], put: Callable[[float], None]) -> None:
+        kind = {"causality": Fmi2Causality.input, "variability": Fmi2Variability.continuous}
+        self._variable(name, unit, what, get, setter=put, **kind)
+
+    def _parameter(
+        self, name: str, unit: str, what: str, get: Callable[[], float], put: Callable[[float], None]
+    ) -> None:
+        kind = {"causality": Fmi2Causality.parameter, "variability": Fmi2Variability.fixed}
+        self._variable(name, unit, what, get, setter=put, initial=Fmi2Initial.exact, **kind)
+
+    def _output(self, name: str, unit: str, what: str, of: Callable[[Simulation], float]) -> None:
+        kind = {"causality": Fmi2Causality.output, "variability": Fmi2Variability.continuous}
+        self._variable(name, unit, what, lambda: of(self.simulation), initial=Fmi2Initial.calculated, **kind)
+
+    def _variable(self, name: str, unit: str, what: str, get: Callable[[], float], **more: Any) -> None:
+        self.register_variable(Real(name, description=what, getter=get, **more), nested=False)
+        self._units[name] = unit
+
+    def _load(self, link: str) -> Callable[[], float]:
+        return lambda: self._loads[link]
+
+    def _bounce(self, pair: str) -> Callable[[], float]:
+        return lambda: self._restitution[pair]
+
+    def _set_bounce(self, pair: str) -> Callable[[float], None]:
+        def put(value: float) -> None:
+            self._restitution[pair] = value
+            self._changed = True
+
+        return put
+
+    def _set_load(self, link: str) -> Callable[[float], None]:
+        def put(value: float) -> None:
+            self._loads[link] = value
+            self._changed = True
+
+        return put
+
+    def _set_drive(self, value: float) -> None:
+        self._drive = value
+        self._changed = True
+
+    def _set_step(self, value: float) -> None:
+        self._step = value
+        self._changed = True
+
+    # -------------------------------------------------------------------------------------------------------- course
+
+    @property
+    def simulation(self) -> Simulation:
+        """The train as it moves; anew as long as it has not begun and what it starts from is changed."""
+        if self._changed:
+            if not self._begun:
+                bounces = self._restitution
+                self._simulation = self._simulation.anew(
+                    step=self._step, restitution=bounces, drive=self._drive, loads=self._loads
+                )
+            else:
+                self._simulation.set_drive(self._drive)
+                for link, torque in self._loads.items():
+                    self._simulation.set_load(link, torque)
+            self._changed = False
+        return self._simulation
+
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """When it begins."""
+        self._start = start_time
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Go on to the end of a communication step."""
+        try:
+            simulation = self.simulation
+            self._begun = True
+            simulation.advance(max(0.0, current_time + step_size - self._start - simulation.time))
+        except GearTrainError as error:
+            self.log(str(error), Fmi2Status.error)
+            return False
+        return True
+
+    # -------------------------------------------------------------------------------------------------------- as XML
+
+    def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
+        """The description, with units and bounds, without the day."""
+        root: Element = super().to_xml(model_options or {})
+        del root.attrib["generationDateAndTime"]
+        root.set("generationTool", f"geartrain {version('geartrain')} by {root.get('generationTool')}")
+        units = Element("UnitDefinitions")
+        for name, exponents in _UNITS.items():
+            base = zip(("kg", "m", "s", "rad"), exponents, strict=True)
+            SubElement(
+                SubElement(units, "Unit", name=name), "BaseUnit", {key: str(value) for key, value in base if value}
+            )
+        root.insert(1, units)
+        for variable in root.iter("ScalarVariable"):
+            name, real = variable.get("name", ""), variable[0]
+            if self._units[name]:
+                real.set("unit", self._units[name])
+            if name.startswith("restitution."):
+                real.attrib |= {"min": "0", "max": "1"}
+            if "start" in real.attrib:
+                real.set("start", repr(float(self.vars[int(variable.get("valueReference", "0"))].start)))
+        unknown = root.find("ModelStructure/Outputs")
+        if unknown is not None:
+            first = SubElement(root.find("ModelStructure"), "InitialUnknowns")  # type: ignore[arg-type]
+            first.extend(Element("Unknown", index=each.get("index", "")) for each in unknown)
+        return root
+
+
+def keep_alive(names: dict[str, Any]) -> None:
+    """Add a reference that is never given back to the globals of the unit's script, each time it is run.
+
+    The library through which other tools call Python takes one away that is not its own, each time (PythonFMU 0.7.0).
+    """
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
+
+
+@cache
+def part_in_order(library: Path) -> None:
+    """Let go of the library before the process ends, where Python is the process.
+
+    Left to itself it gives its own memory back twice at the end (PythonFMU 0.7.0 on Linux): first with all statics, and
+    once more when it is unloaded.
+    """
+    if sys.platform == "linux" and sys.orig_argv and library.is_file():
+        atexit.register(ctypes.CDLL(str(library)).finalizePythonInterpreter)
+
+
+def _item(what: str, name: str) -> Callable[[Simulation], float]:
+    return lambda of: float(getattr(of, what)[name])
+
+
+def _quoted(name: str) -> str:
+    """A name as it may stand between the dots of a structured name."""
+    if _PLAIN.fullmatch(name):
+        return name
+    return "'" + name.replace("\\", "\\\\").replace("'", "\\'") + "'"

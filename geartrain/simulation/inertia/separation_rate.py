@@ -1,0 +1,214 @@
+"""The rate of the input at which teeth first part, searched over all positions with their corners and jumps.
+
+Between corners of laws what each pair must carry is smooth: every stretch is sampled, its ends on their own sides of
+their corners, and the best stretches are searched ever finer. Where a speed jumps, the sign of the blow decides.
+"""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, tau
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.motion.corner_positions import CornerSearch
+from geartrain.numerics.plain_data import Result
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.simulation.inertia.inertial_contacts import InertialContacts
+    from geartrain.simulation.inertia.link_inertia import LinkInertia
+
+_INSIDE = 1e-9  # of a stretch: its ends are asked so far within it, on its own side of a corner
+_SAMPLES = 9  # positions of a stretch at first
+_BEST = 12  # stretches of each pair that are searched further
+_ZOOMS = 9  # of which each narrows what is searched to a quarter
+_NARROW = 1e-12  # turns: a stretch between two corners at one place is none
+_PLACES = 8  # of turns: positions on both sides of a corner are told as one
+_MOST_CORNERS = 80_000  # times pairs, searched by default: some seconds
+
+
+@dataclass(frozen=True)
+class PairSeparation(Result):
+    """From what rate of the input on the teeth of a pair, or a pin and its slot, part.
+
+    Attributes
+    ----------
+    pair : str
+        The pair or coupling.
+    rate : float or None
+        Of the input [turn/s]; 0 where they part at any rate; None where they part at none.
+    at : float
+        Turns of the input at which they do so first.
+    leap : bool
+        True if a speed jumps there, so that the blow would have to pull.
+
+    See Also
+    --------
+    SeparationRates : holds one of each pair
+    """
+
+    KEYS = ("pair", "rate", "at", "leap")
+
+    pair: str
+    rate: float | None
+    at: float
+    leap: bool = False
+
+
+def separation_words(pair: PairSeparation) -> tuple[str, str]:
+    """From what rate on a pair parts, and at what position, in words."""
+    if pair.rate is None:
+        return "never", "-"
+    return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
+
+
+@dataclass(frozen=True)
+class SeparationRates(Result):
+    """At what rates of the input the flanks of a train first part: while it is slower, `motion` holds.
+
+    Attributes
+    ----------
+    state : str or None
+        As it was named.
+    input : str
+        The link whose rate it is.
+    turns : float
+        Turns of it that were searched.
+    complete : bool
+        True if everything repeats after them.
+    pairs : tuple of PairSeparation
+        The pair that parts first before the others.
+    inertias : tuple of LinkInertia
+        What was counted with.
+    uncounted : tuple of str
+        Pairs and pins whose friction is not counted: those that keep their ratio, and pins.
+
+    See Also
+    --------
+    geartrain.simulation.find_separation : gives these.
+    """
+
+    KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
+
+    state: str | None
+    input: str
+    turns: float
+    complete: bool
+    pairs: tuple[PairSeparation, ...]
+    inertias: tuple[LinkInertia, ...]
+    uncounted: tuple[str, ...] = ()
+
+    @property
+    def first(self) -> PairSeparation | None:
+        """The pair that parts first; None where none does."""
+        return self.pairs[0] if self.pairs and self.pairs[0].rate is not None else None
+
+    @property
+    def rate(self) -> float | None:
+        """Rate of the input [turn/s] up to which all flanks touch; None where they part at none."""
+        return None if self.first is None else self.first.rate
+
+    @property
+    def pair(self) -> str | None:
+        """The pair that parts first."""
+        return None if self.first is None else self.first.pair
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """Links that turn and have no inertia here."""
+        return tuple(each.link for each in self.inertias if each.source == "unknown")
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(each.pair)}</td><td>{rate}</td><td>{at}</td></tr>"
+            for each, rate, at in ((each, *separation_words(each)) for each in self.pairs)
+        )
+        head = f"<tr><th>pair</th><th>parts from (turn/s)</th><th>at (turns of {html.escape(self.input)})</th></tr>"
+        text = f"rate of {html.escape(self.input)} at which flanks part, in {self.turns:g} turns"
+        return f"<p>{text}</p><table>{head}{rows}</table>"
+
+
+def find_separation_rates(
+    contacts: InertialContacts, inertias: Sequence[LinkInertia], state: str | None, turns: float | None = None
+) -> SeparationRates:
+    """Rates over the train's period, or over fewer turns where that has too many corners to contacts."""
+    period = contacts.motion.period
+    whole = 1.0 if period is None else float(period)
+    if turns is None:
+        corners = CornerSearch(contacts.motion.ahead).rate
+        most = max(1.0, _MOST_CORNERS / max(1, len(contacts.pairs)))
+        turns = whole if corners * whole <= most else most / corners
+    found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
+                  for each in find_partings(contacts, turns))  # fmt: skip
+    return SeparationRates(state, contacts.moving.lead, turns, turns >= whole, found, tuple(inertias))
+
+
+class Parting(NamedTuple):
+    """A pair parts from a rate (rad/s of the input) on, at a position (turns); `leap` where a speed jumps there."""
+
+    pair: str
+    rate: float
+    turns: float
+    leap: bool
+
+
+def find_partings(contacts: InertialContacts, turns: float) -> tuple[Parting, ...]:
+    """Of each pair the rate from which it parts somewhere in so many turns of the input, least first."""
+    corners = contacts.motion.corner_positions(0.0, turns).turns
+    ends = np.unique(np.concatenate([[0.0], corners, [turns]]))
+    low, high = ends[:-1], ends[1:]
+    wide = high - low > _NARROW * max(1.0, turns)
+    low, high = low[wide], high[wide]
+    shares = _INSIDE + (1 - 2 * _INSIDE) * (1 - np.cos(np.pi * np.arange(_SAMPLES) / (_SAMPLES - 1))) / 2
+    at = low[:, None] + (high - low)[:, None] * shares
+    rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
+    found = _least(contacts, at, rates)
+    leaping = _leaps(contacts, corners, float((high - low).min(initial=turns)))
+    partings = [leaping.get(pair, each) for pair, each in enumerate(found)]
+    return tuple(sorted(partings, key=lambda each: (each.rate, each.pair)))
+
+
+def _least(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Parting]:
+    """The least rate of each pair: its best stretches searched further, by ever finer samples about the best.
+
+    at      positions, (stretches, samples); `rates` of all pairs there
+    """
+    count = len(contacts.pairs)
+    best = np.argsort(rates.min(axis=2), axis=1, kind="stable")[:, :_BEST]
+    at, rates = at[best], np.take_along_axis(rates, best[:, :, None], axis=1)
+    found = [Parting(name, inf, 0.0, False) for name in contacts.pairs]
+    own, shares = np.arange(count), np.arange(_SAMPLES) / (_SAMPLES - 1)
+    for zoom in range(_ZOOMS + 1):
+        where = rates.argmin(axis=2)[:, :, None]
+        least, place = (np.take_along_axis(each, where, axis=2)[:, :, 0] for each in (rates, at))
+        for pair, row in enumerate(least.argmin(axis=1)):
+            if least[pair, row] < found[pair].rate:
+                found[pair] = found[pair]._replace(rate=float(least[pair, row]), turns=float(place[pair, row]))
+        if zoom < _ZOOMS:
+            left, right = (np.take_along_axis(at, np.clip(where + step, 0, _SAMPLES - 1), axis=2) for step in (-1, 1))
+            at = left + (right - left) * shares
+            # each pair at its own positions
+            rates = contacts.rates(at.ravel()).reshape(count, *at.shape)[own, own]
+    return found
+
+
+def _leaps(contacts: InertialContacts, corners: Floats, narrowest: float) -> dict[int, Parting]:
+    """Pairs that part at any rate, because a speed jumps so that their blow would have to pull."""
+    if not len(corners):
+        return {}
+    blows = contacts.blows(corners, _INSIDE * max(narrowest, 1e-6))
+    tolerance = 1e-9 * np.abs(blows).max(axis=1, keepdims=True, initial=0.0)
+    found = {}
+    for pair, row in enumerate(blows < -tolerance):
+        if row.any():
+            found[pair] = Parting(contacts.pairs[pair], 0.0, float(corners[row.argmax()]), True)
+    return found
+
+
+def _in_turns(rate: float) -> float | None:
+    """Turns a second of a rate in rad/s; None where it is infinite."""
+    return None if rate == inf else rate / tau

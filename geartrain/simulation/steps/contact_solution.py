@@ -1,0 +1,216 @@
+"""The speeds at the end of one step, for one guess of what touches and sticks: elimination in the solved order.
+
+    M (v+ - v) = h T + sum f_c P_c,   r_c v+ = k_c  for every c that touches        docs/dynamics.md (11)
+
+A pair that touches gives its driven coordinate, v_d = sum w_o v_o + k/r_d, and (13) hands row and column of d on to the
+coordinates before it; one that is apart leaves d free, and d is eliminated by Gauss. Where each depends on one
+before it (a chain, a tree) the first is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c), and a step costs O(n).
+
+Rows that determine no coordinate (a second way between two links, stops, stuck bearings) stand in the matrix with a
+compliance far below that of any mass: s r^T r v = s k r.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from geartrain.numerics.kernels import kernel
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.steps.run_record import ContactState
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+
+class StepEquations(NamedTuple):
+    """One step: what is given of it, room to solve it in, and what comes out.
+
+    load            impulses from outside, and momentum at the start of the step
+    bound           k of both flanks of each pair (rad/s); `stop_bound` of each stop
+    ratio, arm      speed ratio, and driver's torque over the driven side's, of both flanks
+    A, b            the matrix and right side, as they are eliminated
+    w, g, known     of a driven coordinate: its speed is w v + known, its row is handed on by g
+    v, P, drive     speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates
+    ahead, middle   speeds that say where laws are read; mean speeds of the step
+    gap, closing    of both flanks: k without restitution, and speeds of closing before the step (rad/s);
+                    `stop_closing`, at which stops are met in it
+    before          what touched, and what was stopped, before the step
+    """
+
+    load: Floats
+    bound: Floats
+    stop_bound: Floats
+    ratio: Floats
+    arm: Floats
+    A: Floats
+    b: Floats
+    w: Floats
+    g: Floats
+    known: Floats
+    v: Floats
+    P: Floats
+    drive: Floats
+    ahead: Floats
+    middle: Floats
+    gap: Floats
+    closing: Floats
+    stop_closing: Floats
+    before: Ints
+
+
+class StepRules(NamedTuple):
+    """How a run is stepped.
+
+    step     length of a step (s); `stride`, steps from one sample to the next
+    creep    speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)
+    rounds   guesses that are tried in a step
+    """
+
+    step: float
+    stride: int
+    creep: float
+    slack: float
+    rounds: int
+
+
+@kernel
+def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
+    """Speeds and impulses for what the state takes to touch, turn and be stopped.
+
+    creep   speed up to which a stuck bearing gives way (rad/s)
+    """
+    assemble(system, state, here, step, creep)
+    eliminate_coordinates(system, state, here)
+    substitute_back(system, state, here)
+    find_stiff_impulses(system, state, here)
+
+
+@kernel
+def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
+    """The matrix and right side of all coordinates, without the pairs that determine one."""
+    A, b = here.A, here.b
+    for d in range(len(b)):
+        b[d] = here.load[d]
+        A[d, d] = system.matrix[d, d]
+        for x in range(system.near_at[d], system.near_at[d + 1]):
+            o = system.near[x]
+            A[d, o] = system.matrix[d, o]
+            A[o, d] = system.matrix[o, d]
+    for m in range(len(system.sliding)):
+        turning = state.turning[m]
+        for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
+            if turning != 0:
+                b[system.bearing_of[x]] -= step * system.sliding[m] * turning * system.bearing_c[x]
+            else:
+                stiff = step * system.sticking[m] / creep * system.bearing_c[x]
+                for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
+                    A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
+    for m in range(len(system.stiff)):
+        if system.stiff[m] > 0.0 and state.touching[m] != 0:
+            side = state.touching[m] - 1
+            for x in range(system.pair_at[m], system.pair_at[m + 1]):
+                push = system.stiff[m] * (system.pair_driven[x] - here.arm[m, side] * system.pair_driver[x])
+                b[system.pair_of[x]] += push * (1.0 - 2.0 * side) * here.bound[m, side]
+                for y in range(system.pair_at[m], system.pair_at[m + 1]):
+                    row = system.pair_driven[y] - here.ratio[m, side] * system.pair_driver[y]
+                    A[system.pair_of[x], system.pair_of[y]] += push * row
+    for m in range(len(system.stop_stiff)):
+        if state.stopped[m] != 0:
+            for x in range(system.stop_at[m], system.stop_at[m + 1]):
+                push = system.stop_stiff[m] * system.stop_c[x]
+                b[system.stop_of[x]] += push * here.stop_bound[m]
+                for y in range(system.stop_at[m], system.stop_at[m + 1]):
+                    A[system.stop_of[x], system.stop_of[y]] += push * system.stop_c[y]
+
+
+@kernel
+def eliminate_coordinates(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
+    """From the last to the first: one whose pair touches hands its row on, any other is eliminated by Gauss.
+
+    In one loop, for a call with so many arrays costs as much as a coordinate.
+    """
+    A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
+    for d in range(len(b) - 1, -1, -1):
+        if system.given[d] != 0:
+            continue
+        low, high = system.near_at[d], system.near_at[d + 1]
+        own, m = A[d, d], system.owner[d]
+        if m < 0 or state.touching[m] == 0:
+            for x in range(low, high):
+                o = near[x]
+                if A[o, d] != 0.0:
+                    part = A[o, d] / own
+                    b[o] -= part * b[d]
+                    for y in range(low, high):
+                        A[o, near[y]] -= part * A[d, near[y]]
+            continue
+        side = state.touching[m] - 1
+        first = system.pair_at[m]  # the coordinate that is determined stands first in its row
+        lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
+        lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
+        for x in range(low, high):
+            w[x] = 0.0
+            g[x] = 0.0
+        for x in range(first + 1, system.pair_at[m + 1]):
+            w[system.slot[x]] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
+            g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
+        known = (1.0 - 2.0 * side) * here.bound[m, side] / lead
+        here.known[d] = known
+        rest = b[d] - own * known
+        for x in range(low, high):
+            o = near[x]
+            b[o] += g[x] * rest - A[o, d] * known
+            for y in range(low, high):
+                A[o, near[y]] += g[x] * (A[d, near[y]] + own * w[y]) + A[o, d] * w[y]
+
+
+@kernel
+def substitute_back(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
+    """From the first to the last: speeds from those before, and impulses of pairs and drives."""
+    A, v, near = here.A, here.v, system.near
+    here.P[:] = 0.0
+    here.drive[:] = 0.0
+    for d in range(len(v)):
+        low, high = system.near_at[d], system.near_at[d + 1]
+        if system.given[d] != 0:
+            v[d] = state.speed[d]
+            here.drive[d] += A[d, d] * v[d] - here.b[d]
+            for x in range(low, high):  # prescribed ones come first: these are prescribed too
+                here.drive[d] += A[d, near[x]] * v[near[x]]
+                here.drive[near[x]] += A[near[x], d] * v[d]
+            continue
+        rest = -here.b[d]
+        for x in range(low, high):
+            rest += A[d, near[x]] * v[near[x]]
+        m = system.owner[d]
+        if m < 0 or state.touching[m] == 0:
+            v[d] = -rest / A[d, d]
+            continue
+        v[d] = here.known[d]
+        for x in range(low, high):
+            v[d] += here.w[x] * v[near[x]]
+        first, side = system.pair_at[m], state.touching[m] - 1
+        lead = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
+        here.P[m] = (rest + A[d, d] * v[d]) / lead * (1.0 - 2.0 * side)
+
+
+@kernel
+def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
+    """Impulses of pairs that determine nothing, and of stops, from what their rows yield."""
+    pairs = len(system.stiff)
+    for m in range(pairs):
+        if system.stiff[m] > 0.0 and state.touching[m] != 0:
+            side = state.touching[m] - 1
+            rate = 0.0
+            for x in range(system.pair_at[m], system.pair_at[m + 1]):
+                rate += (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]) * here.v[
+                    system.pair_of[x]
+                ]
+            here.P[m] = system.stiff[m] * (here.bound[m, side] - (1.0 - 2.0 * side) * rate)
+    for m in range(len(system.stop_stiff)):
+        if state.stopped[m] != 0:
+            rate = 0.0
+            for x in range(system.stop_at[m], system.stop_at[m + 1]):
+                rate += system.stop_c[x] * here.v[system.stop_of[x]]
+            # a stop holds from ahead: r v <= k
+            here.P[pairs + m] = system.stop_stiff[m] * (rate - here.stop_bound[m])

@@ -1,0 +1,310 @@
+"""A model run through time: kernels called with room for what they find."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.simulation.contacts.contact_model import ContactModel
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
+from geartrain.simulation.steps.contact_solution import StepEquations, StepRules
+from geartrain.simulation.steps.run_record import (
+    COUNTS,
+    DIVERGED,
+    ENERGIES,
+    FRONT,
+    IMPACT_COLUMNS,
+    IMPACTS,
+    SAMPLES,
+    STEP,
+    ContactState,
+    RunRecord,
+)
+from geartrain.simulation.steps.time_steps import run_steps
+from geartrain.simulation.steps.yielding_steps import YieldingTeeth, run_yielding_steps
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.simulation.contacts.tooth_yield import ToothYield
+
+    _Mark = tuple[Floats, Floats, Floats]
+
+_CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
+_SLACK = 1e-11  # of that speed
+_ROOM = 100_000  # impacts that are kept
+_AT_A_TIME = 1000, 40_000  # steps between two words on how far a run is: in plain Python, and compiled
+_ROUNDS = 60  # guesses tried in a step, and six more for each contact and bearing
+
+
+class StepPlan(NamedTuple):
+    """How a model is stepped: length of a step (s), steps not counted, steps counted, steps from sample to sample.
+
+    block   steps of each of the equal parts of what is counted whose figures are kept; 0 for none
+    """
+
+    step: float
+    skip: int
+    steps: int
+    stride: int
+    block: int = 0
+
+
+@dataclass
+class SimulatedRun:
+    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J).
+
+    turned   angles of the coordinates over what is counted (rad)
+    pressed  by how much the energy stored in teeth that yield has grown (J)
+    peaks    greatest torque of each pair whose teeth yield (N m)
+    blocks   the run's parts of `plan.block` steps: their counts, energies and angles turned through
+    """
+
+    plan: StepPlan
+    angles: Floats
+    speeds: Floats
+    forces: Floats
+    drive: Floats
+    counts: Floats
+    energy: Floats
+    impacts: Floats
+    numbers: tuple[int, ...]
+    start: float
+    end: float
+    turned: Floats
+    pressed: float = 0.0
+    peaks: Floats | None = None
+    blocks: tuple[SimulatedRun, ...] = ()
+
+
+def simulate(
+    model: ContactModel,
+    plan: StepPlan,
+    fast: bool = False,
+    on_done: Callable[[int], object] = lambda _: None,
+    yields: ToothYield | None = None,
+) -> SimulatedRun:
+    """Run a model; `fast` compiles the kernels.
+
+    on_done   called with the steps done since the last time; where it returns True the run ends, and the plan of what
+              is given back has the steps that were counted
+    yields    how the teeth of each pair yield; None where they are rigid
+    """
+    system, n = model.system(plan.step), len(model.torque)
+    if yields is not None:
+        system = _yielding(model, system, plan.step, yields)
+    state = start_state(model, system)
+    here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
+    samples = (plan.skip + plan.steps) // plan.stride
+    record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
+    teeth = _teeth(model, yields)
+    skip = plan.skip - plan.skip % plan.stride
+    rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
+    given = system, model.laws, state, here, record, rules
+    piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
+
+    def run(steps: int, counted: bool) -> None:
+        if teeth is None:
+            run_steps.chosen(fast)(*given, steps, counted)
+        else:
+            run_yielding_steps.chosen(fast)(*given, teeth, steps, counted)
+
+    def go(steps: int, counted: bool) -> int:
+        """Piece by piece between samples; how many steps were done."""
+        done = 0
+        while done < steps:
+            own = min(piece, steps - done)
+            run(own, counted)
+            done += own
+            check_convergence(state, record, plan.step)
+            if on_done(own) is True:
+                break
+        return done
+
+    skipped = go(skip, False)
+    start, before = _kinetic(system, state), state.angle.copy()
+    pressed = _stored(system, model.laws, state, yields)
+    ends = [*range(0, plan.steps, plan.block or plan.steps or 1), plan.steps]
+    marks, counted = [_mark(record, state)], 0
+    for begin, end in pairwise(ends if skipped == skip else ()):
+        counted += (done := go(end - begin, True))
+        marks.append(_mark(record, state))
+        if done < end - begin:
+            break
+    pressed = _stored(system, model.laws, state, yields) - pressed
+    record.energy[STEP] -= pressed
+    order = np.argsort(model.order.coordinates)
+    kept = min(int(record.numbers[IMPACTS]), _ROOM)
+    done = int(record.numbers[SAMPLES])
+    found = SimulatedRun(
+        plan._replace(steps=counted),
+        record.angles[:done, order],
+        record.speeds[:done, order],
+        record.forces[:done],
+        record.drive[:done, order],
+        record.counts,
+        record.energy,
+        record.impacts[:kept],
+        tuple(int(each) for each in record.numbers),
+        start,
+        _kinetic(system, state),
+        (state.angle - before)[order],
+        pressed,
+        None if teeth is None else teeth.peak,
+    )
+    if plan.block:
+        found.blocks = tuple(
+            _part(found, at, *each, order) for at, each in enumerate(pairwise(marks[: 1 + counted // plan.block]))
+        )
+    return found
+
+
+def _mark(record: RunRecord, state: ContactState) -> _Mark:
+    """Counts, energies and angles up to now."""
+    return record.counts.copy(), record.energy.copy(), state.angle.copy()
+
+
+def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark, order: Ints) -> SimulatedRun:
+    """One block of a run, between two marks."""
+    counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
+    plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
+    return replace(run, plan=plan, counts=counts, energy=energy, turned=turned[order], blocks=())
+
+
+def check_convergence(state: ContactState, record: RunRecord, step: float) -> None:
+    """Raise `QuestionError` where the steps of a run diverged."""
+    if record.numbers[DIVERGED]:
+        why = f"steps of {step:.3g} s are too long for what is stiff or heavy in this train: speeds grow without bound"
+        what = f"motion in time diverges after {state.clock[0]:.4g} s"
+        raise QuestionError(Problem(what, why, "give more `--steps`, or a shorter `step`", "--steps"))
+
+
+def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:
+    """How a model is stepped in a run of so many seconds, with what rounding leaves of its speeds."""
+    fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
+    fastest = fastest or 1.0
+    slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + fastest * duration) / plan.step)
+    rounds = _ROUNDS + 6 * (len(model.pairs) + len(model.stops) + len(model.bearings))
+    return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, rounds)
+
+
+def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
+    """All coordinates at 0, at the speeds the model starts with, or those of all front flanks in contact."""
+    n, pairs = len(model.torque), len(model.pairs)
+    place = {each: at for at, each in enumerate(model.order.coordinates)}
+    speed = np.zeros(n)
+    for each, value in model.given.items():
+        speed[place[each]] = value
+    ratio = np.zeros((pairs, 2))
+    for m in range(pairs):
+        for side in range(2):
+            _, ratio[m, side] = value_and_slope(model.laws, int(system.tables[m, side]), float(system.start_driver[m]))
+    for d, m in enumerate(model.order.owner):
+        if m >= 0 and model.given:
+            row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
+            lead = system.pair_driven[row.start - 1] - ratio[m, 0] * system.pair_driver[row.start - 1]
+            others = speed[system.pair_of[row]]
+            speed[d] = (ratio[m, 0] * system.pair_driver[row] - system.pair_driven[row]) @ others / lead
+    if model.start is not None:
+        speed = np.array([model.start[each] for each in model.order.coordinates], dtype=np.float64)
+    touching = np.full(pairs, FRONT, dtype=np.int64)
+    turning = np.zeros(len(model.bearings), dtype=np.int64)
+    return ContactState(
+        np.zeros(2),
+        np.zeros(n),
+        speed,
+        touching,
+        turning,
+        np.zeros(len(model.stops), dtype=np.int64),
+        ratio,
+        np.zeros(pairs + len(model.stops), dtype=np.int64),
+        np.zeros(pairs),
+        np.zeros(pairs, dtype=np.int64),
+        np.zeros((len(model.stops), 2)),
+    )
+
+
+def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
+    """Room for what a run leaves of coordinates, and of pairs and stops: so many samples and impacts."""
+    return RunRecord(
+        np.zeros(ENERGIES),
+        np.zeros((rows, COUNTS)),
+        np.zeros((samples, n)),
+        np.zeros((samples, n)),
+        np.zeros((samples, rows)),
+        np.zeros((samples, n)),
+        np.zeros((impacts, IMPACT_COLUMNS)),
+        np.zeros(DIVERGED + 1, dtype=np.int64),
+    )
+
+
+def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
+    """Room for one step."""
+    return StepEquations(
+        np.zeros(n),
+        np.zeros((pairs, 2)),
+        np.zeros(stops),
+        np.zeros((pairs, 2)),
+        np.zeros((pairs, 2)),
+        np.zeros((n, n)),
+        np.zeros(n),
+        np.zeros(near),
+        np.zeros(near),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(pairs + stops),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros((pairs, 2)),
+        np.zeros((pairs, 2)),
+        np.zeros(stops),
+        np.zeros(pairs + stops, dtype=np.int64),
+    )
+
+
+def _teeth(model: ContactModel, yields: ToothYield | None) -> YieldingTeeth | None:
+    if yields is None:
+        return None
+    pairs = len(model.pairs)
+    return YieldingTeeth(
+        yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2))
+    )
+
+
+def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: ToothYield) -> ContactSystem:
+    """The arrays for the midpoint rule: no pair determines a coordinate, each is a row that yields."""
+    springs = system.matrix - system.mass - step * system.viscous  # step^2 K
+    return system._replace(
+        matrix=system.mass + step / 2 * system.viscous + springs / 4,
+        owner=np.full(len(model.torque), -1, dtype=np.int64),
+        stiff=step**2 / 4 * yields.stiffness + step / 2 * yields.damping,
+    )
+
+
+def _stored(system: ContactSystem, laws: LawTables, state: ContactState, yields: ToothYield | None) -> float:
+    """Energy in teeth that yield and are pressed together (J)."""
+    if yields is None:
+        return 0.0
+    found = 0.0
+    for m, stiffness in enumerate(yields.stiffness):
+        row = slice(system.pair_at[m], system.pair_at[m + 1])
+        angle = state.angle[system.pair_of[row]]
+        S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
+        q = float(system.start_driven[m] + system.pair_driven[row] @ angle)
+        gaps = [(1 - 2 * side) * (q - value_and_slope(laws, int(system.tables[m, side]), S)[0]) for side in range(2)]
+        touches = [state.touching[m] == side + 1 for side in range(2)]
+        pressed = (
+            gaps[:1] if system.two_sided[m] else [min(gap, 0.0) * on for gap, on in zip(gaps, touches, strict=True)]
+        )
+        found += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
+    return found
+
+
+def _kinetic(system: ContactSystem, state: ContactState) -> float:
+    return float(state.speed @ system.mass @ state.speed / 2)

@@ -1,0 +1,231 @@
+"""What one step adds to the account of a run: energies, shares of time apart, blows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.kernels import kernel
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.law_tables import LawTables
+from geartrain.simulation.steps.contact_solution import StepEquations, StepRules
+from geartrain.simulation.steps.run_record import (
+    BEARINGS,
+    BLOW_COUNT,
+    BLOW_ENERGY,
+    BLOW_SPEED,
+    BLOWS,
+    CHANGES,
+    FRICTION,
+    GAP,
+    IMPACTS,
+    IMPULSE,
+    OPEN,
+    RUBBED,
+    STEP,
+    TIME_APART,
+    TIME_COAST,
+    VISCOUS,
+    WORK_DRIVE,
+    WORK_SPRING,
+    WORK_TORQUE,
+    ContactState,
+    RunRecord,
+)
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+_ROUNDING = 1e-9  # of the speeds of a pair: flanks that close no faster do not strike
+
+
+@kernel
+def count_energy(
+    system: ContactSystem,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+    speed: Floats,
+    share: float,
+) -> None:
+    """Work of drives, torques and springs, losses by drag: each impulse times the mean speed of its step.
+
+    speed   of which drag and springs know; `share`, the part of the step after which springs are asked
+    """
+    for d in range(len(here.middle)):
+        record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]
+        record.energy[WORK_TORQUE] += rules.step * system.torque[d] * here.middle[d]
+        record.energy[VISCOUS] += rules.step * system.viscous[d, d] * speed[d] * here.middle[d]
+        for x in range(system.near_at[d], system.near_at[d + 1]):
+            o = system.near[x]
+            across = speed[d] * here.middle[o] + speed[o] * here.middle[d]
+            record.energy[VISCOUS] += rules.step * system.viscous[d, o] * across
+    for m in range(len(system.spring_stiffness)):
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + share * rules.step)
+        rate = 0.0
+        for x in range(system.spring_at[m], system.spring_at[m + 1]):
+            o = system.spring_of[x]
+            pull -= system.spring_c[x] * (state.angle[o] + share * rules.step * speed[o])
+            rate += system.spring_c[x] * here.middle[o]
+        record.energy[WORK_SPRING] += rules.step * system.spring_stiffness[m] * pull * rate
+    for m in range(len(system.sliding)):
+        rate, end = 0.0, 0.0
+        for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
+            rate += system.bearing_c[x] * here.middle[system.bearing_of[x]]
+            end += system.bearing_c[x] * here.v[system.bearing_of[x]]
+        torque = system.sliding[m] * state.turning[m]
+        if state.turning[m] == 0:
+            torque = system.sticking[m] * end / rules.creep
+        record.energy[BEARINGS] += rules.step * torque * rate
+
+
+@kernel
+def count_contacts(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+) -> None:
+    """Shares of time, blows with their energy, and what friction takes, by pair."""
+    for m in range(len(system.stiff)):
+        rate_S, rate_q, mean_S, mean_q = 0.0, 0.0, 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            rate_S += system.pair_driver[x] * here.v[o]
+            rate_q += system.pair_driven[x] * here.v[o]
+            mean_S += system.pair_driver[x] * here.middle[o]
+            mean_q += system.pair_driven[x] * here.middle[o]
+        counts = record.counts[m]
+        if system.two_sided[m] == 0:
+            ahead = rules.step * (rate_q - here.ratio[m, 0] * rate_S - here.gap[m, 0])
+            behind = rules.step * (here.ratio[m, 1] * rate_S - rate_q - here.gap[m, 1])
+            count_gap(counts, ahead, behind, find_flight(state.touching, here, m))
+        now = state.touching[m]
+        if now == 0:
+            state.steady[m] = 0.0
+            state.struck[m] = 0
+            continue
+        side = now - 1
+        sign = 1.0 - 2.0 * side
+        taken = -here.P[m] * sign * (mean_q - here.ratio[m, side] * mean_S)
+        rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
+        record.energy[FRICTION] += rubbed
+        counts[RUBBED] += rubbed
+        counts[IMPULSE] += here.P[m] * sign
+        if now != here.before[m] and here.before[m] != 0:
+            counts[CHANGES] += 1.0
+        struck = now != here.before[m] or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)
+        least = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
+        if struck and system.two_sided[m] == 0 and here.closing[m, side] > least:
+            state.struck[m] = 1
+            count_blow(record, m, taken, here.P[m], state.steady[m])
+            counts[BLOW_COUNT] += 1.0
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.closing[m, side])
+            note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
+        elif state.struck[m] != 0:
+            # a ratio that jumps within a step is met by the mean of both, and the rest follows in the next
+            state.struck[m] = 0
+            count_blow(record, m, taken, here.P[m], state.steady[m])
+        else:
+            record.energy[STEP] += taken
+            state.steady[m] = abs(here.P[m])
+
+
+@kernel
+def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> None:
+    """Time apart and on the coast flank, and the greatest gap, from both gaps of a pair (rad).
+
+    flight   share of the step in which no flank touches
+    """
+    counts[TIME_APART] += flight
+    if behind < ahead:
+        counts[TIME_COAST] += 1.0 - flight
+    counts[GAP] = max(counts[GAP], min(ahead, behind))
+
+
+@kernel
+def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
+    """Share of the step in which no flank of a pair touches: of one that is met and kept, up to where it is met."""
+    if touching[m] == OPEN:
+        return 1.0
+    side = touching[m] - 1
+    if here.before[m] != OPEN or here.closing[m, side] <= 0.0:
+        return 0.0
+    if here.bound[m, side] > here.gap[m, side]:
+        return 1.0  # it bounces, and is apart before and after
+    return float(min(max(-here.gap[m, side] / here.closing[m, side], 0.0), 1.0))
+
+
+@kernel
+def count_blow(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
+    """Part what a contact takes in a step between the blow and the steady force beside it."""
+    share = (impulse - steady) / impulse if impulse > steady else 0.0
+    record.energy[BLOWS] += taken * share
+    record.energy[STEP] += taken * (1.0 - share)
+    record.counts[m, BLOW_ENERGY] += taken * share
+
+
+@kernel
+def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side: int) -> bool:
+    """Whether the speed ratio of a flank has passed a jump of its law since the last step.
+
+    now, before   ratios of all pairs; few arrays, for calls with many are slow
+    """
+    return bool(abs(now[m, side] - before[m, side]) > jump[tables[m, side]] / 2)
+
+
+@kernel
+def count_stops(
+    system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, step: float
+) -> None:
+    """Blows of links against their stops."""
+    pairs = len(system.stiff)
+    for m in range(len(system.stop_stiff)):
+        if state.stopped[m] == 0:
+            state.struck[pairs + m] = 0
+            continue
+        rate, start = 0.0, 0.0
+        for x in range(system.stop_at[m], system.stop_at[m + 1]):
+            rate += system.stop_c[x] * here.middle[system.stop_of[x]]
+            start += system.stop_c[x] * state.speed[system.stop_of[x]]
+        taken = here.P[pairs + m] * rate
+        counts = record.counts[pairs + m]
+        counts[IMPULSE] += here.P[pairs + m]
+        if state.struck[pairs + m] != 0:
+            state.struck[pairs + m] = 0
+            record.energy[BLOWS] += taken
+            counts[BLOW_ENERGY] += taken
+        elif here.before[pairs + m] == 0 and start > 0.0:
+            # it comes to its stop in this step, and to rest in the next
+            state.struck[pairs + m] = 1
+            record.energy[BLOWS] += taken
+            counts[BLOW_COUNT] += 1.0
+            counts[BLOW_ENERGY] += taken
+            closing = here.stop_closing[m]
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], closing)
+            note_impact(record, state.clock[0], pairs + m, closing, taken, here.P[pairs + m])
+        else:
+            # a stop that moves on and is met again within one step: all that it takes is of that blow
+            # (its closing speed is that of the step at least)
+            record.energy[BLOWS] += taken
+            counts[BLOW_ENERGY] += taken
+            if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
+                counts[BLOW_COUNT] += 1.0
+                counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.stop_bound[m])
+                note_impact(record, state.clock[0], pairs + m, here.stop_bound[m], taken, here.P[pairs + m])
+
+
+@kernel
+def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
+    """Write an impact down, as long as there is room."""
+    at = record.numbers[IMPACTS]
+    if at < len(record.impacts):
+        row = record.impacts[at]
+        row[0] = time
+        row[1] = which
+        row[2] = speed
+        row[3] = energy
+        row[4] = impulse
+    record.numbers[IMPACTS] = at + 1

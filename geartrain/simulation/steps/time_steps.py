@@ -1,0 +1,336 @@
+"""Nonsmooth time stepping after Moreau and Jean: one kernel that runs a train through many steps of one length.
+
+Contact is held at the level of positions for what does not bounce, docs/dynamics.md (12): with S* = S + h dS/dt and
+F*, tau* there,
+
+    dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
+
+so that gaps do not drift. Which contacts touch and which bearings stick is found by turning wrong guesses round, all at
+once and, should that not settle, least index first, from the guess of the step before.
+
+A train at rest takes steps that would all be alike at once, up to the next beat of an escapement: between two beats a
+clock stands most of the time, its stop holds, bearings stick, and torques do not change. A step that starts and ends
+without speed, and for which no guess was turned round, is followed by the same step again.
+"""
+
+from __future__ import annotations
+
+from math import floor, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.numerics.kernels import kernel
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
+from geartrain.simulation.steps.contact_solution import StepEquations, StepRules, solve_guess
+from geartrain.simulation.steps.guess_correction import AT_ONCE, correct_guess
+from geartrain.simulation.steps.run_record import (
+    BACK,
+    DIVERGED,
+    IMPULSE,
+    OPEN,
+    PIVOTS,
+    SAMPLES,
+    STEPS,
+    TIME_APART,
+    TIME_COAST,
+    UNSOLVED,
+    ContactState,
+    RunRecord,
+)
+from geartrain.simulation.steps.step_account import count_contacts, count_energy, count_stops, leaps
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+
+FARTHEST = 1000.0  # rad in a step: beyond, it is no motion but an error that grows
+_SHORT = 2  # steps apart after which flanks stay in contact at any restitution
+_AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
+_NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
+_JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before
+
+
+@kernel
+def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
+    """Whether nothing moves, neither before a step nor after it.
+
+    still   speed that is none (rad/s)
+    """
+    fastest = 0.0
+    for d in range(len(after)):
+        fastest = max(fastest, abs(after[d]), abs(before[d]))
+        if fastest > still:
+            break
+    return fastest <= still
+
+
+@kernel
+def find_idle_steps(system: ContactSystem, state: ContactState, rules: StepRules, most: int) -> int:
+    """How many steps, at most so many, a train at rest has before what acts on it changes."""
+    for m in range(len(system.spring_rate)):
+        if system.spring_rate[m] != 0.0:
+            return 0
+    idle = most
+    for m in range(len(system.stop_beat)):
+        beats = floor((state.clock[0] + rules.step / 2) / system.stop_beat[m])
+        # one step less, whatever rounding does to the moment of the beat
+        idle = min(idle, floor((beats + 1) * system.stop_beat[m] / rules.step - state.clock[1] - 1.5))
+    return max(idle, 0)
+
+
+@kernel
+def repeat_counts(counts: Floats, before: Floats, times: int) -> None:
+    """Count the last step so many times more, of all contacts.
+
+    before   counts before that step
+    """
+    for m in range(len(counts)):
+        for column in (TIME_APART, TIME_COAST, IMPULSE):
+            counts[m, column] += times * (counts[m, column] - before[m, column])
+
+
+@kernel
+def run_steps(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+    steps: int,
+    counted: bool,
+) -> None:
+    """Go so many steps on; energies, shares and impacts are counted if they are to be, samples always."""
+    since, done, idle = 0, 0, 0
+    still = rules.creep + rules.slack
+    before = np.zeros_like(record.counts)
+    while done < steps:
+        if idle > 1:
+            before[:, :] = record.counts
+        rounds = solve_step(system, laws, state, here, rules)
+        if diverges(here.v, rules.step):
+            record.numbers[DIVERGED] = 1
+            break
+        rests = rounds == 1 and is_at_rest(state.speed, here.v, still)
+        times = idle if rests and idle > 1 else 1
+        if rounds > rules.rounds:
+            record.numbers[UNSOLVED] += 1
+        for d in range(len(here.v)):
+            here.middle[d] = (state.speed[d] + here.v[d]) / 2
+        if counted:
+            record.numbers[PIVOTS] += rounds - 1
+            record.numbers[STEPS] += times
+            count_energy(system, state, here, record, rules, here.v, 1.0)
+            count_contacts(system, laws, state, here, record, rules)
+            if len(system.stop_stiff) > 0:
+                count_stops(system, state, here, record, rules.step)
+            if times > 1:
+                repeat_counts(record.counts, before, times - 1)
+        for m in range(len(system.stiff)):
+            state.ratio[m, 0] = here.ratio[m, 0]
+            state.ratio[m, 1] = here.ratio[m, 1]
+            state.flown[m] = 0 if state.touching[m] != OPEN else state.flown[m] + times
+        for d in range(len(here.v)):
+            state.speed[d] = here.v[d]
+            state.angle[d] += rules.step * here.v[d]
+        state.clock[1] += times
+        state.clock[0] = state.clock[1] * rules.step
+        done += times
+        idle = find_idle_steps(system, state, rules, steps - done) if rests else 0
+        while times > 0 and record.numbers[SAMPLES] < len(record.angles):
+            part = min(times, rules.stride - since)
+            times -= part
+            since += part
+            sample = record.numbers[SAMPLES]
+            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample, part)
+            if since == rules.stride:
+                end_sample(state, record, rules.stride * rules.step)
+                since = 0
+
+
+@kernel
+def diverges(speed: Floats, step: float) -> bool:
+    """Whether a link turns so far in one step, or by no number, that nothing is followed any more."""
+    near = True
+    for each in speed:
+        near = near and abs(each) * step < FARTHEST
+    return not near
+
+
+@kernel
+def solve_step(
+    system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, rules: StepRules
+) -> int:
+    """Speeds at the end of a step, and how many guesses they took."""
+    find_loads(system, state, here, rules.step)
+    for d in range(len(here.v)):
+        here.ahead[d] = state.speed[d]
+    find_bounds(system, laws, state, here, rules.step)
+    if len(system.stop_stiff) > 0:
+        find_stop_bounds(system, state, here, rules.step)
+    pairs = len(system.stiff)
+    for m in range(pairs):
+        here.before[m] = state.touching[m]
+    for m in range(len(system.stop_stiff)):
+        here.before[pairs + m] = state.stopped[m]
+    rounds, again = 0, 0
+    while True:
+        solve_guess(system, state, here, rules.step, rules.creep)
+        rounds += 1
+        if rounds > rules.rounds:
+            return rounds
+        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) > 0:
+            continue
+        if again == _AGAIN:
+            return rounds
+        struck = is_struck(state.touching, here.before, laws.jump, system.tables, here.ratio, state.ratio)
+        if find_shift(system, here, 0.0 if struck else _JOLT) * rules.step < _NEAR:
+            return rounds
+        again += 1
+        for d in range(len(here.v)):
+            here.ahead[d] = here.v[d]
+        find_bounds(system, laws, state, here, rules.step)
+
+
+@kernel
+def add_to_sample(
+    forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int, times: int
+) -> None:
+    """Add impulses of so many like steps to those of their sample; few arrays, for calls with many are slow."""
+    for m in range(len(P)):
+        forces[sample, m] += times * (P[m] if m >= len(touching) or touching[m] != BACK else -P[m])
+    for d in range(len(kept)):
+        drive[sample, d] += times * kept[d]
+
+
+@kernel
+def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
+    """Write down where the train is, and make means of impulses over the time of the sample (s)."""
+    sample = record.numbers[SAMPLES]
+    record.angles[sample, :] = state.angle
+    record.speeds[sample, :] = state.speed
+    record.forces[sample, :] /= time
+    record.drive[sample, :] /= time
+    record.numbers[SAMPLES] = sample + 1
+
+
+@kernel
+def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
+    """Momentum, and impulses of torques and springs."""
+    n = len(here.v)
+    for d in range(n):
+        here.load[d] = step * system.torque[d] + system.mass[d, d] * state.speed[d]
+        for x in range(system.near_at[d], system.near_at[d + 1]):
+            o = system.near[x]
+            here.load[d] += system.mass[d, o] * state.speed[o]
+            here.load[o] += system.mass[o, d] * state.speed[d]
+    for m in range(len(system.spring_stiffness)):
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step)
+        for x in range(system.spring_at[m], system.spring_at[m + 1]):
+            pull -= system.spring_c[x] * state.angle[system.spring_of[x]]
+        for x in range(system.spring_at[m], system.spring_at[m + 1]):
+            here.load[system.spring_of[x]] += step * system.spring_stiffness[m] * pull * system.spring_c[x]
+
+
+@kernel
+def find_bounds(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    step: float,
+) -> None:
+    """Speed ratios, arms and bounds k of both flanks where the speeds ahead lead, and closing speeds before."""
+    for m in range(len(system.stiff)):
+        S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            S += system.pair_driver[x] * state.angle[o]
+            q += system.pair_driven[x] * state.angle[o]
+            dS += system.pair_driver[x] * state.speed[o]
+            dq += system.pair_driven[x] * state.speed[o]
+            on += system.pair_driver[x] * here.ahead[o]
+        at = S + step * on
+        way = 0 if dS >= 0 else 1
+        for side in range(2):
+            if state.touching[m] == 2 - side and system.two_sided[m] == 0:
+                # a play away from the flank that touches: nothing of it is asked before that one is left
+                here.bound[m, side] = -np.inf
+                here.gap[m, side] = -np.inf
+                continue
+            sign = 1.0 - 2.0 * side
+            angle, ratio = value_and_slope(laws, system.tables[m, side], at)
+            lack = sign * ((angle - q) / step - ratio * on)
+            rate = sign * (dq - ratio * dS)
+            here.gap[m, side] = lack
+            here.closing[m, side] = -rate
+            here.ratio[m, side] = ratio
+            bounce = -system.restitution[m] * rate
+            # without restitution the position alone counts: a jump of the ratio within the step is no flight. Bounces
+            # follow each other ever faster, and those as short as steps end in contact
+            bounces = bounce > 0.0 and rate < lack < bounce
+            long = state.flown[m] > _SHORT
+            if bounces and (long or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)):
+                lack = bounce
+            here.bound[m, side] = lack
+            here.arm[m, side] = ratio
+            if system.rubbing[m, 2 * side + way] >= 0:
+                more, _ = value_and_slope(laws, system.rubbing[m, 2 * side + way], at)
+                here.arm[m, side] += more
+
+
+@kernel
+def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
+    """Whether a flank has come to touch in this step, or the ratio of one that touches has jumped since the last."""
+    for m in range(len(touching)):
+        now = touching[m]
+        if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
+            return True
+    return False
+
+
+@kernel
+def find_shift(system: ContactSystem, here: StepEquations, least: float) -> float:
+    """How far the speeds of drivers are from those for which the laws were read (rad/s).
+
+    least   share of its own speed from which that of a driver counts
+    """
+    most = 0.0
+    for m in range(len(system.stiff)):
+        shift, speed = 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            shift += system.pair_driver[x] * (here.v[o] - here.ahead[o])
+            speed += system.pair_driver[x] * here.ahead[o]
+        if abs(shift) > least * abs(speed):
+            most = max(most, abs(shift))
+    return most
+
+
+@kernel
+def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
+    """How fast each stopped link may go: to its stop, or back from it."""
+    for m in range(len(system.stop_stiff)):
+        beats = floor((state.clock[0] + step / 2) / system.stop_beat[m])
+        room = system.stop_first[m] + (1.0 + beats) * system.stop_pitch[m]
+        rate = 0.0
+        for x in range(system.stop_at[m], system.stop_at[m + 1]):
+            room -= system.stop_c[x] * state.angle[system.stop_of[x]]
+            rate += system.stop_c[x] * state.speed[system.stop_of[x]]
+        here.stop_bound[m] = room / step
+        if state.stopped[m] != 0:
+            # met at its place in the step before, by the speed found there, and left in this one
+            back = system.stop_restitution[m] * here.stop_closing[m]
+            if back > 0.0:
+                here.stop_bound[m] = min(room / step, -back)
+            here.stop_closing[m] = 0.0
+            state.stop_rate[m, 1] = rate
+        else:
+            # an even acceleration gives v0^2 at the stop that was left at v0, in one step without it: in these steps
+            # v0^2 = v^2 + a (h v + h v0 + 2 room)
+            gain = rate - state.stop_rate[m, 0]
+            square = rate * rate + gain * (rate + state.stop_rate[m, 1] + 2.0 * room / step)
+            here.stop_closing[m] = sqrt(max(square, 0.0)) if rate > 0.0 else 0.0
+        state.stop_rate[m, 0] = rate

@@ -1,0 +1,274 @@
+"""Teeth that yield: the implicit midpoint rule for contacts with a stiffness and a damping.
+
+docs/dynamics.md (15) and (18):
+
+    P = h max(0, -k g - c dg/dt)   where g < 0,
+
+gap and closing speed in the middle of the step. Both are linear in the speeds at its end, the law taken where the step
+before leads; so a pair that touches is a row with the compliance 1/s, s = h^2 k/4 + h c/2, of the equations that rigid
+contacts are solved by. The rule is of second order and takes no energy of what swings.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.numerics.kernels import kernel
+from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
+from geartrain.simulation.steps.contact_solution import StepEquations, StepRules, solve_guess
+from geartrain.simulation.steps.guess_correction import AT_ONCE, correct_guess
+from geartrain.simulation.steps.run_record import (
+    BLOW_COUNT,
+    BLOW_ENERGY,
+    BLOW_SPEED,
+    BLOWS,
+    CHANGES,
+    DIVERGED,
+    FRICTION,
+    IMPACTS,
+    IMPULSE,
+    OPEN,
+    PIVOTS,
+    RUBBED,
+    SAMPLES,
+    STEP,
+    STEPS,
+    UNSOLVED,
+    ContactState,
+    RunRecord,
+)
+from geartrain.simulation.steps.step_account import count_energy, count_gap, note_impact
+from geartrain.simulation.steps.time_steps import add_to_sample, diverges, end_sample
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+
+class YieldingTeeth(NamedTuple):
+    """What teeth that yield need beside their contacts, by pair; torques are those on driven sides.
+
+    stiffness, damping   N m/rad, N m s/rad
+    peak                 greatest contact torque of what is counted (N m): changed by the kernel
+    impact               the impact that each pair has last begun, -1 none: changed by the kernel
+    gap                  of both flanks in the middle of a step (rad), but for what its change of speeds adds: room
+    """
+
+    stiffness: Floats
+    damping: Floats
+    peak: Floats
+    impact: Ints
+    gap: Floats
+
+
+@kernel
+def run_yielding_steps(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+    teeth: YieldingTeeth,
+    steps: int,
+    counted: bool,
+) -> None:
+    """Go so many steps on; arguments as of `run_steps`."""
+    since = 0
+    for _ in range(steps):
+        rounds = solve_midpoint_step(system, laws, state, here, rules, teeth)
+        if diverges(here.v, rules.step):
+            record.numbers[DIVERGED] = 1
+            break
+        if rounds > rules.rounds:
+            record.numbers[UNSOLVED] += 1
+        for d in range(len(here.v)):
+            here.middle[d] = (state.speed[d] + here.v[d]) / 2
+        if counted:
+            record.numbers[PIVOTS] += rounds - 1
+            record.numbers[STEPS] += 1
+            count_energy(system, state, here, record, rules, here.middle, 0.5)
+            count_yielding(system, state, here, record, rules, teeth)
+        for d in range(len(here.v)):
+            state.speed[d] = here.v[d]
+            state.angle[d] += rules.step * here.middle[d]
+        state.clock[1] += 1.0
+        state.clock[0] = state.clock[1] * rules.step
+        if record.numbers[SAMPLES] < len(record.angles):
+            since += 1
+            sample = record.numbers[SAMPLES]
+            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample, 1)
+            if since == rules.stride:
+                end_sample(state, record, rules.stride * rules.step)
+                since = 0
+
+
+@kernel
+def solve_midpoint_step(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    rules: StepRules,
+    teeth: YieldingTeeth,
+) -> int:
+    """Speeds at the end of a step, and how many guesses they took."""
+    find_midpoint_loads(system, state, here, rules.step)
+    for m in range(len(system.stiff)):
+        here.before[m] = state.touching[m]
+    find_midpoint_bounds(system, laws, state, here, teeth, rules.step)
+    rounds = 0
+    while True:
+        solve_guess(system, state, here, rules.step, rules.creep)
+        rounds += 1
+        if rounds > rules.rounds:
+            return rounds
+        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) == 0:
+            return rounds
+
+
+@kernel
+def find_midpoint_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
+    """Momentum, and impulses of torques, springs and drag as far as they are known before the step."""
+    n = len(here.v)
+    for d in range(n):
+        here.load[d] = step * system.torque[d] + (system.mass[d, d] - step / 2 * system.viscous[d, d]) * state.speed[d]
+        for x in range(system.near_at[d], system.near_at[d + 1]):
+            o = system.near[x]
+            here.load[d] += (system.mass[d, o] - step / 2 * system.viscous[d, o]) * state.speed[o]
+            here.load[o] += (system.mass[o, d] - step / 2 * system.viscous[o, d]) * state.speed[d]
+    for m in range(len(system.spring_stiffness)):
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step / 2)
+        for x in range(system.spring_at[m], system.spring_at[m + 1]):
+            o = system.spring_of[x]
+            pull -= system.spring_c[x] * (state.angle[o] + step / 4 * state.speed[o])
+        for x in range(system.spring_at[m], system.spring_at[m + 1]):
+            here.load[system.spring_of[x]] += step * system.spring_stiffness[m] * pull * system.spring_c[x]
+
+
+@kernel
+def find_midpoint_bounds(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    teeth: YieldingTeeth,
+    step: float,
+) -> None:
+    """Speed ratios, arms and gaps in the middle of the step, and the speeds of rows at which P would vanish."""
+    for m in range(len(system.stiff)):
+        S, q, dS, dq = system.start_driver[m], system.start_driven[m], 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            S += system.pair_driver[x] * state.angle[o]
+            q += system.pair_driven[x] * state.angle[o]
+            dS += system.pair_driver[x] * state.speed[o]
+            dq += system.pair_driven[x] * state.speed[o]
+        at = S + step / 2 * dS
+        way = 0 if dS >= 0 else 1
+        stiff, damped = step * teeth.stiffness[m], step * teeth.damping[m]
+        for side in range(2):
+            sign = 1.0 - 2.0 * side
+            angle, ratio = value_and_slope(laws, system.tables[m, side], at)
+            rate = sign * (dq - ratio * dS)
+            here.ratio[m, side] = ratio
+            here.arm[m, side] = ratio
+            if system.rubbing[m, 2 * side + way] >= 0:
+                more, _ = value_and_slope(laws, system.rubbing[m, 2 * side + way], at)
+                here.arm[m, side] += more
+            # with the row's speed r at the start and r+ at the end the gap is  gap + h/4 r+,  and P = s (bound - r+)
+            teeth.gap[m, side] = sign * (q + step / 2 * dq - angle) - step / 4 * rate
+            here.bound[m, side] = -(stiff * teeth.gap[m, side] + damped / 2 * rate) / system.stiff[m]
+            if system.two_sided[m] == 0 and teeth.gap[m, side] + step / 4 * rate >= 0.0:
+                # flanks that are apart do not damp
+                here.bound[m, side] = -np.inf
+                if state.touching[m] == side + 1:
+                    state.touching[m] = 0
+
+
+@kernel
+def count_yielding(
+    system: ContactSystem,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+    teeth: YieldingTeeth,
+) -> None:
+    """Shares of time, what damping and friction take, impacts and peaks, by pair.
+
+    What a contact takes less its damping stays in the column of steps, from which the energy stored is to be taken.
+    """
+    for m in range(len(system.stiff)):
+        rate_S, rate_q, mean_S, mean_q, start_S, start_q = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            rate_S += system.pair_driver[x] * here.v[o]
+            rate_q += system.pair_driven[x] * here.v[o]
+            mean_S += system.pair_driver[x] * here.middle[o]
+            mean_q += system.pair_driven[x] * here.middle[o]
+            start_S += system.pair_driver[x] * state.speed[o]
+            start_q += system.pair_driven[x] * state.speed[o]
+        counts = record.counts[m]
+        if system.two_sided[m] == 0:
+            ahead = teeth.gap[m, 0] + rules.step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
+            behind = teeth.gap[m, 1] + rules.step / 4 * (here.ratio[m, 1] * rate_S - rate_q)
+            count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
+            for side in range(2):
+                opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
+                count_straightened(state, here, record, teeth, m, side, rules.step / 4 * opening)
+        now = state.touching[m]
+        if now == 0:
+            teeth.impact[m] = -1
+            continue
+        side = now - 1
+        sign = 1.0 - 2.0 * side
+        rate = mean_q - here.ratio[m, side] * mean_S
+        damped = rules.step * teeth.damping[m] * rate * rate
+        rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
+        record.energy[FRICTION] += rubbed
+        record.energy[BLOWS] += damped
+        record.energy[STEP] += -here.P[m] * sign * rate - damped
+        counts[RUBBED] += rubbed
+        counts[BLOW_ENERGY] += damped
+        counts[IMPULSE] += here.P[m] * sign
+        teeth.peak[m] = max(teeth.peak[m], abs(here.P[m]) / rules.step)
+        if now != here.before[m] and system.two_sided[m] == 0:
+            if here.before[m] != 0:
+                counts[CHANGES] += 1.0
+            counts[BLOW_COUNT] += 1.0
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], -sign * rate)
+            # where flanks meet, damping alone pushes: within the first step that falls off again
+            met = sign * (here.ratio[m, side] * start_S - start_q)
+            teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
+            teeth.impact[m] = record.numbers[IMPACTS]
+            note_impact(record, state.clock[0] + rules.step / 2, m, -sign * rate, 0.0, 0.0)
+        if 0 <= teeth.impact[m] < len(record.impacts):
+            # an impact lasts until its teeth part
+            record.impacts[teeth.impact[m], 3] += damped
+            record.impacts[teeth.impact[m], 4] += here.P[m]
+
+
+@kernel
+def count_straightened(
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    teeth: YieldingTeeth,
+    m: int,
+    side: int,
+    opened: float,
+) -> None:
+    """What teeth still hold that part before they are straight again: they straighten against their own damping.
+
+    opened   what the middle of the step has of gap beyond its start, at the speeds of the start (rad)
+    """
+    parted = (1 if here.before[m] == side + 1 else 0) - (1 if state.touching[m] == side + 1 else 0)
+    if parted != 0:
+        pressed = min(teeth.gap[m, side] - opened, 0.0)
+        left = parted * teeth.stiffness[m] / 2 * pressed * pressed
+        record.energy[BLOWS] += left
+        record.energy[STEP] -= left
+        record.counts[m, BLOW_ENERGY] += left

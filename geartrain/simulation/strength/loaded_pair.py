@@ -1,0 +1,331 @@
+"""The strength of one gear pair under its torque: what stands in the declaration, put into the formulas of `teeth`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan, cos, pi, sin, tan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import RangeError
+from geartrain.simulation.strength.formulas.archard_wear import deepest_passage, loss_over_friction
+from geartrain.simulation.strength.formulas.contact_pressure import (
+    ContactLoad,
+    ContactPlace,
+    Elasticity,
+    elasticity_factor,
+)
+from geartrain.simulation.strength.formulas.iso_6336 import (
+    IsoContact,
+    IsoRoot,
+    RackPair,
+    RackWheel,
+    ToothLean,
+    contact_stress,
+    helical_root_stress,
+    outer_single_contact,
+    root_stress,
+)
+from geartrain.simulation.strength.formulas.leaning_contact import LeaningLoad, base_helix_angle
+from geartrain.simulation.strength.formulas.root_section import RootSection, ToothLoad, ToothSide
+from geartrain.simulation.strength.strength_results import FlankWear, PairStrength, WearRange, WheelStrength
+from geartrain.teeth.involute import Involute
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.wheel_teeth import WheelTeeth
+    from geartrain.simulation.strength.virtual_spurs import VirtualSpurs
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.wheel_requirement import CutTooth
+    from geartrain.train import Material
+
+_MPA = 1e6
+_MM = 1e3
+_POSITIONS = 401
+
+
+@dataclass(frozen=True)
+class WheelUnderLoad:
+    """One wheel of a pair.
+
+    gear      1 or 2, as the law of the pair calls it
+    z         its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it
+    torque    that counts [N m]; `turns` it makes as its carrier sees it, None where no time is given
+    """
+
+    name: str
+    gear: int
+    z: float
+    teeth: CutTooth | WheelTeeth
+    material_name: str
+    material: Material
+    torque: float
+    turns: float | None
+
+    @property
+    def elasticity(self) -> Elasticity:
+        """Of its material."""
+        return Elasticity(self.material.youngs_modulus.si / _MPA, float(self.material.poisson.value))
+
+    @cached_property
+    def side(self) -> ToothSide:
+        """Half of a tooth."""
+        return ToothSide.of(self.teeth.tooth, -1 if self.teeth.kind == "ring" else 1)
+
+
+@dataclass(frozen=True)
+class PairUnderLoad:
+    """A pair under load. Lengths in mm.
+
+    mesh      its teeth
+    wheels    both, as the pair names them
+    module, width   of it; the width is the narrower one
+    wear      least and greatest wear coefficient
+    spurs     of bevels: the spur pair that stands for them
+    swing     the torque that bends and presses over the mean one, which wears
+    remarks   what does not hold of its wheels
+    """
+
+    mesh: GearMesh
+    wheels: tuple[WheelUnderLoad, WheelUnderLoad]
+    module: float
+    width: float
+    wear: WearRange
+    spurs: VirtualSpurs | None = None
+    swing: float = 1.0
+    remarks: tuple[str, ...] = ()
+
+    def strength(self) -> PairStrength:
+        """All figures."""
+        places = self._places()
+        iso, roots = self._iso()
+        return PairStrength(
+            self.mesh.name,
+            self.mesh.form,
+            self.module,
+            self.width,
+            self.tangential,
+            self.factor,
+            places,
+            iso,
+            tuple(self._wheel(at, roots) for at in (0, 1)),
+            tuple(self._notes()),
+        )
+
+    # ---------------------------------------------------------------------------------------------------- the load
+
+    @property
+    def factor(self) -> float:
+        """ZE."""
+        return elasticity_factor(*(each.elasticity for each in self.wheels))
+
+    def _radius(self, at: int) -> float:
+        """Radius at which a wheel rolls on the other [mm]."""
+        path = self.path
+        if path is not None:
+            return abs(path.pitch.axle_of(self.wheels[at].gear)) * self.module
+        size = self.mesh.own_size
+        return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
+
+    def _flattened(self, at: int) -> float:
+        """Radii about its own axle over those about the axle of the spur wheel that stands for it."""
+        return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
+
+    @property
+    def tangential(self) -> float:
+        """Force along the pitch line [N]: of the wheel with more, for friction takes some of it on the way."""
+        arms = (self._radius(at) * self._flattened(at) for at in (0, 1))
+        return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
+
+    @property
+    def path(self) -> PathOfContact | None:
+        """The path of contact, where there is one."""
+        return self.mesh.path if self.spurs is None else self.spurs.pair.path
+
+    @cached_property
+    def load(self) -> ContactLoad | None:
+        """The load along that path."""
+        path = self.path
+        if path is None:
+            return None
+        torque = self.tangential * path.pitch.R1 * self.module
+        if self.lean.helix:
+            lean = self.lean.base, self.lean.overlap
+            return LeaningLoad(path, self.module, self.width, torque, self.factor, *lean)
+        return ContactLoad(path, self.module, self.width, torque, self.factor)
+
+    @cached_property
+    def lean(self) -> ToothLean:
+        """How helical teeth lie; of involutes on parallel axes."""
+        helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
+        if not helix or not isinstance(form, Involute):
+            return ToothLean()
+        normal = self.module * cos(helix)
+        return ToothLean(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
+
+    def _places(self) -> tuple[ContactPlace, ...]:
+        return () if self.load is None else self.load.places()
+
+    def _notes(self) -> Iterator[str]:
+        yield from self.remarks
+        if self.load is None:
+            yield "its form has no path of contact: no pressure by Hertz, and the load acts at the tip"
+        elif self.load.has_cusp:
+            yield "flanks have no radius at the pitch point: Hertz's pressure has no bound there until they wear"
+        if self.spurs is not None:
+            counts = " and ".join(f"{each.z:.4g}" for each in self.wheels)
+            yield f"its bevels are taken for spur wheels of {counts} teeth, with the module in the middle of the width"
+            if self.spurs.is_wide:
+                yield "its teeth are wider than a third of their cones, more than is usual: they bear unevenly"
+        elif self.mesh.form == "involute" and self._rack_pair() is None:
+            yield "ISO 6336 is worked out for external involutes with a contact ratio from 1 to 2"
+        if self.lean.helix:
+            yield (
+                "its teeth lean: the load lies evenly along the lines of contact where they are shortest, and bending "
+                "at the tip is that of the part of a tooth on which one line lies"
+            )
+
+    # ------------------------------------------------------------------------------------------------------- roots
+
+    def _wheel(self, at: int, roots: tuple[IsoRoot | None, IsoRoot | None] | None) -> WheelStrength:
+        own = self.wheels[at]
+        torque = self.tangential * self._radius(at)
+        bounded = self.load is not None and not self.load.has_cusp
+        pressure = self.load.single_pressure() if bounded and self.load is not None else None
+        strength = own.material.strength
+        tip, shared = self._bending(at, torque)
+        return WheelStrength(
+            wheel=own.name,
+            material=own.material_name,
+            torque=own.torque,
+            section=0.0 if tip is None else tip.x * self.module * self._flattened(at),
+            thickness=0.0 if tip is None else tip.thickness * self.module,
+            lewis=0.0 if tip is None else tip.lewis_factor(self._radius(at) / self.module),
+            tip_stress=self._pin_stress(own)
+            if tip is None
+            else tip.stress(torque, self.width, self.module) * self._leaning_part,
+            shared_stress=shared,
+            pressure=pressure,
+            strength=None if strength is None else strength.si / _MPA,
+            spread=None if strength is None else float(own.material.spread.value),
+            iso=None if roots is None else roots[at],
+            wear=self._wear(at),
+        )
+
+    @property
+    def _leaning_part(self) -> float:
+        """Bending of a helical tooth over that of a straight one with its transverse section, all load at one tip.
+
+        Each width bears its part of the lines of contact; across itself the tooth is thinner and its load the greater.
+        """
+        load = self.load
+        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, LeaningLoad) else 1.0
+
+    def _pin_stress(self, own: WheelUnderLoad) -> float:
+        from geartrain.simulation.strength.formulas.root_section import pin_stress
+
+        pins = own.teeth.pins
+        return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
+
+    def _tip_load(self, own: WheelUnderLoad) -> ToothLoad:
+        """The load at the end of the flank."""
+        path = self.path
+        if path is None:
+            return own.side.load_at_tip()
+        (_, tip), X = path.radii(own.gear), path.ends(own.gear)[1]
+        arm = abs(path.pitch.axle_of(own.gear)) * float(path.at(np.array([X])).cos_psi[0])
+        return own.side.load_at(tip, arm)
+
+    def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
+        """The section that is bent most with all at the tip, and the greatest stress [MPa] of all shared positions."""
+        own, load = self.wheels[at], self.load
+        if own.teeth.pins is not None:
+            return None, None
+        tip = own.side.weakest_section(self._tip_load(own))
+        if load is None or isinstance(load, LeaningLoad):
+            return tip, None
+        path = load.path
+        low, high = load.single()
+        outer = high if own.gear == 1 else low
+        worst = 0.0
+        for X in sorted({*np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS).tolist(), outer}):
+            # at the very border of single contact the stretch where one couple bears all counts
+            inside = min(max(X, low + 1e-7), high - 1e-7) if abs(X - outer) < 1e-9 else X
+            worst = max(worst, self._stress_at(own, load, inside))
+        return tip, worst
+
+    def _stress_at(self, own: WheelUnderLoad, load: ContactLoad, X: float) -> float:
+        place = np.array([X])
+        force = float(load.forces(place)[0][0])
+        (radius,), _ = load.path.pitch.polar(own.gear, load.path.flank(own.gear, place))
+        arm = abs(load.path.pitch.axle_of(own.gear)) * float(load.path.at(place).cos_psi[0])
+        section = own.side.weakest_section(own.side.load_at(float(radius), arm))
+        return section.stress(force * arm * self.module, self.width, self.module)
+
+    # ------------------------------------------------------------------------------------------------- ISO and wear
+
+    def _rack_pair(self) -> RackPair | None:
+        """Both wheels in the transverse section."""
+        form, load = self.mesh.tooth_form, self.load
+        if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
+            return None
+        path, flat = load.path, cos(self.lean.helix)
+        # as the pair names them; gears 1 and 2 of an external pair are in that order
+        wheels = [
+            RackWheel(
+                each.z,
+                float(form.shift[at].value) * flat,
+                each.z / 2 + (float(form.shift[at].value) + float(form.addendum[at].value)) * flat,
+                float(form.dedendum[at].value) * flat,
+            )
+            for at, each in enumerate(self.wheels)
+        ]
+        working = float(path.at(np.zeros(1)).psi[0])
+        angle = atan(tan(form.rack_angle) / flat)
+        try:
+            return RackPair(wheels[0], wheels[1], angle, working, path.contact_ratio, self.lean)
+        except RangeError:
+            return None
+
+    def _iso(self) -> tuple[IsoContact | None, tuple[IsoRoot | None, IsoRoot | None] | None]:
+        pair = self._rack_pair()
+        if pair is None:
+            return None, None
+        # the force of the standard is that at the reference circle
+        force = self.tangential * cos(pair.angle) / cos(pair.working)
+        roots = [self._iso_root(pair, at, force) for at in (0, 1)]
+        return contact_stress(pair, self.factor, force, self.width, self.module), (roots[0], roots[1])
+
+    def _iso_root(self, pair: RackPair, at: int, force: float) -> IsoRoot | None:
+        wheel, form = pair.wheel(at), self.mesh.tooth_form
+        if not self.lean.helix or not isinstance(form, Involute):
+            radius = outer_single_contact(wheel, pair.angle, pair.contact_ratio)
+            return root_stress(wheel, pair.angle, force, self.width, self.module, radius)
+        shift, addendum = float(form.shift[at].value), float(form.addendum[at].value)
+        across = RackWheel(wheel.z, shift, shift + addendum, float(form.dedendum[at].value))
+        normal = self.module * cos(self.lean.helix)
+        return helical_root_stress(across, form.rack_angle, pair, force, self.width, normal)
+
+    def _wear(self, at: int) -> FlankWear | None:
+        own = self.wheels[at]
+        hardness = own.material.hardness_pressure
+        if own.turns is None or hardness is None:
+            return None
+        loss = loss_over_friction(self.mesh)
+        if loss is None:
+            return None
+        slid = abs(own.torque) / self.swing * 2 * pi * own.turns * loss * _MM  # N mm
+        per = slid / (hardness / _MPA)  # mm3 for K = 1
+        flank = self.mesh.wheels.counts[at] * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
+        deep = None
+        if self.load is not None and not self.lean.helix:
+            deep = deepest_passage(self.load, own.gear) / self.swing * own.turns / (hardness / _MPA)
+        return FlankWear(
+            own.turns, self._range(per), self._range(per / flank), None if deep is None else self._range(deep)
+        )
+
+    def _range(self, per: float) -> WearRange:
+        return WearRange(self.wear.least * per, self.wear.greatest * per)

@@ -1,0 +1,341 @@
+"""Strength of a train in one state: pressures, stresses, safety factors, wear. Stresses in MPa, lengths in mm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
+from geartrain.numerics.containers import FrozenFields
+from geartrain.numerics.plain_data import Result
+from geartrain.numerics.tabular import Tabular
+from geartrain.simulation.strength.contact_results import PinContact, PointContact, WheelForce
+from geartrain.simulation.strength.formulas.contact_pressure import YIELD_AT, ContactPlace
+from geartrain.simulation.strength.formulas.iso_6336 import IsoContact, IsoRoot
+
+
+class WearRange(NamedTuple):
+    """One figure for the least and the greatest wear coefficient."""
+
+    least: float
+    greatest: float
+
+
+NO_WEAR = WearRange(0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class FlankWear(Result):
+    """What all flanks of one wheel lose in one mesh: docs/strength.md (14) and (15).
+
+    Attributes
+    ----------
+    passages : float
+        How often each tooth passes.
+    volume : WearRange
+        Worn off all teeth [mm3].
+    mean_depth : WearRange
+        That, spread over their flanks [mm].
+    depth : WearRange or None
+        At the place that loses most [mm]; None where no path of contact says where that is.
+
+    See Also
+    --------
+    WheelStrength : holds it
+    """
+
+    passages: float
+    volume: WearRange
+    mean_depth: WearRange
+    depth: WearRange | None
+
+
+@dataclass(frozen=True)
+class WheelStrength(Result):
+    """One wheel of a loaded pair.
+
+    Attributes
+    ----------
+    wheel, material : str
+        Its name, and that of its material.
+    torque : float
+        On it [N m].
+    section, thickness : float
+        Where bending is greatest: distance from the axle, and thickness of the tooth there [mm].
+    lewis : float
+        Y of Lewis's formula, the load at the tip.
+    tip_stress : float
+        At the root, one couple bearing all at the tip [MPa].
+    shared_stress : float or None
+        The greatest while couples share the load evenly [MPa]; None without a path of contact.
+    pressure : float or None
+        Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound.
+    strength, spread : float
+        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
+    iso : IsoRoot or None
+        Root stress by ISO 6336-3 for the wheel as a hob cuts it.
+    wear : FlankWear or None
+        None where no time is given, or no hardness.
+
+    See Also
+    --------
+    PairStrength : holds it
+    """
+
+    KEYS = (
+        *("wheel", "material", "torque", "section", "thickness", "lewis", "tip_stress", "shared_stress", "pressure"),
+        *("strength", "spread", "root_safety", "contact_safety", "iso", "wear"),
+    )
+
+    wheel: str
+    material: str
+    torque: float
+    section: float
+    thickness: float
+    lewis: float
+    tip_stress: float
+    shared_stress: float | None
+    pressure: float | None
+    strength: float | None
+    spread: float | None
+    iso: IsoRoot | None = None
+    wear: FlankWear | None = None
+
+    @property
+    def root_safety(self) -> float | None:
+        """Strength over the stress at the root, one couple bearing all at the tip."""
+        return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
+
+    @property
+    def contact_safety(self) -> float | None:
+        """Pressure at which yielding begins below the flank over `pressure`."""
+        return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
+
+
+@dataclass(frozen=True)
+class PairStrength(Result):
+    """A gear pair under load.
+
+    Attributes
+    ----------
+    pair, form : str
+        Its name, and the form of its teeth.
+    module, face_width : float
+        mm; the width is that of the narrower wheel.
+    tangential : float
+        Force along the pitch line [N].
+    elasticity : float
+        ZE of both materials [sqrt(MPa)].
+    contact : tuple of ContactPlace
+        Pressures along the path of contact, the worst last; empty where Hertz's formula gives none.
+    iso : IsoContact or None
+        Contact stress by ISO 6336-2; None but for external spur involutes.
+    wheels : tuple of WheelStrength
+        Both, as the pair names them.
+    notes : tuple of str
+        What does not hold here, and why.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    form: str
+    module: float
+    face_width: float
+    tangential: float
+    elasticity: float
+    contact: tuple[ContactPlace, ...]
+    iso: IsoContact | None
+    wheels: tuple[WheelStrength, ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ArborStrength(Result):
+    """An arbor between its two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26).
+
+    Attributes
+    ----------
+    link, material : str
+        The link, and the material of its arbor.
+    force : float
+        Across it, of all its meshes, as if they pulled one way [N].
+    thrust : float
+        Along it: what all its meshes together leave for a shoulder [N].
+    bending, torsion : float
+        Greatest stresses [MPa]; with bending counts what is pressed or drawn along it.
+    stress : float
+        Both together, by von Mises [MPa].
+    pivot_pressure : float
+        The whole force on one pivot, over its diameter times length [MPa].
+    shoulder_pressure : float or None
+        The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor.
+    strength : float or None
+        Of the material [MPa].
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    KEYS = (
+        *("link", "material", "force", "thrust", "bending", "torsion", "stress", "pivot_pressure"),
+        *("shoulder_pressure", "strength", "safety"),
+    )
+
+    link: str
+    material: str
+    force: float
+    thrust: float
+    bending: float
+    torsion: float
+    stress: float
+    pivot_pressure: float
+    shoulder_pressure: float | None
+    strength: float | None
+
+    @property
+    def safety(self) -> float | None:
+        """Strength over stress."""
+        return None if self.strength is None or not self.stress else self.strength / self.stress
+
+
+@dataclass(frozen=True)
+class WeakestPart(Result):
+    """What gives way first.
+
+    Attributes
+    ----------
+    part : str
+        The wheel or link.
+    what : {"root", "contact", "arbor", "pin"}
+        By what it gives way.
+    safety : float
+        Its safety factor.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    part: str
+    what: str
+    safety: float
+
+
+@dataclass(frozen=True)
+class TrainStrength(FrozenFields, Tabular, Result):
+    """Pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
+
+    Attributes
+    ----------
+    state : str or None
+        The state; None for a train without states.
+    verdict : TorqueVerdict
+        Whether torques follow from the loads; without them there is nothing else.
+    pairs : mapping of str to PairStrength
+        Loaded gear pairs by name.
+    arbors : tuple of ArborStrength
+        Arbors that are declared.
+    forces : tuple of WheelForce
+        Of all pairs that carry a torque and whose module is known.
+    turns : float or None
+        Turns of the input over which wear is counted; None where no time was given.
+    wear_coefficients : WearRange
+        K of Archard's law, least and greatest.
+    left_out : tuple of NeglectedEffect
+        Pairs of which nothing is said, and why.
+    points : mapping of str to PointContact
+        Loaded gear pairs whose teeth touch at a point, by name.
+    pins : mapping of str to PinContact
+        Lobes on pins, and pins in holes, by pair or coupling.
+    over : float or None
+        Turns of the input whose greatest torques bend and press; None where means do. Wear goes by means.
+
+    See Also
+    --------
+    geartrain.GearTrain.strength : Gives it.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> found = geartrain.load('''
+    ... links: {frame: {}, a: {wheels: {p: {teeth: 17, module: 2 mm}}}, b: {wheels: {w: 51}}}
+    ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    ... gears: [{pair: [p, w]}]
+    ... tooth_form: {form: involute}
+    ... material: steel
+    ... face_width: 20 mm
+    ... inputs: {a: 1}
+    ... loads: {b: 60 N m}
+    ... ''').strength()
+    >>> pair = found.pairs["p~w"]
+    >>> round(pair.tangential, 2), round(pair.iso.stress[0], 2), round(pair.wheels[0].iso.stress, 2)
+    (1176.47, 706.85, 87.99)
+    """
+
+    KEYS = (
+        *("state", "verdict", "over", "forces", "pairs", "points", "pins", "arbors", "weakest", "turns"),
+        *("wear_coefficients", "left_out"),
+    )
+
+    state: str | None
+    verdict: TorqueVerdict
+    pairs: Mapping[str, PairStrength] = field(default_factory=dict)
+    arbors: tuple[ArborStrength, ...] = ()
+    turns: float | None = None
+    wear_coefficients: WearRange = NO_WEAR
+    left_out: tuple[NeglectedEffect, ...] = ()
+    forces: tuple[WheelForce, ...] = ()
+    points: Mapping[str, PointContact] = field(default_factory=dict)
+    over: float | None = None
+    pins: Mapping[str, PinContact] = field(default_factory=dict)
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety; None where not known."""
+        rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
+        told = (
+            "wheel",
+            "material",
+            "torque",
+            "tip_stress",
+            "shared_stress",
+            "pressure",
+            "root_safety",
+            "contact_safety",
+        )
+        own = {each: [getattr(wheel, each) for _, wheel in rows] for each in told}
+        return {"pair": [name for name, _ in rows]} | own
+
+    @property
+    def weakest(self) -> WeakestPart | None:
+        """What has the least safety; None where no strength is known."""
+        found = [
+            WeakestPart(wheel.wheel, what, safety)
+            for pair in self.pairs.values()
+            for wheel in pair.wheels
+            for what, safety in (("root", wheel.root_safety), ("contact", wheel.contact_safety))
+            if safety is not None
+        ]
+        found += [
+            WeakestPart(wheel.wheel, what, safety)
+            for pair in self.points.values()
+            for wheel in pair.wheels
+            for what, safety in (("root", wheel.root_safety), ("contact", wheel.safety))
+            if safety is not None
+        ]
+        found += [
+            WeakestPart(part, what, safety)
+            for each in self.pins.values()
+            for part, what, safety in (
+                (each.disc, "contact", each.contact_safety),
+                (each.name, "pin", each.pin_safety),
+            )
+            if safety is not None
+        ]
+        found += [WeakestPart(each.link, "arbor", each.safety) for each in self.arbors if each.safety is not None]
+        return min(found, key=lambda each: each.safety, default=None)

@@ -1,0 +1,176 @@
+"""Forces at the pitch points of a train under load: along the pitch circles, along the axes, and between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import copysign, cos, tan
+from typing import TYPE_CHECKING
+
+from geartrain.errors import RangeError
+from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+from geartrain.simulation.strength.contact_results import WheelForce
+from geartrain.simulation.strength.formulas.pitch_force import bevel_force, friction_angle, helical_force
+from geartrain.simulation.strength.formulas.point_contact import CrossedWheels
+from geartrain.simulation.strength.virtual_spurs import ConeMiddle
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.involute import Involute
+from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
+from geartrain.train.wheel_stock import face_width
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.train import Wheel
+
+_MM = 1e3
+WheelParts = tuple[float, float, float | None]
+
+
+@dataclass(frozen=True)
+class ToothForces:
+    """The forces of one case.
+
+    modules   transverse modules (m) by wheel; pairs without one are passed over
+    pairs     torques by pair
+    meshes    pairs with real teeth
+    swings    by pair: the torque that counts over the mean one
+    """
+
+    setting: LoadCase
+    modules: Mapping[str, float]
+    pairs: Mapping[str, PairTorque]
+    meshes: Mapping[str, GearMesh]
+    swings: Mapping[str, float] = field(default_factory=dict)
+
+    def find(self) -> Iterator[WheelForce]:
+        """Of both wheels of every pair that carries a torque, as the pair names them."""
+        for circuit in self.setting.circuits:
+            if circuit.kind != "gear":
+                continue
+            torque = self.pairs[circuit.id]
+            if torque.multiplier and not torque.loose and all(wheel in self.modules for wheel in circuit.wheels):
+                yield from self._of_pair(circuit, torque)
+
+    def _of_pair(self, circuit: Circuit, torque: PairTorque) -> Iterator[WheelForce]:
+        wheels = [self.setting.train.wheels[name][1] for name in circuit.wheels]
+        if any(wheel.kind == "contrate" for wheel in wheels):
+            return
+        loads = [float(each) * _MM * self.swings.get(circuit.id, 1.0) for each in torque.torques[:2]]
+        if self._is_parallel(circuit):
+            found = self._both(loads, [self._rolling_radius(circuit, at) for at in (0, 1)])
+            parts = [(radius, self._parallel(circuit, at, push)) for at, (radius, push) in enumerate(found)]
+        elif (crossing := _shaft_angle(self.setting, circuit)) is not None:
+            middles = [self._middle(circuit, at, crossing) for at in (0, 1)]
+            found = self._both(loads, [middle.radius(1) for middle in middles])
+            parts = [
+                (radius, bevel_force(push, middles[at].cone(1), self._angle(circuit), wheels[at].facing))
+                for at, (radius, push) in enumerate(found)
+            ]
+        elif all(wheel.helix_angle is not None for wheel in wheels):
+            drives = [torque.driver == name for name in circuit.wheels]
+            parts = [self._skew(circuit, at, loads[at], drives[at]) for at in (0, 1)]
+        else:
+            return
+        for name, load, (radius, force) in zip(circuit.wheels, loads, parts, strict=True):
+            yield WheelForce(circuit.id, name, radius, *force, load / _MM)
+
+    @staticmethod
+    def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
+        """Radii with forces along them: the greater one on both wheels, for friction takes some of a torque only."""
+        pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
+        greatest = max(map(abs, pushes))
+        return [(radius, copysign(greatest, push)) for radius, push in zip(radii, pushes, strict=True)]
+
+    def is_crossed(self, circuit: Circuit) -> bool:
+        """True of helical wheels, or a worm and its wheel, on axes that neither meet nor are parallel."""
+        if any(self._wheel(circuit, at).kind not in ("spur", "worm") for at in (0, 1)):
+            return False
+        return not self._is_parallel(circuit) and _shaft_angle(self.setting, circuit) is None
+
+    def crossed_wheels(self, circuit: Circuit) -> CrossedWheels:
+        """Of wheels on crossed axes whose helix angles and modules are known."""
+        wheels = [self._wheel(circuit, at) for at in (0, 1)]
+        widths = [face_width(self.setting.train, wheel) for wheel in wheels]
+        first, second = (float("inf") if width is None else _MM * width.si for width in widths)
+        return CrossedWheels(
+            (self._radius(circuit, 0), self._radius(circuit, 1)),
+            self.setting.helix_angles(circuit) or (0.0, 0.0),
+            _MM * self.modules[circuit.wheels[0]] / wheels[0].slant,
+            self._angle(circuit),
+            self._addenda(circuit),
+            (first, second),
+        )
+
+    def involute_of(self, circuit: Circuit) -> Involute:
+        """The teeth of wheels on crossed axes: as declared, else standard ones."""
+        form = self.setting.train.form_of(self.setting.gears[circuit.id])
+        return form if isinstance(form, Involute) else Involute(form="involute")
+
+    def _addenda(self, circuit: Circuit) -> tuple[float, float]:
+        first, second = self.involute_of(circuit).addendum
+        return float(first.value), float(second.value)
+
+    def _is_parallel(self, circuit: Circuit) -> bool:
+        return self.setting.axes.are_parallel(self.setting.axis_labels(circuit))
+
+    def _wheel(self, circuit: Circuit, at: int) -> Wheel:
+        return self.setting.train.wheels[circuit.wheels[at]][1]
+
+    def _radius(self, circuit: Circuit, at: int) -> float:
+        """Of the pitch circle [mm]: m z/2, over the cosine of the helix angle."""
+        wheel = self._wheel(circuit, at)
+        normal = self.modules[circuit.wheels[at]] / wheel.slant
+        return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
+
+    def _angle(self, circuit: Circuit) -> float:
+        """Pressure angle across the teeth where no path of contact gives it."""
+        form = self.setting.train.form_of(self.setting.gears[circuit.id])
+        return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
+
+    def _rolling_radius(self, circuit: Circuit, at: int) -> float:
+        """Of the circle that rolls on the mate's [mm], which shifted involutes have elsewhere than standard ones."""
+        radius, mesh = self._radius(circuit, at), self.meshes.get(circuit.id)
+        if mesh is None:
+            return radius
+        if mesh.path is None:
+            return radius * (1.0 if mesh.own_size is None else mesh.own_size.stretch)
+        axle = mesh.path.pitch.axle_of(mesh.gears.index(circuit.wheels[at]) + 1)
+        return radius * abs(axle) / ((self._wheel(circuit, at).count or 0) / 2)
+
+    def _parallel(self, circuit: Circuit, at: int, push: float) -> WheelParts:
+        wheel, mesh = self._wheel(circuit, at), self.meshes.get(circuit.id)
+        outwards = -1 if wheel.internal else 1
+        if mesh is None:
+            force = helical_force(push, wheel.helix, self._angle(circuit))
+            return force.tangential, force.axial, outwards * force.radial
+        # one lead at all radii: teeth lean the more the farther out
+        lean = tan(wheel.helix) * self._rolling_radius(circuit, at) / self._radius(circuit, at)
+        apart = mesh.separation
+        return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
+
+    def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
+        """With the friction of teeth that slide along each other."""
+        helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
+        friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
+        angle, radius = self._angle(circuit), self._radius(circuit, at)
+        sliding = 0.0 if friction is None or friction.sliding is None else friction.sliding
+        sense = (1 if tan(helix[0]) + tan(helix[1]) >= 0 else -1) * (-1 if drives else 1)
+        return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
+
+    def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
+        """The middle of the teeth where a width is known, else the outer pitch circle."""
+        own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
+        widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
+        cones = PitchSurfaces.cones(own.count or 1, mate.count or 1, crossing)
+        return ConeMiddle(cones, _MM * self.modules[circuit.wheels[at]], min(widths, default=0.0))
+
+
+def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
+    """Of axes that meet; None of others."""
+    try:
+        return shaft_angle(setting.train, setting.tree, circuit)
+    except RangeError:
+        return None

@@ -1,0 +1,433 @@
+"""The strength of every gear pair of a train under its torque, and of its arbors."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import inf
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
+from geartrain.dynamics.torques.power_flow import has_torque_units
+from geartrain.dynamics.torques.torque_results import NeglectedEffect
+from geartrain.dynamics.torques.train_torques import solve
+from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_numbers
+from geartrain.simulation.strength.arbor_strength import ArborLoad, arbor_strength
+from geartrain.simulation.strength.contact_results import PinContact, WheelForce
+from geartrain.simulation.strength.formulas.archard_wear import WEAR_RANGE
+from geartrain.simulation.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
+from geartrain.simulation.strength.pin_strength import PinnedDisc
+from geartrain.simulation.strength.skew_pair import SkewPair
+from geartrain.simulation.strength.strength_results import (
+    ArborStrength,
+    PairStrength,
+    TrainStrength,
+    WearRange,
+)
+from geartrain.simulation.strength.tooth_forces import ToothForces
+from geartrain.simulation.strength.virtual_spurs import VirtualSpurs
+from geartrain.teeth.disc_mesh import DiscMesh
+from geartrain.teeth.pin_coupling import PinsInHoles
+from geartrain.train import Train
+from geartrain.train.wheel_stock import face_width, material_named
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.dynamics.torques.torque_results import Torques
+    from geartrain.dynamics.train_mechanics import TrainMechanics
+    from geartrain.dynamics.train_teeth import TrainTeeth
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.wheel_requirement import CutTooth
+    from geartrain.train import GearPair, Material, Wheel
+
+_YEAR = 365.25 * 86400  # s
+_PINS = "steel"  # what pins of couplings are made of, where the train declares no material
+
+
+@dataclass(frozen=True)
+class StrengthQuestion:
+    """What is asked of a loaded train.
+
+    train     as it answers; `setting`, its case; `torques`, what was found there
+    meshes    pairs with real teeth as they are driven in this case
+    scale     turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input
+    wear      least and greatest wear coefficient
+    over      turns of the input whose greatest torques bend and press; None where means do
+    greatest  by pair: the greatest torque on its driven side in them [N m]
+    """
+
+    train: TrainMechanics
+    setting: LoadCase
+    torques: Torques
+    meshes: Sequence[GearMesh]
+    scale: float | None
+    turns: float | None
+    wear: WearRange
+    over: float | None = None
+    greatest: Mapping[str, float] = field(default_factory=dict)
+    left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
+
+    @property
+    def declared(self) -> Train:
+        """The declaration."""
+        return self.train.declaration
+
+    @cached_property
+    def modules(self) -> Mapping[str, float]:
+        """Modules (m) by wheel."""
+        return find_modules(self.declared)
+
+    @cached_property
+    def teeth(self) -> Mapping[str, WheelTeeth]:
+        """Teeth by wheel, as they are cut for all mates."""
+        return self._cut.wheels
+
+    @cached_property
+    def _cut(self) -> TrainTeeth:
+        return find_cut_teeth(self.train)
+
+    @cached_property
+    def swings(self) -> Mapping[str, float]:
+        """By pair: the greatest torque over the turns that are asked for, over the mean one."""
+        found = {}
+        for circuit in self.setting.circuits:
+            pair, greatest = self.torques.pairs.get(circuit.id), self.greatest.get(circuit.id)
+            if pair is None or greatest is None or circuit.kind != "gear" or pair.driver not in circuit.wheels:
+                continue
+            mean = abs(float(pair.torques[1 - circuit.wheels.index(pair.driver)]))
+            found[circuit.id] = max(greatest / mean, 1.0) if mean else 1.0
+        return found
+
+    def answer(self) -> TrainStrength:
+        """All pairs and arbors."""
+        meshes = {mesh.name: mesh for mesh in self.meshes}
+        forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes, self.swings)
+        told = tuple(forces.find())
+        points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
+        found: dict[str, PairStrength] = {}
+        pins = dict(self._pins(meshes))
+        for gear in self.declared.gears:
+            mesh = meshes.get(gear.name)
+            if gear.name in self.left_out or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
+                continue
+            pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
+            if pair is not None:
+                found[gear.name] = pair.strength()
+        arbors = tuple(self._arbors(told, found))
+        return TrainStrength(
+            self.torques.state,
+            self.torques.verdict,
+            found,
+            arbors,
+            self.turns,
+            self.wear,
+            self._all_left_out(),
+            told,
+            points,
+            self.over,
+            pins,
+        )
+
+    def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
+        """Pairs in the order of the declaration, then arbors, then what swings."""
+        swinging = [each for each in self.torques.left_out if each.what == "swing within a turn"]
+        if self.over is None:
+            why = "stresses are those of mean torques; `--over` takes the greatest of some turns"
+            for each in swinging:
+                self.left_out[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
+        order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
+        return tuple(
+            self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
+        )
+
+    def _skew_pairs(self, forces: ToothForces, told: Sequence[WheelForce]) -> Iterator[SkewPair]:
+        """Pairs on crossed axes, but for those that lack something."""
+        for circuit in self.setting.circuits:
+            if circuit.kind != "gear" or not forces.is_crossed(circuit):
+                continue
+            wheels = {name: self.declared.wheels[name][1] for name in circuit.wheels}
+            names = [self._material_name(wheel) for wheel in wheels.values()]
+            if lacking := [
+                *self._lacking_of_skew(wheels),
+                *self._lacking_of_all(wheels, self.torques.pairs[circuit.id]),
+            ]:
+                self._leave_out(circuit.id, "; ".join(lacking))
+                continue
+            first, second = ((name, material_named(self.declared, name)) for name in names)
+            both = [each for each in told if each.pair == circuit.id]
+            is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
+            wheels_there = forces.crossed_wheels(circuit)
+            yield SkewPair(wheels_there, (both[0], both[1]), (first, second), is_worm, forces.involute_of(circuit))
+
+    @staticmethod
+    def _lacking_of_skew(wheels: Mapping[str, Wheel]) -> Iterator[str]:
+        for name, wheel in wheels.items():
+            if wheel.helix_angle is None:
+                yield f"'{name}' has no `helix_angle`"
+
+    # -------------------------------------------------------------------------------------------------------- pins
+
+    def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
+        """Lobes among pins, and pins in holes of wheels of a declared width and material."""
+        for gear in self.declared.gears:
+            mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
+            if not isinstance(mesh, DiscMesh):
+                continue
+            wheels = {name: self.declared.wheels[name][1] for name in mesh.gears}
+            if lacking := list(self._lacking(mesh, wheels, torque)):
+                self._leave_out(gear.name, "; ".join(lacking))
+                continue
+            disc, ring = wheels.values()
+            moved = float(torque.torques[gear.pair.index(mesh.gears[0])]) * self.swings.get(gear.name, 1.0)
+            width = 1e3 * min(self._width(disc), self._width(ring))
+            pinned = PinnedDisc(mesh.gears[0], (self._named(disc), self._named(ring)), width, moved)
+            yield gear.name, pinned.lobes(gear.name, mesh.law.disc, 1e3 * self.modules[mesh.gears[0]])
+        for coupling in (each for each in self.declared.couplings if isinstance(each, PinsInHoles)):
+            found = self._in_holes(coupling)
+            if found is not None:
+                yield coupling.name, found
+
+    def _in_holes(self, coupling: PinsInHoles) -> PinContact | None:
+        torque = self.torques.pairs[coupling.name]
+        if torque.loose or not torque.multiplier:
+            return None
+        own = self.declared.links[coupling.slot].wheels
+        name = next((each for each, wheel in own.items() if self._width(wheel) and self._material_name(wheel)), None)
+        if name is None:
+            self._leave_out(coupling.name, f"no wheel of '{coupling.slot}' has a `material` and a `face_width`")
+            return None
+        of_pins = self.declared.material or _PINS
+        pins = of_pins, material_named(self.declared, of_pins)
+        load = float(torque.torques[0])
+        found = PinnedDisc(name, (self._named(own[name]), pins), 1e3 * self._width(own[name]), load).holes(coupling)
+        if found is None:
+            self._leave_out(coupling.name, "its pin_radius, offset and pin_diameter are not all declared")
+        return found
+
+    def _named(self, wheel: Wheel) -> tuple[str, Material]:
+        name = self._material_name(wheel)
+        return name, material_named(self.declared, name)
+
+    # ------------------------------------------------------------------------------------------------------- pairs
+
+    def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> PairUnderLoad | None:
+        wheels = {name: self.declared.wheels[name][1] for name in gear.pair}
+        lacking = list(self._lacking(mesh, wheels, torque))
+        if lacking or mesh is None:
+            self._leave_out(gear.name, "; ".join(lacking))
+            return None
+        module, width = 1e3 * self.modules[gear.pair[0]], 1e3 * min(self._width(wheel) for wheel in wheels.values())
+        spurs = VirtualSpurs.of(mesh, module, width)
+        if spurs is not None and spurs.why_not:
+            self._leave_out(gear.name, spurs.why_not)
+            return None
+        gears = [mesh.gears.index(name) + 1 for name in gear.pair]
+        teeth = [
+            self._teeth_in(mesh, name) if spurs is None else spurs.teeth(gears[at]) for at, name in enumerate(gear.pair)
+        ]
+        found = [
+            WheelUnderLoad(
+                name,
+                gears[at],
+                wheel.count or 0 if spurs is None else spurs.count(gears[at]),
+                cut,
+                self._material_name(wheel),
+                material_named(self.declared, self._material_name(wheel)),
+                float(torque.torques[at]) * self.swings.get(gear.name, 1.0),
+                self._turns(torque, at),
+            )
+            for at, ((name, wheel), cut) in enumerate(zip(wheels.items(), teeth, strict=True))
+            if cut is not None
+        ]
+        middle = module if spurs is None else module * spurs.middle.shrunk
+        swing = self.swings.get(gear.name, 1.0)
+        notes = tuple(
+            f"teeth of '{name}' are those that this pair requires, for the teeth of pair '{other}' do not turn"
+            for name in gear.pair
+            if (other := self._spoilt_elsewhere(mesh, name))
+        )
+        return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
+
+    def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
+        """Teeth of a wheel as cut for all mates; where faults of another pair prevent that, as this pair requires."""
+        if (cut := self.teeth.get(name)) is not None or not self._spoilt_elsewhere(mesh, name):
+            return cut
+        try:
+            return mesh.requirement(name, 1.0 if mesh.own_size is None else mesh.own_size.scale, CHORD).cut()
+        except GearTrainError:
+            return None
+
+    def _spoilt_elsewhere(self, mesh: GearMesh, name: str) -> str | None:
+        """Another pair of a wheel that is not cut for all mates, whose teeth do not turn."""
+        others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
+        return next((other.name for other in others if other.faults), None)
+
+    def _leave_out(self, pair: str, why: str) -> None:
+        self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
+
+    def _lacking(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+        """What is not known of a pair, or is not worked out for it."""
+        if mesh is None:
+            yield "it declares no tooth form: give it `tooth_form`"
+        elif mesh.path is None and mesh.own_size is None:
+            yield "its axes are not parallel, and it has no path of contact"
+        elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":
+            yield "its teeth lean, and of such only involutes are worked out"
+        elif faults := mesh.faults:
+            yield f"its teeth do not turn: {faults[0].what}"
+        yield from self._lacking_of_all(wheels, torque)
+        if not torque.multiplier and not torque.loose:
+            return
+        for name, wheel in wheels.items():
+            if not self._width(wheel):
+                yield f"'{name}' has no `face_width`"
+            if mesh is not None and mesh.own_size is not None and self._teeth_in(mesh, name) is None:
+                why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
+                yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
+
+    def _lacking_of_all(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+        """What any pair needs."""
+        if not torque.multiplier and not torque.loose:
+            yield "it carries no torque"
+            return
+        if torque.loose:
+            yield "how it shares its torque with others is not declared: give `share`"
+        for name, wheel in wheels.items():
+            if not self._material_name(wheel):
+                yield f"'{name}' has no `material`"
+            if name not in self.modules:
+                yield f"'{name}' has no `module`"
+
+    def _width(self, wheel: Wheel) -> float:
+        """Width of its teeth (m), 0 where nothing says it."""
+        found = face_width(self.declared, wheel)
+        return 0.0 if found is None else found.si
+
+    def _material_name(self, wheel: Wheel) -> str:
+        return wheel.material or self.declared.material or ""
+
+    def _turns(self, torque: PairTorque, at: int) -> float | None:
+        """Turns of one wheel as the carrier sees it, over the time that was given."""
+        if self.scale is None:
+            return None
+        relative = self.setting.relative(torque.links[at], torque.links[2])
+        return None if relative is None else abs(float(relative)) * self.scale
+
+    # ------------------------------------------------------------------------------------------------------ arbors
+
+    def _arbors(self, forces: Sequence[WheelForce], pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
+        """Arbors all of whose forces are known."""
+        straight = {each.pair for each in forces if not each.axial}
+        steepest = {
+            name: max((each.force for each in pair.contact if each.couples == 1), default=0.0)
+            for name, pair in pairs.items()
+            if name in straight
+        }
+        for link, part in self.declared.links.items():
+            if part.arbor is None:
+                continue
+            if unknown := self._without_force(part.wheels, forces):
+                why = f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate"
+                self.left_out[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
+                continue
+            own = [each for each in forces if each.wheel in part.wheels]
+            load = ArborLoad.of(own, steepest)
+            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
+
+    def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
+        """Pairs of some wheels that carry a torque and whose forces are not told."""
+        told = {each.pair for each in forces}
+        loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
+        torques = self.torques.pairs
+        return [
+            gear.name
+            for gear in loaded
+            if gear.name not in told and (torques[gear.name].multiplier or torques[gear.name].loose)
+        ]
+
+
+# --------------------------------------------------------------------------------------------------- loads and time
+
+
+@dataclass(frozen=True)
+class Service:
+    """How long a train runs, and what is assumed of its wear.
+
+    turns, years   of the input, or of time; None where wear is not requested, and never both
+    wear           least and greatest wear coefficient; None for those of `WEAR_RANGE`
+    """
+
+    turns: float | None = None
+    years: float | None = None
+    wear: tuple[float, float] | None = None
+
+    def checked(self) -> WearRange:
+        """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
+        check_numbers(turns=self.turns, years=self.years)
+        own = WearRange(*(self.wear or WEAR_RANGE))
+        if not 0 < own.least <= own.greatest < inf:
+            what = f"{own.least:g} to {own.greatest:g} is no range of wear coefficients"
+            raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
+        return own
+
+    def time(self, train: TrainMechanics, state: str | None) -> float | None:
+        """Turns, in all the time, of a link whose speed is 1; None where no time is given."""
+        turns, years = self.turns, self.years
+        if turns is None and years is None:
+            return None
+        if turns is not None and years is not None:
+            raise QuestionError(Problem("a time is given twice", "by turns and by years", "leave one of them out"))
+        for name, value in (("turns", turns), ("years", years)):
+            if value is not None and not 0 < value < inf:
+                raise QuestionError(Problem(f"{value:g} {name} wear nothing", "", "give a number above 0"))
+        speed, declared = _input_speed(train, state), train.declaration
+        if not speed:
+            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input turns", "drive it from an input"))
+        if turns is not None:
+            return turns / speed
+        case, unit = train.kinematics.case(state), declared.unit_speed
+        assert years is not None
+        if case.rate is not None and case.rate.unit is not None:
+            return years * _YEAR * float(case.rate.base) / speed
+        if unit is None:
+            what, why = "years tell no number of turns here", "speeds are plain numbers"
+            raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
+        return years * _YEAR * float(unit)
+
+
+def _input_speed(train: TrainMechanics, state: str | None) -> float:
+    """Speed of the input that is counted: the crank's, else that of the first that turns."""
+    case, crank = train.kinematics.case(state), train.declaration.crank
+    speeds = train.kinematics.solution(case).speeds
+    if crank is not None and speeds.get(crank):
+        return abs(float(speeds[crank]))
+    return next((abs(float(speed)) for speed in case.inputs.values() if speed), 0.0)
+
+
+def solve_strength(
+    train: TrainMechanics, state: str | None, service: Service, over: float | None = None
+) -> TrainStrength:
+    """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
+    check_numbers(over=over)
+    own, train = service.checked(), train.unfolded
+    found, loads = solve(train, state), train.load_case(state)
+    if not found.verdict or loads is None:
+        return TrainStrength(found.state, found.verdict)
+    if not has_torque_units(train.declaration, found.state):
+        what = "stresses need torques with a unit"
+        raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
+    scale = service.time(train, found.state)
+    covered = None if scale is None else scale * _input_speed(train, found.state)
+    question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
+    if over is None:
+        return question.answer()
+    from geartrain.dynamics.turn.train_turn import solve as solve_over_turns
+
+    cycle = solve_over_turns(train, state, over)
+    if not cycle.parts:
+        return TrainStrength(found.state, cycle.verdict)
+    greatest = {name: part.greatest for name, part in cycle.parts.items()}
+    return replace(question, over=over, greatest=greatest).answer()

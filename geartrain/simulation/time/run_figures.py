@@ -1,0 +1,342 @@
+"""One run of a train read as figures: shares, energies, outputs, spectra, and what two runs say beside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import repeat
+from math import tau
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from geartrain.numerics.labelled_array import labelled_array
+from geartrain.simulation.steps.run_record import (
+    BEARINGS,
+    BLOW_COUNT,
+    BLOW_ENERGY,
+    BLOW_SPEED,
+    BLOWS,
+    CHANGES,
+    FRICTION,
+    GAP,
+    IMPACTS,
+    IMPULSE,
+    RUBBED,
+    STEP,
+    TIME_APART,
+    TIME_COAST,
+    UNSOLVED,
+    VISCOUS,
+    WORK_DRIVE,
+    WORK_SPRING,
+    WORK_TORQUE,
+)
+from geartrain.simulation.time.angle_spectrum import find_peaks
+from geartrain.simulation.time.batch_means import batch_half_width
+from geartrain.simulation.time.run_parts import (
+    ContactInTime,
+    EnergyAccount,
+    ImpactList,
+    OutputLead,
+    SettledFigure,
+    SpectrumPeak,
+)
+from geartrain.simulation.time.time_run import TimeRun
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.simulation.contacts.train_model import TrainModel
+    from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan
+
+_AGREE = {"mean": 0.05, "extreme": 0.01}  # of a figure
+_SHARE, _ANGLE = 0.005, 1e-6  # of a share of time; rad
+_Figure = tuple[str, str, float, Literal["mean", "extreme"]]
+
+
+@dataclass(frozen=True)
+class RunFigures:
+    """One run as figures of the train, and of these outputs of it.
+
+    static_peaks   greatest torque of each pair in balance at every moment (N m), where teeth yield
+    """
+
+    of: TrainModel
+    outputs: Sequence[tuple[str, str, str]]
+    run: SimulatedRun
+    static_peaks: Sequence[float | None]
+
+    @property
+    def plan(self) -> StepPlan:
+        """How it was stepped."""
+        return self.run.plan
+
+    @cached_property
+    def duration(self) -> float:
+        """Of what is counted (s)."""
+        return self.plan.step * self.plan.steps
+
+    @cached_property
+    def first(self) -> int:
+        """The first sample of what is counted."""
+        return self.plan.skip // self.plan.stride
+
+    @cached_property
+    def time(self) -> Floats:
+        """Of the samples (s)."""
+        return np.asarray(self.plan.step * self.plan.stride * np.arange(1, len(self.run.angles) + 1), dtype=np.float64)
+
+    @cached_property
+    def turned(self) -> Floats:
+        """Angles of all links since the start (rad), (links, samples)."""
+        found: Floats = self.of.speeds @ self.run.angles.T
+        return found
+
+    def turns_of(self, link: str) -> Floats:
+        """Turns of a link since the start."""
+        return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
+
+    @cached_property
+    def turns(self) -> Floats:
+        """Turns of the lead, in the sense in which it turns."""
+        return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.lead), dtype=np.float64)
+
+    @cached_property
+    def names(self) -> list[str]:
+        """Pairs and pins, and links with an escapement."""
+        return [pair.name for pair in self.of.model.pairs] + [stop.name for stop in self.of.model.stops]
+
+    @cached_property
+    def contacts(self) -> tuple[ContactInTime, ...]:
+        """What each of them did."""
+        steps, time = self.plan.steps, self.duration
+        return tuple(
+            ContactInTime(
+                name,
+                float(counts[TIME_APART] / steps),
+                float(counts[TIME_COAST] / steps),
+                float(counts[BLOW_COUNT] / time),
+                float(counts[BLOW_ENERGY] / time),
+                float(counts[BLOW_SPEED]),
+                float(counts[IMPULSE] / time),
+                float(counts[RUBBED] / time),
+                float(counts[GAP]),
+                float(counts[CHANGES] / time),
+                peak,
+                peak / static if peak is not None and static else None,
+            )
+            for name, counts, (peak, static) in zip(self.names, self.run.counts, self._peaks_of_contacts(), strict=True)
+        )
+
+    def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
+        """Greatest torque of each contact, and that in balance; None for what is rigid."""
+        if self.run.peaks is None:
+            return repeat((None, None), len(self.names))
+        return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
+
+    @cached_property
+    def energy(self) -> EnergyAccount:
+        """Where energy came from and went."""
+        energy = self.run.energy
+        return EnergyAccount(
+            drive=float(energy[WORK_DRIVE]),
+            loads=float(energy[WORK_TORQUE]),
+            springs=float(energy[WORK_SPRING]),
+            bearings=float(energy[BEARINGS]),
+            drag=float(energy[VISCOUS]),
+            friction=float(energy[FRICTION]),
+            blows=float(energy[BLOWS]),
+            steps=float(energy[STEP]),
+            kinetic=self.run.end - self.run.start,
+            stored=self.run.end,
+            elastic=self.run.pressed,
+        )
+
+    @cached_property
+    def drive(self) -> Floats:
+        """Torque where power enters, the way its link turns."""
+        source = self.of.case.drive
+        way = -1.0 if self.of.typical(source.link) < 0 else 1.0
+        if source.kind == "rate":
+            return np.asarray(way * self.run.drive[:, self.of.coordinates.index(source.link)])
+        if source.kind == "torque":
+            return np.full(len(self.time), way * source.torque)
+        rest = source.wound + source.rate * self.time
+        return np.asarray(way * source.stiffness * (rest - self.turned[self.of.index[source.link]]))
+
+    @cached_property
+    def torque(self) -> float:
+        """Mean torque where power enters (N m)."""
+        source, energy = self.of.case.drive, self.energy
+        if source.kind == "torque":
+            return float(abs(source.torque))
+        angle = abs(float(self.of.speeds[self.of.index[source.link]] @ self.run.turned))
+        work = energy.drive - self._other_work if source.kind == "rate" else energy.springs
+        return float(work / angle) if angle else 0.0
+
+    @property
+    def _other_work(self) -> float:
+        """What other links put in whose speeds are kept (J): their mean torques over the samples, by their angles."""
+        others = {
+            link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
+        }
+        begin, end = (self.plan.step * each for each in (self.plan.skip, self.plan.skip + self.plan.steps))
+        counted = self.run.drive[(self.time > begin) & (self.time < end + self.plan.step / 2)]
+        if not others or not len(counted):
+            return 0.0
+        torques = counted.mean(axis=0)
+        return float(
+            sum(torques[self.of.coordinates.index(link)] * speed * self.duration for link, speed in others.items())
+        )
+
+    @cached_property
+    def differences(self) -> dict[str, Floats]:
+        """By how much each output is ahead of the motion in which all drive flanks touch (rad)."""
+        motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
+        names = list(motion.outputs)
+        at = motion.at(np.append(turns, 0.0)).error if motion.ahead.used else np.zeros((len(names), len(turns) + 1))
+        found = {}
+        for name, link, base in self.outputs:
+            parts = []
+            for each in (link, base):
+                row = names.index(each)
+                mean = float(self.of.problem.ratio(each)) * tau * turns
+                touching = mean + at[row, :-1] - at[row, -1]
+                parts.append(self.turned[self.of.index[each]] - forwards * touching)
+            sense = self.of.sense(link, base)
+            way = -1.0 if self.of.typical(link) - sense * self.of.typical(base) < 0 else 1.0
+            found[name] = way * (parts[0] - sense * parts[1])
+        return found
+
+    @cached_property
+    def leads(self) -> tuple[OutputLead, ...]:
+        """How far outputs are ahead and behind."""
+        counted = {name: each[self.first :] for name, each in self.differences.items()}
+        return tuple(
+            OutputLead(
+                name,
+                float(max(each.max(initial=0.0), 0.0)),
+                float(max(-each.min(initial=0.0), 0.0)),
+                float(np.sqrt(np.mean(each**2))) if len(each) else 0.0,
+            )
+            for name, each in counted.items()
+        )
+
+    def means(self) -> Iterator[_Figure]:
+        """Means over the run."""
+        yield "torque of the drive", "N m", self.torque, "mean"
+        yield "power of blows", "W", self.energy.blows / self.duration, "mean"
+        for each in self.contacts:
+            yield f"{each.name} apart", "", each.apart, "mean"
+            yield f"{each.name} on the coast flank", "", each.coast, "mean"
+
+    def intervals(self) -> list[float | None]:
+        """Half the 95 % interval of each mean; None of runs of few turns."""
+        blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
+        return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
+
+    def extremes(self) -> Iterator[_Figure]:
+        """Greatest values of the run."""
+        for each in self.contacts:
+            if each.blows:
+                yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
+            if each.peak is not None:
+                yield f"{each.name} peak torque", "N m", each.peak, "extreme"
+        for lead in self.leads:
+            yield f"{lead.output} ahead", "rad", lead.ahead, "extreme"
+            yield f"{lead.output} behind", "rad", lead.behind, "extreme"
+
+    @cached_property
+    def gaps(self) -> tuple[Floats, Floats]:
+        """By how much each driven side is off its drive flank, and off its coast flank (rad), (pairs, samples)."""
+        angles, found = self.run.angles, np.zeros((2, len(self.of.model.pairs), len(self.time)))
+        for row, pair in enumerate(self.of.model.pairs):
+            S, q = (
+                start + angles[:, list(form)] @ np.array([*form.values()], dtype=np.float64)
+                for start, form in zip(pair.start, (pair.driver, pair.driven), strict=True)
+            )
+            found[0, row] = q - pair.front(S)
+            found[1, row] = pair.back(S) - q
+        return found[0], found[1]
+
+    def told(self, coarse: RunFigures | None) -> TimeRun:
+        """The result, this run being the finer one; None for a coarse one without a finer."""
+        links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
+        start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
+        pairs = self.names[: len(self.of.model.pairs)]
+        outputs = [name for name, _, _ in self.outputs]
+        return TimeRun(
+            self.of.train.name,
+            self.of.state,
+            self.of.problem.lead,
+            float(self.of.speeds[self.of.index[self.of.problem.lead]] @ self.run.turned) / self.duration,
+            self.of.case.drive.link,
+            self.of.case.drive.kind,
+            self.plan.step,
+            self.plan.step * self.plan.skip,
+            self.duration,
+            _frozen(self.time),
+            _frozen(self.turns),
+            labelled_array(start + self.turned, link=links, time=time),
+            labelled_array(self.of.speeds @ self.run.speeds.T, link=links, time=time),
+            labelled_array(np.ascontiguousarray(self.run.forces.T), contact=self.names, time=time),
+            labelled_array(self.gaps[0], pair=pairs, time=time),
+            labelled_array(self.gaps[1], pair=pairs, time=time),
+            labelled_array(np.array([self.angle_of(name) for name in outputs]), output=outputs, time=time),
+            labelled_array(np.array([self.differences[name] for name in outputs]), output=outputs, time=time),
+            _frozen(self.drive),
+            self.torque,
+            self.contacts,
+            self._impacts(),
+            self.energy,
+            self.leads,
+            {name: tuple(self._peaks(name)) for name, _, _ in self.outputs},
+            () if coarse is None else tuple(self._compared(coarse)),
+            self.run.numbers[UNSOLVED],
+            self.of.notes,
+            coarse is not None,
+            "rigid" if self.of.yields is None else "compliant",
+            self.of.assumed,
+            max((self.of.case.restitution.get(name, 0.0) for name in self.names), default=0.0),
+        )
+
+    def _compared(self, coarse: RunFigures) -> Iterator[SettledFigure]:
+        """Every figure beside that of a run of longer steps."""
+        coarse_extremes = {each[0]: each for each in coarse.extremes()}
+        rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
+        rows += [(coarse_extremes.get(each[0], (*each[:2], 0.0, each[3])), each, None) for each in self.extremes()]
+        for one, other, interval in rows:
+            name, unit, value, kind = other
+            yield SettledFigure(name, unit, one[2], value, kind, _settled(one, other, interval), interval)
+
+    def _impacts(self) -> ImpactList:
+        time, which, speed, energy, impulse = (_frozen(each) for each in self.run.impacts.T.copy())
+        names = tuple(self.names[int(each)] for each in which)
+        return ImpactList(self.run.numbers[IMPACTS], names, time, speed, energy, impulse)
+
+    def angle_of(self, name: str) -> Floats:
+        """The angle through which an output has turned (rad)."""
+        link, base = next(each[1:] for each in self.outputs if each[0] == name)
+        found: Floats = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
+        return found
+
+    def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
+        angle = self.angle_of(name)
+        cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
+        turn = tau / abs(self.of.case.rate)
+        cycles |= {f"beat of {link}": turn / beat for link, (_, beat) in self.of.case.escapements.items()}
+        return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
+
+
+def _settled(one: _Figure, other: _Figure, interval: float | None) -> bool:
+    _, unit, value, kind = one
+    share = _AGREE[kind] * max(abs(value), abs(other[2])) if unit else _SHARE
+    near = max(share, _ANGLE if unit == "rad" else 0.0)
+    return bool(max(abs(value - other[2]), interval or 0.0) <= near)
+
+
+def _frozen(values: Floats) -> Floats:
+    values = np.asarray(values)
+    values.flags.writeable = False
+    return values

@@ -1,0 +1,274 @@
+"""Motion in time: gaps of teeth with their impacts, outputs ahead of what touching teeth do, and their spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import degrees, tau
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Figure
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    FINE,
+    PALE,
+    RED,
+    SMALL,
+    WIDTH,
+    headed,
+    kept_extremes,
+    legend_above,
+    plain,
+    series_look,
+    short,
+    write,
+)
+from geartrain.errors import Problem, QuestionError
+from geartrain.simulation.time.angle_spectrum import find_amplitudes
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.simulation.time.run_parts import SpectrumPeak
+    from geartrain.simulation.time.time_run import TimeRun
+
+_PAIRS = 6  # whose gaps are drawn: those most apart
+_STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair
+_MOST = 4000  # points drawn of a course: of each stretch the first, its least and its greatest
+_OUTPUTS = 4
+"""Outputs drawn; others are left out of the picture, the least moved first."""
+_OPEN = 1e-7  # rad: less is contact
+_SEEN = 1e-8  # rad: less is no motion of an output
+_SMALL = 0.1  # of the play: lesser gaps are drawn larger
+_FLAT = 1e-3  # deg: outputs that are less ahead are not drawn
+_NAMES = 8  # lines of a spectrum that are named
+_DEEPEST = 3e-5  # of the greatest swing: less is not drawn
+_DECADES = 40.0  # ratio of the ends of an axis up to which there are numbers between powers of ten
+_CLEAR = 1.09  # least ratio of two frequencies that are both named
+
+
+def time_run_figure(run: TimeRun, title: str = "") -> Figure:
+    """Gaps by pair with impacts marked in a stretch of the run, outputs over all of it, and their spectrum.
+
+    Parameters
+    ----------
+    run : TimeRun
+        From `GearTrain.dynamics`.
+    title : str
+        What stands above the picture.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Of each pair with play how far its driven side is off the drive flank, up to the coast flank [deg], about the
+        greatest gap; of an escapement the speed of its link [rad/s]; by how much outputs are ahead [deg]; amplitudes
+        of their swing about their mean motion [deg].
+
+    Raises
+    ------
+    QuestionError
+        If nothing has play or swings.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> run = geartrain.load("moon-triangular-inertia").dynamics("1 turn/s", turns=0.02, skip=0, steps=2000)
+    >>> [axes.get_title("left").split(":")[0] for axes in time_run_figure(run).axes]
+    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'outputs', 'spectrum; lines of moon are named']
+    """
+    pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
+    moving = _moving(run)
+    leading = [each.output for each in run.leads if degrees(max(each.ahead, each.behind)) > _FLAT]
+    tall = [1.0] * (len(pairs) + len(stops)) + [1.5] * bool(leading) + [2.0] * bool(moving)
+    if not tall:
+        what, why = (
+            f"'{run.train}' has no motion in time to draw",
+            "no pair has play, and no output leaves its mean motion",
+        )
+        raise QuestionError(
+            Problem(what, why, "declare tooth forms with play, or an escapement, or draw another train")
+        )
+    figure = Figure(figsize=(WIDTH, 0.9 + 1.25 * sum(tall)), dpi=100, layout="constrained")
+    panels = list(figure.subplots(len(tall), 1, squeeze=False, gridspec_kw={"height_ratios": tall})[:, 0])
+    for panel in panels:
+        plain(panel)
+    if moving:
+        _spectrum(panels.pop(), run, moving)
+    if leading:
+        _ahead(panels.pop(), run, [name for name in moving if name in leading])
+    stretch = _stretch(run, pairs)
+    for panel, pair in zip(panels, pairs, strict=False):
+        _gap(panel, run, pair, stretch)
+    for panel, stop in zip(panels[len(pairs) :], stops, strict=True):
+        _speed(panel, run, stop, stretch)
+    for panel in panels[:-1]:
+        panel.tick_params(labelbottom=False)
+    if panels:
+        panels[-1].set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
+        _key(panels[0], bool(pairs))
+    return headed(figure, title)
+
+
+def _head(panel: Axes, text: str) -> None:
+    """What a panel shows, above it, where no line is hidden."""
+    panel.set_title(text, fontsize=SMALL, loc="left", color=BLACK, parse_math=False)
+
+
+def _key(panel: Axes, gaps: bool) -> None:
+    """What marks stand for."""
+    panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
+    if gaps:
+        panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
+    legend_above(panel, 2)
+
+
+def _across(run: TimeRun) -> Floats:
+    """What courses are drawn over: turns of what turns evenly, else time."""
+    return run.turns if run.driven == "rate" else run.time
+
+
+def _across_text(run: TimeRun) -> str:
+    return f"turns of {short(run.lead)}" if run.driven == "rate" else "time (s)"
+
+
+def _loose(run: TimeRun) -> list[str]:
+    """Pairs with play, as they stand in the train; where there are too many, those that are most apart."""
+    names = [
+        name
+        for row, name in enumerate(run.gaps.labels[0])
+        if float(np.max(run.gaps.values[row] + run.coast_gaps.values[row], initial=0.0)) > _OPEN
+    ]
+    apart = {each.name: (each.apart, each.gap) for each in run.contacts}
+    most = sorted(names, key=lambda name: apart[name], reverse=True)[:_PAIRS]
+    return [name for name in names if name in most]
+
+
+def _moving(run: TimeRun) -> list[str]:
+    """Outputs that do not turn evenly, those furthest ahead or behind first."""
+    lead = {each.output: max(each.ahead, each.behind) for each in run.leads}
+    swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in lead}
+    names = [name for name in lead if max(lead[name], swing[name]) > _SEEN]
+    return sorted(names, key=lambda name: (lead[name], swing[name]), reverse=True)[:_OUTPUTS]
+
+
+def _stretch(run: TimeRun, pairs: list[str]) -> slice:
+    """Samples about the greatest gap of all pairs that are drawn, or the last ones."""
+    whole = len(run.time)
+    first = int(np.searchsorted(run.time, run.skip))
+    middle = whole
+    if pairs:
+        open_ = np.max([np.minimum(run.gaps[pair], run.coast_gaps[pair])[first:] for pair in pairs], axis=0)
+        if len(open_) and open_.max() > _OPEN:
+            middle = first + int(open_.argmax())
+    end = min(max(middle + _STRETCH // 2, first + _STRETCH), whole)
+    return slice(max(first, end - _STRETCH), end)
+
+
+def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
+    """The driven side between its flanks; bands where neither touches, ticks where it strikes."""
+    at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
+    back = front + np.degrees(run.coast_gaps[pair][stretch])
+    panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")
+    panel.plot(at, front, color=BLUE, linewidth=1.0, gid=f"gap {pair}")
+    _impacts(panel, run, pair, stretch)
+    top = 1.06 * back.max()
+    if _FLAT < front.max() < _SMALL * back.min():
+        top = 1.3 * front.max()  # the coast flank is out of sight
+    panel.set_ylim(-0.12 * top, top)
+    panel.set_xlim(at[0], at[-1])
+    apart = next(each.apart for each in run.contacts if each.name == pair)
+    panel.set_ylabel("gap (deg)", fontsize=SMALL)
+    _head(panel, f"{short(pair)}: apart {100 * apart:.3g} % of the time; coast flank from {back.min():.3g} deg on")
+
+
+def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
+    """The link of an escapement, which goes and is stopped."""
+    at = _across(run)[stretch]
+    panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
+    _impacts(panel, run, stop, stretch)
+    panel.set_xlim(at[0], at[-1])
+    panel.set_ylabel("speed (rad/s)", fontsize=SMALL)
+    _head(panel, f"{short(stop)}: speed between the beats of the escapement")
+
+
+def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
+    """Ticks at the foot, as strong as what they take."""
+    own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
+    if not own.any():
+        return
+    across = _across(run)
+    at = np.interp(run.impacts.time[own], run.time, across)
+    energy = run.impacts.energy[own]
+    near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
+    if near.any():
+        size = 4 + 36 * energy[near] / energy.max()
+        foot = panel.get_xaxis_transform()
+        panel.scatter(
+            at[near],
+            np.full(near.sum(), 0.05),
+            s=size,
+            c=RED,
+            marker="^",
+            transform=foot,
+            linewidths=0,
+            zorder=4,
+            clip_on=False,
+        )
+
+
+def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
+    first = int(np.searchsorted(run.time, run.skip))
+    across = _across(run)
+    for place, name in enumerate(moving):
+        angle = np.degrees(run.ahead[name][first:])
+        kept = kept_extremes(angle, _MOST)
+        panel.plot(across[first:][kept], angle[kept], linewidth=0.8, **series_look(place), label=short(name))
+    if first < len(across):
+        panel.set_xlim(across[first], across[-1])
+    legend_above(panel, 4)
+    panel.set_ylabel("ahead (deg)", fontsize=SMALL)
+    _head(panel, "outputs: ahead of what touching teeth do")
+    panel.set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
+
+
+def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
+    first = int(np.searchsorted(run.time, run.skip))
+    drawn = []
+    for place, name in enumerate(moving):
+        frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
+        drawn.append(np.array([frequency[1:], np.degrees(size[1:])]))
+        panel.plot(*drawn[-1], linewidth=0.8, **series_look(place), label=short(name))
+    top = max(float(size.max(initial=0.0)) for _, size in drawn)
+    if top:
+        legend_above(panel, 4)
+        panel.set_yscale("log")
+        panel.set_ylim(_DEEPEST * top, 60 * top)
+        panel.set_xscale("log")
+        panel.xaxis.set_major_formatter(lambda at, _: f"{at:g}")
+        panel.set_xlim(max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1]))
+        _minor_numbers(panel)
+        for at, amplitude, source in _named(run.spectra[moving[0]]):
+            over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
+            if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
+                write(panel, at, 1.4 * over, source, rotation=60, ha="left", va="bottom", fontsize=FINE)
+    panel.set_ylabel("swing (deg)", fontsize=SMALL)
+    panel.set_xlabel("frequency (Hz)", fontsize=SMALL)
+    _head(panel, f"spectrum; lines of {short(moving[0])} are named")
+
+
+def _minor_numbers(panel: Axes) -> None:
+    """Between powers of ten, where there are few of those: 20, 30 and 50, not 2 x 10^1."""
+    low, high = panel.get_xlim()
+    few = high < _DECADES * low
+    panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
+
+
+def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
+    """The strongest lines that are known, none beside another: frequency (Hz), amplitude (deg), whose it is."""
+    taken: list[float] = []
+    for peak in peaks:
+        near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)
+        if peak.source and not near and len(taken) < _NAMES:
+            taken.append(peak.frequency)
+            yield peak.frequency, float(np.degrees(peak.amplitude)), peak.source

@@ -1,6 +1,0 @@
-"""One ratio by one to five stages of gear pairs: complete, or the best, proved."""
-
-from geartrain.synthesis.ratio.stage_problem import StageConstraints
-from geartrain.synthesis.ratio.stage_search import StageFindings, find_stages
-
-__all__ = ["StageConstraints", "StageFindings", "find_stages"]

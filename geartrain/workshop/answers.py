@@ -1,0 +1,20 @@
+"""The results of the workshop that commands print as JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def answers() -> dict[str, Any]:
+    """Question (a command, or a use of one) -> type of its result."""
+    from geartrain.workshop.budget.pointer_budget import TrainBudget
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.workshop.sizes.best_sizes import BestToothSizes
+    from geartrain.workshop.sizes.train_sizes import BestTrainSizes
+
+    return {
+        "montecarlo": MonteCarloResult,
+        "budget": TrainBudget,
+        "optimise": BestTrainSizes,
+        "mesh triangular --best": BestToothSizes,
+    }

@@ -1,0 +1,152 @@
+"""The budget of each pointer as a bar: its causes side by side, the greatest first; of one pointer a bar a cause."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from geartrain.drawing.backend import Axes, Figure, Patch
+from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, WIDTH, plain, short
+from geartrain.errors import Problem, QuestionError
+from geartrain.scene.palette import series_colour
+
+if TYPE_CHECKING:
+    from geartrain.workshop.budget.pointer_budget import PointerBudget, TrainBudget
+
+COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
+MOST = 8
+"""Pointers in a picture: the worst, by the sum of their causes."""
+_HIGH, _LOW = 0.7, 0.42  # of the step from bar to bar: what is declared whole, and what is in part
+_ON_A_BAR: dict[str, Any] = {
+    "ha": "center",
+    "va": "center",
+    "fontsize": SMALL,
+    "color": BLACK,
+    "zorder": 8,
+    "bbox": {"boxstyle": "round,pad=0.15", "facecolor": WHITE, "linewidth": 0},
+}
+_ROOM, _NAMED = 0.055, 0.2  # shares of a bar from which on its size, and its cause too, are written in it
+
+
+def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
+    """A bar for each pointer, the worst on top: shares of its causes in their sum, the greatest first.
+
+    Of a single pointer there is a bar for each cause, the greatest on top, in degrees.
+
+    Parameters
+    ----------
+    found : TrainBudget
+        From `find_budget`.
+    most : int
+        Pointers drawn; a line says how many are left out.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Shares of the sum; sizes [deg] in the bars, sum [deg] and what is not declared beside them. Of one pointer sizes
+        [deg] with their intervals of 95 %.
+
+    Raises
+    ------
+    QuestionError
+        If no cause of any pointer is known.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import (BudgetQuestion, find_budget)
+    >>> figure = budget_figure(find_budget(geartrain.load("freeth-2008"), BudgetQuestion(outputs=("moon", "saros"))))
+    >>> [text.get_text() for text in figure.axes[0].get_yticklabels()]
+    ['moon', 'saros']
+    """
+    ranked = sorted((each for each in found.pointers if each.total > 0), key=lambda each: -each.total)
+    if not ranked:
+        why = "no cause of any pointer's error is declared, or all are 0"
+        raise QuestionError(Problem(f"no budget of '{found.name}' to draw", why, "declare targets or teeth"))
+    if len(found.pointers) == 1:
+        return _causes(found, ranked[0])
+    shown = ranked[:most]
+    figure = Figure(figsize=(11.0, 1.7 + 0.55 * len(shown)), dpi=100, layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    axes.grid(False, axis="y")
+    for at, pointer in enumerate(shown):
+        _bar(axes, at, pointer)
+    axes.set_yticks(range(len(shown)), [short(each.name, 24) for each in shown])
+    axes.set_ylim(len(shown) - 0.4, -0.6)
+    axes.set_xlim(0.0, 1.0)
+    axes.set_xlabel(_below(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")
+    axes.set_title(f"{_of(found)}: what each pointer's error comes from", fontsize=TEXT, loc="left", color=BLACK)
+    handles = [Patch(color=colour, label=_legend(cause, found)) for cause, colour in COLOURS.items()]
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=5, fontsize=SMALL, frameon=False, columnspacing=1.2
+    )
+    return figure
+
+
+def _of(found: TrainBudget) -> str:
+    return found.name if found.state is None else f"{found.name}, {found.state}"
+
+
+def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
+    """The causes of one pointer's error below each other, the greatest on top, and those that are not declared."""
+    figure = Figure(figsize=(WIDTH, 3.6), dpi=100, layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    axes.grid(False, axis="y")
+    ranked = [*pointer.ranked, *pointer.undeclared]
+    for at, cause in enumerate(ranked):
+        size = cause.degrees or 0.0
+        high = _LOW if cause.declared == "part" else _HIGH
+        axes.barh(at, size, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name)
+        low, most = cause.interval or (size, size)
+        if cause.interval:
+            axes.plot([low, most], [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=8, gid="within")
+        words = "not declared" if cause.degrees is None else f"{_size(size, 3)}°"
+        words += ", declared in part" if cause.declared == "part" else ""
+        axes.annotate(words, (max(size, most), at), xytext=(6, 0), textcoords="offset points", va="center",
+                      fontsize=SMALL, color=BLACK, annotation_clip=False, gid="size")  # fmt: skip
+    axes.set_yticks(range(len(ranked)), [cause.name for cause in ranked])
+    axes.set_ylim(len(ranked) - 0.4, -0.6)
+    axes.set_xlim(left=0.0)
+    axes.set_xlabel("size (deg)", fontsize=TEXT)
+    title = f"{_of(found)}: what the error of {short(pointer.name, 24)} comes from, {_size(pointer.total, 3)}° in sum"
+    axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
+    return figure
+
+
+def _legend(cause: str, found: TrainBudget) -> str:
+    missing = found.not_declared[cause]
+    return cause if not missing else f"{cause} (unknown for {missing})"
+
+
+def _below(pointers: int, shown: int, erring: int) -> str:
+    words = "share of the sum of what is declared; low bars: declared in part"
+    still = pointers - erring
+    left = [f"pointers that err less, not drawn: {erring - shown}"] if erring > shown else []
+    left += [f"pointers of which no error is known: {still} of {pointers}"] if still else []
+    return words + ("\n" + "; ".join(left) if left else "")
+
+
+def _size(value: float, digits: int) -> str:
+    """With so many digits; great ones whole, without a power of ten."""
+    return f"{value:.{digits}g}" if value < 10**digits else f"{value:.0f}"
+
+
+def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
+    left = 0.0
+    for cause in pointer.ranked:
+        share = (cause.degrees or 0.0) / pointer.total
+        if not share:
+            continue
+        high = _LOW if cause.declared == "part" else _HIGH
+        axes.barh(
+            at, share, left=left, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name, clip_on=False
+        )
+        if share > _ROOM:
+            name = f"{cause.name} " if share > _NAMED else ""
+            axes.text(left + share / 2, at, f"{name}{_size(cause.degrees or 0.0, 2)}°", **_ON_A_BAR)
+        left += share
+    missing = ", ".join(cause.name for cause in pointer.undeclared)
+    beside = f"sum {_size(pointer.total, 3)}°" + (f"\nnot declared: {missing}" if missing else "")
+    axes.annotate(beside, (1.0, at), xytext=(6, 0), textcoords="offset points", va="center", fontsize=SMALL,
+                  color=BLACK, annotation_clip=False, gid="sum")  # fmt: skip

@@ -1,0 +1,213 @@
+"""The budgets of a train's pointers as a page: which cause weighs most, in degrees and in days."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from geartrain.report.document import Document, Section, Table, cut, ppm
+from geartrain.workshop.monte_carlo.monte_carlo_report import share_text
+
+if TYPE_CHECKING:
+    from geartrain.workshop.budget.crank_load import CrankLoad
+    from geartrain.workshop.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
+
+NOT_DECLARED = "not declared"
+_PAIRS = 5  # of each pointer
+
+
+def describe_budget(found: TrainBudget) -> Document:
+    """What the error of each pointer comes from, the greatest cause first, and what the train does not declare.
+
+    Parameters
+    ----------
+    found : TrainBudget
+        From `find_budget`.
+
+    Returns
+    -------
+    Document
+        Sizes in degrees at the pointer, and in days of its mean motion.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import (BudgetQuestion, find_budget)
+    >>> page = describe_budget(find_budget(geartrain.load("freeth-2008"), BudgetQuestion(outputs=("moon",))))
+    >>> page.title, [section.title for section in page.sections][:2]
+    ('The budget of each pointer: freeth-2008', ['Causes in degrees', 'Causes in days'])
+    """
+    name = found.name if found.state is None else f"{found.name}, state {found.state}"
+    lead = [
+        "Each cause by itself, at the pointer. Ratio: what the mean speed is off, as a drift over "
+        f"{found.span_days:.8g} days. Theory: what the pins' anomaly is off from the true motion (Kepler), peak to "
+        f"peak. Teeth: ripple through the train, peak to peak, over {found.turns:g} turns of '{found.lead}'. Lost "
+        "motion: the greatest way a pointer stays behind when the crank turns back. Cutting: the range that holds 95 % "
+        "of trains cut by hand, the ripple of even teeth taken off.",
+        "Days are the time in which the pointer, at its mean speed against what it is read from, turns so far: by so "
+        "much an eclipse, a conjunction or a station that is read from it is missed.",
+        _missing(found),
+    ]
+    return Document(f"The budget of each pointer: {name}", lead, list(_sections(found)))
+
+
+def _missing(found: TrainBudget) -> str:
+    count = len(found.pointers)
+    words = [f"{cause} of {of}" for cause, of in found.not_declared.items() if of]
+    if not words:
+        return f"Everything is declared for all {count} pointers."
+    return f"Not declared, so not counted (and not 0), of {count} pointers: {', '.join(words)}."
+
+
+def _sections(found: TrainBudget) -> Iterator[Section]:
+    causes = [cause.name for cause in found.pointers[0].causes]
+    sized = [(each.name, *(_degrees(cause) for cause in each.causes), f"{each.total:.3g}", _first(each))
+             for each in found.pointers]  # fmt: skip
+    yield Section("Causes in degrees", (), (Table(("pointer", *causes, "sum", "greatest"), cut(sized)),))
+    timed = [
+        (each.name, _figure(each.degrees_per_day), *(_figure(cause.days) for cause in each.causes))
+        for each in found.pointers
+    ]
+    yield Section("Causes in days", (), (Table(("pointer", "deg a day", *causes), cut(timed)),))
+    yield _drifts(found)
+    for pointer in found.pointers:
+        yield _pointer(pointer)
+    yield _crank(found)
+    yield _jams(found)
+    if found.turned_back:
+        names = ", ".join(found.turned_back)
+        yield Section(
+            "Pairs that turn back", (f"Driven against their mean at times, where play is not followed: {names}.",)
+        )
+
+
+def _degrees(cause: BudgetCause) -> str:
+    if cause.degrees is None:
+        return NOT_DECLARED
+    return f"{cause.degrees:.3g}" + (" (part)" if cause.declared == "part" else "")
+
+
+def _figure(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3g}"
+
+
+def _first(pointer: PointerBudget) -> str:
+    """The greatest cause, if there is any error at all."""
+    return pointer.ranking[0] if pointer.ranked and pointer.ranked[0].degrees else "-"
+
+
+def _drifts(found: TrainBudget) -> Section:
+    rows = []
+    for pointer in found.pointers:
+        for drift in pointer.drifts:
+            first = drift is pointer.drifts[0]
+            each = (drift.degrees_per_turn, drift.degrees_per_year, drift.degrees_per_century, drift.degrees_over_span)
+            after = _figure(pointer.overtaken_after_years) if first else ""
+            rows.append((pointer.name, drift.target, ppm(drift.ppm), *map(_signed, each), after))
+    header = ("pointer", "target", "ppm", "deg a turn", "deg a year", "deg a century", "deg over the span",
+              "years to the greatest other")  # fmt: skip
+    texts = (
+        "Positive is fast. The first target of each pointer counts: a period seen in the sky before what its makers "
+        "meant. The last column: Julian years after which the drift is as great as the greatest other cause.",
+    )
+    return Section(
+        "Ratios against the sky",
+        texts if rows else ("No target is declared.",),
+        (Table(header, cut(rows)),) if rows else (),
+    )
+
+
+def _signed(value: float | None) -> str:
+    return "-" if value is None else f"{value:+.4g}" if value else "0"
+
+
+def _pointer(pointer: PointerBudget) -> Section:
+    rows = [
+        (str(at), cause.name, _degrees(cause), _figure(cause.rms), _within(cause), _figure(cause.days), cause.note)
+        for at, cause in enumerate(pointer.ranked, 1)
+    ]
+    rows += [("-", cause.name, NOT_DECLARED, "-", "", "-", cause.note) for cause in pointer.undeclared]
+    tables = [Table(("rank", "cause", "deg", "rms", "95 % interval", "days", "of"), rows)]
+    pairs = list((pointer.pairs or {}).items())[:_PAIRS]
+    if pairs:
+        more = len(pointer.pairs or ()) - len(pairs)
+        tables.append(Table(("pair alone", "deg peak to peak"), [(name, f"{size:.3g}") for name, size in pairs]))
+        if more > 0:
+            tables[-1] = Table(tables[-1].header, [*tables[-1].rows, (f"... {more} more", "")])
+    return Section(f"Ranked: {pointer.name}", (), tables)
+
+
+def _within(cause: BudgetCause) -> str:
+    return "" if cause.interval is None else f"{cause.interval[0]:.3g}..{cause.interval[1]:.3g}"
+
+
+def _crank(found: TrainBudget) -> Section:
+    crank = found.crank
+    tables = []
+    if crank.torque is not None or crank.over_turn is not None or crank.weight is None:
+        rows = [(crank.link, _or_undeclared(crank.torque), _efficiency(crank.efficiency), crank.note)]
+        tables = [Table(("link", f"torque{_unit(crank)}", "efficiency", "how"), rows), *_over_turn(crank)]
+    alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
+    if alone:
+        tables.append(Table(("pointer driven alone", "efficiency"), cut(alone)))
+    return Section("Crank", tuple(_weight(crank)), tables)
+
+
+def _over_turn(crank: CrankLoad) -> Iterator[Table]:
+    """The torque position by position, where loads are declared."""
+    found = crank.over_turn
+    if found is None:
+        return
+    if found.turns is None or found.mean is None:
+        yield Table(("over the run", "torque"), [("-", found.verdict.text)])
+        return
+    torques = (found.mean, found.greatest_torque, found.least_torque, found.starting_torque)
+    header = ("turns of the input", f"mean{_unit(crank)}", "greatest", "least", "starting", "efficiency")
+    whole = ", then all repeats" if found.span == found.period else ""
+    row = (f"{found.span:.6g}{whole}", *map(_or_undeclared, torques), _efficiency(found.efficiency))
+    yield Table(header, [row])
+
+
+def _unit(crank: CrankLoad) -> str:
+    """The unit of its torques, which is known where they were worked out over a turn."""
+    return f" ({crank.over_turn.unit})" if crank.over_turn is not None and crank.over_turn.unit else ""
+
+
+def _efficiency(value: float | None) -> str:
+    return "nothing is taken out" if value == 0 else _or_undeclared(value)
+
+
+def _weight(crank: CrankLoad) -> Iterator[str]:
+    """What drives a train that has a weight."""
+    weight = crank.weight
+    if weight is None:
+        return
+    text = f"The weight gives {weight.torque:.4g} N m at '{weight.link}'."
+    if weight.needed is not None:
+        word = "and starts it everywhere" if weight.suffices else "which is too little"
+        text += f" The train needs up to {weight.needed:.4g} N m, {word}."
+    if weight.mean is not None and weight.least is not None:
+        text += f" Of it {weight.mean:.4g} N m arrives at '{weight.wheel}' on the mean, {weight.least:.4g} at least"
+        text += "" if weight.efficiency is None else f", {100 * weight.efficiency:.4g} % of its energy"
+        text += "."
+    yield text
+
+
+def _or_undeclared(value: float | None) -> str:
+    return NOT_DECLARED if value is None else f"{value:.4g}"
+
+
+def _jams(found: TrainBudget) -> Section:
+    if not found.jams:
+        return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
+    rows = [
+        (f"{each.clearance:.6g}", *(share_text(each.events[event]) for event in ("jam", "clash", "standstill")))
+        for each in found.jams
+        if each.clearance is not None
+    ]
+    trials = found.jams[0].events["jam"].of
+    text = (
+        f"How often any pair of the train does so, in {trials} trials each, with 95 % intervals; clearances below 1 "
+        "are shares of each pair's window."
+    )
+    return Section("Jams over clearance", (text,), (Table(("clearance", "jam", "clash", "standstill"), rows),))

@@ -1,0 +1,112 @@
+"""`geartrain budget`: what each pointer's error comes from: ratio, theory, teeth, lost motion, cutting."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import (
+    File,
+    FirstState,
+    Force,
+    Json,
+    Names,
+    Out,
+    Seed,
+    Without,
+    check_distinct_outputs,
+    draw,
+    give,
+    picture_sink,
+    sink,
+)
+from geartrain.cli.long_runs import RunOptions, Workers, progress
+from geartrain.cli.option_values import MOST_COUNT, quantity
+from geartrain.cli.option_values import turns as read_turns
+from geartrain.cli.theme import Theme
+
+if TYPE_CHECKING:
+    from geartrain.workshop.budget.pin_theory import Body
+
+
+def run(
+    file: File,
+    output: Annotated[Names, typer.Option("--output", help="Output; may be repeated.")] = None,
+    state: FirstState = None,
+    without: Without = None,
+    span: Annotated[
+        str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name that `periods` lists.")
+    ] = "saros_223_synodic_modern",
+    turns: Annotated[str, typer.Option("--turns", help="Turns of the input over which teeth are followed.")] = "20",
+    samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 20_000,
+    cutting: Annotated[
+        Names, typer.Option("--cutting", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
+    ] = None,
+    trials: Annotated[
+        int, typer.Option("--trials", min=1, max=MOST_COUNT, help="How many times the train is cut.")
+    ] = 256,
+    seed: Seed = 1,
+    workers: Workers = None,
+    body: Annotated[
+        Names, typer.Option("--body", help="OUTPUT=moon, sun or none: whose true motion it shows, if no name tells.")
+    ] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the ranked causes to this file.")] = None,
+    json: Json = False,
+    theme: Theme = "light",
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """What each pointer's error comes from, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
+    from geartrain.analysis.gear_train import load
+    from geartrain.numerics.work import Execution
+    from geartrain.workshop.budget.budget_report import describe_budget
+    from geartrain.workshop.budget.train_budget import STAGES, BudgetQuestion, find_budget
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    picture = picture_sink(plot, force, theme)
+    check_distinct_outputs(to, picture)
+    question = BudgetQuestion(
+        tuple(output or ()),
+        tuple(without or ()),
+        _days(span),
+        float(read_turns("--turns", turns)),
+        samples,
+        tuple(cutting or ()),
+        trials,
+        seed,
+        bodies=_bodies(body or ()),
+    )
+    train = load(file)
+    with RunOptions(workers).executor("budget") as executor, progress("budget", STAGES) as bar:
+        means = Execution(executor)
+        found = find_budget(train, question, train.declaration.state_or_first(state), means, bar.advance)
+    if plot is not None:
+        from geartrain.workshop.budget.budget_bars import budget_figure
+
+        draw(budget_figure(found), picture)
+    give(to, json, lambda: found, lambda: [describe_budget(found)])
+
+
+def _days(text: str) -> float:
+    """A time, or a period of the shipped table, in days."""
+    from geartrain.train.periods import period_table
+
+    row = period_table().get(text.strip())
+    if row is not None and row.kind == "period":
+        return float(row.value)
+    return quantity("--span", text, "time", least="above 0") / 86400
+
+
+def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:
+    """`moon=moon`, `b=sun`, `date=none`."""
+    known: dict[str, Body | None] = {"moon": "moon", "sun": "sun", "none": None}
+    found: dict[str, Body | None] = {}
+    for text in texts:
+        name, equals, body = text.rpartition("=")
+        if not equals or body not in known:
+            raise typer.BadParameter(f"'{text}' is not of the form OUTPUT=moon, sun or none", param_hint="--body")
+        found[name] = known[body]
+    return found

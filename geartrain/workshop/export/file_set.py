@@ -1,0 +1,345 @@
+"""Which files an export is made of: one by its suffix, or a whole folder of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from geartrain.drawing.flat_files import to_dxf, to_svg
+from geartrain.errors import GearTrainError, Problem, QuestionError, install_command, suggest
+from geartrain.kinematics import graph
+from geartrain.scene.solids.flat_drawing import FlatDrawing
+from geartrain.workshop.export.assembly_guide import readme
+from geartrain.workshop.export.assembly_pictures import step_pictures
+from geartrain.workshop.export.csv_tables import to_tables
+from geartrain.workshop.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
+from geartrain.workshop.export.parts_list import parts_list, to_csv
+from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
+from geartrain.workshop.export.rexs import to_rexs
+
+if TYPE_CHECKING:
+    from geartrain.scene.solids.solid_assembly import SolidModel
+
+KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
+"""Kinds of files that `export_files` makes."""
+
+SUFFIXES = {
+    ".glb": "glb",
+    ".stl": "stl",
+    ".step": "step",
+    ".stp": "step",
+    ".graphml": "graphml",
+    ".dot": "dot",
+    ".gv": "dot",
+    ".rexsj": "rexs",
+    ".json": "rexs",
+}
+"""Kinds of the one file that holds a whole train, by suffix."""
+
+WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
+"""Suffixes of the one file that holds a wheel."""
+
+_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}
+
+
+@dataclass(frozen=True, slots=True)
+class ExportFile:
+    """A file to be written.
+
+    Attributes
+    ----------
+    path : str
+        In the folder, with `/`.
+    title : str
+        What it shows.
+    make : callable
+        Its content as bytes; raises `GearTrainError` if that cannot be made.
+
+    See Also
+    --------
+    export_files : gives it.
+    """
+
+    path: str
+    title: str
+    make: Callable[[], bytes]
+
+
+def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
+    """Those of some kinds whose libraries are there, and what to install for the others."""
+    found, missing = [], []
+    for kind in kinds:
+        library, extra = _NEEDED.get(kind, ("", ""))
+        if library and not _is_there(library):
+            what = f"no {kind.upper()} is written"
+            missing.append(Problem(what, f"{library} is not installed", install_command(extra)))
+        else:
+            found.append(kind)
+    return found, missing
+
+
+def _is_there(library: str) -> bool:
+    try:
+        return find_spec(library) is not None
+    except ImportError:
+        return False
+
+
+def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
+    """The one file of some kind that holds the whole train.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    kind : {"stl", "glb", "step", "graphml", "dot", "rexs"}
+        What it is written as.
+    turns : Fraction, optional
+        Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+
+    Returns
+    -------
+    bytes
+        The content of the file.
+
+    Raises
+    ------
+    MissingExtraError
+        If the library that writes STEP is not installed.
+    GearTrainError
+        If the train cannot be shown so: the message says why.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes())
+    >>> train_file(work, "dot").decode().splitlines()[0]
+    'graph "planetary-24-18-60" {'
+    """
+    if kind == "glb":
+        from geartrain.workshop.export.triangle_files import to_glb
+
+        return to_glb(work, turns)
+    if kind == "stl":
+        from geartrain.scene.solids.triangle_solids import joined
+        from geartrain.workshop.export.triangle_files import to_stl
+
+        return to_stl(joined(part.placed for part in work.parts), work.train.name)
+    if kind == "step":
+        from geartrain.workshop.export.step_file import to_step
+
+        return to_step(work)
+    text = {"graphml": graph.to_graphml, "dot": graph.to_dot}.get(kind)
+    found = to_rexs(work) if text is None else text(work.train.graph) + "\n"
+    return found.encode("utf-8")
+
+
+def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
+    """One wheel to cut or to print.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    wheel : str
+        Its name.
+    suffix : {".svg", ".dxf", ".stl"}
+        What it is written as.
+
+    Returns
+    -------
+    bytes
+        The content of the file; drawings are 1:1 in mm.
+
+    Raises
+    ------
+    QuestionError
+        If there is no such wheel, or it has no flat shape.
+    MissingExtraError
+        If the library that writes DXF is not installed.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
+    >>> wheel_file(work, "s", ".svg")[:4]
+    b'<svg'
+    """
+    known = work.train.declaration.wheels
+    if wheel not in known:
+        raise QuestionError(Problem(f"there is no wheel '{wheel}'", "it is not declared", suggest(wheel, known)))
+    blank = work.blanks.wheels.get(wheel)
+    if blank is None:
+        raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
+    if suffix == ".stl":
+        from geartrain.scene.solids.triangle_solids import wheel_solid
+        from geartrain.workshop.export.triangle_files import to_stl
+
+        return to_stl(wheel_solid(blank), wheel)
+    return _drawn(wheel_drawing(work, blank), suffix[1:])
+
+
+def export_files(
+    work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
+) -> list[ExportFile]:
+    """All files of some kinds, small ones first, a README that lists them last.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    kinds : sequence of str
+        Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+    turns : Fraction, optional
+        Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+    proof : TrainProof, optional
+        What was proved of the train, for the README; by default it is proved when that is made, where the extra `proof`
+        is installed.
+
+    Returns
+    -------
+    list of ExportFile
+        Each is made when its `make` is called.
+
+    Raises
+    ------
+    QuestionError
+        If there is no such kind, or the sizes asked for go against the declaration.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes())
+    >>> [file.path for file in export_files(work, ["graphml", "rexs"])]
+    ['graph.graphml', 'gear-unit.rexsj', 'README.md']
+    """
+    unknown = [kind for kind in kinds if kind not in KINDS]
+    if unknown:
+        raise QuestionError(
+            Problem(f"there is no export '{unknown[0]}'", "", f"use some of {', '.join(KINDS)}", "--as")
+        )
+    files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
+    named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
+    named |= {kind: f"assembly.{kind}" for kind in ("stl", "glb", "step")}
+    for kind, name in named.items():
+        if kind in kinds:
+            files.append(ExportFile(name, _WHAT[kind], _whole(work, kind, turns)))
+    if parts_wanted(kinds):
+        files.append(
+            ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
+        )
+    return [*files, ExportFile("README.md", "what is here", lambda: _readme(work, files, kinds, proof))]
+
+
+def _listed(work: SolidModel) -> bytes:
+    return to_csv(parts_list(work)).encode("utf-8")
+
+
+def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str], proof: TrainProof | None) -> bytes:
+    named, parts = [(each.path, each.title) for each in files], parts_wanted(kinds)
+    if proof is None and parts and proof_is_installed():
+        proof = prove_train(work)
+    return readme(work, named, notices(work, kinds), parts, proof).encode("utf-8")
+
+
+def parts_wanted(kinds: Sequence[str]) -> bool:
+    """True if some of the files show parts to make."""
+    return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
+
+
+_WHAT = {
+    "graphml": "links and pairs as a graph",
+    "dot": "the same for Graphviz",
+    "rexs": "the gear unit as REXS 1.4",
+    "stl": "all parts, each a closed surface, mm",
+    "glb": "all parts, turning, m",
+    "step": "all parts with exact arcs, mm",
+}
+
+
+def _whole(work: SolidModel, kind: str, turns: Fraction | None) -> Callable[[], bytes]:
+    return lambda: train_file(work, kind, turns)
+
+
+def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
+    flat = [kind for kind in kinds if kind in ("svg", "dxf")]
+    for path, drawing in cut_sheets(work) if flat else ():
+        for kind in flat:
+            yield ExportFile(f"{path}.{kind}", drawing.title, partial(_drawn, drawing, kind))
+    for sheet in wheel_sheets(work.blanks.wheels) if "stl" in kinds else ():
+        yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
+
+
+def _pictures(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
+    for path, title, draw in step_pictures(work) if "svg" in kinds else ():
+        yield ExportFile(path, title, draw)
+
+
+def _drawn(drawing: FlatDrawing, kind: str) -> bytes:
+    return (to_svg(drawing) if kind == "svg" else to_dxf(drawing)).encode("utf-8")
+
+
+def _printed(work: SolidModel, sheet: WheelSheet) -> Callable[[], bytes]:
+    return lambda: wheel_file(work, sheet.parts[0], ".stl")
+
+
+def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
+    if "csv" in kinds:
+        for name, text in to_tables(work).items():
+            yield ExportFile(f"tables/{name}.csv", f"table of {name}", text.encode)
+
+
+def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
+    """What the files of some kinds cannot show, each once.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    kinds : sequence of str
+        Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+
+    Returns
+    -------
+    list of Problem
+        What, why and what to do.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> notices(SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes()), ["graphml"])
+    []
+    """
+    found: list[Problem] = list(work.layout.notices)
+    if work.frame is not None and parts_wanted(kinds):
+        found += [*work.frame.plan.notices, *work.frame.problems()]
+        found += (told for cup in work.frame.plan.stack.cups for told in cup.told())
+    if {"svg", "dxf", "stl"} & set(kinds):
+        found += work.blanks.notices
+    if {"svg", "dxf"} & set(kinds):
+        found += work.couplings.notices
+    if "step" in kinds:
+        from geartrain.workshop.export.step_file import left_out
+
+        found += left_out(work)
+    once: dict[str, Problem] = {}
+    for problem in found:
+        once.setdefault(problem.text, problem)
+    return [*once.values()]
+
+
+def kind_of(name: str) -> str:
+    """The kind of a whole train's file by its name. Raises `GearTrainError` for others."""
+    suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
+    if suffix in SUFFIXES:
+        return SUFFIXES[suffix]
+    fix = f"use {', '.join(SUFFIXES)}, .fmu; wheels, plates and tables are many files: --to FOLDER"
+    raise GearTrainError(Problem(f"no train is written as '{suffix or name}'", "", fix, "-o"))

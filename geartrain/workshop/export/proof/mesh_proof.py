@@ -1,0 +1,238 @@
+"""Every mesh of a train proved on the outlines that are written: overlap, play, room, tips, each against its rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import ceil
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.drawing.flat_files import to_svg
+from geartrain.errors import GearTrainError, Problem
+from geartrain.kinematics.buildability import BuildFinding, BuildLevel
+from geartrain.numerics.plain_data import Result
+from geartrain.workshop.export.cut_sheets import compensated, wheel_sheets
+from geartrain.workshop.export.proof.cut_outlines import TOLERANCE, plane_geometry, read_material
+from geartrain.workshop.export.proof.turned_pair import NOTHING, SAME, FreeTurn, TurnedPair
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from geartrain.dynamics.train_teeth import PairPlay
+    from geartrain.scene.layout import Layout
+    from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.scene.solids.wheel_blanks import Blank
+
+ALLOWED = 1e-3
+"""By how much (mm) the play that is measured may be less than what is declared: what outlines are cut to."""
+_CLEARANCE, _TIP = 0.1, 0.2  # modules: least room under a tip, and least width of one that is cut
+_AROUND = 32  # chords of a quarter turn that the middle of a cut makes about a corner
+_BUFFER = 0.01  # of a kerf: how far off the lines are that shapely moves
+_WHOLE = 1 - 1e-9  # contact ratio below which a couple parts before the next meets
+_EASY_RATIO = 1.1  # contact ratio from which a pair hands over with something to spare
+_TOUCH = 1e-4  # mm: play that is none
+_LAND = (
+    0.05  # of a tooth's height: how deep under the tip circle the width of a tip is taken, round ones having none on it
+)
+
+
+@dataclass(frozen=True, slots=True)
+class MeshProof(Result):
+    """A mesh as cut, its wheels turned through a pitch, or through all couples of teeth that differ.
+
+    Attributes
+    ----------
+    pair : str
+        Its name.
+    declared, least, most : float
+        Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel, a
+        ring's where there is one [mm].
+    overlap : float
+        Greatest common area in any position [mm2].
+    contact_ratio : float or None
+        Of conjugate teeth that stand as designed; None of others.
+    clearance : float
+        Least distance of a tip from the mate's root, on the line of centres [mm].
+    tip_width : float
+        The narrower of both wheels' tips [mm].
+    module : float
+        Of the second wheel [mm].
+    findings : tuple of BuildFinding
+        Rules it does not keep.
+    """
+
+    KEYS = ("pair", "declared", "least", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
+
+    pair: str
+    declared: float
+    least: float
+    most: float
+    overlap: float
+    contact_ratio: float | None
+    clearance: float
+    tip_width: float
+    module: float
+    findings: tuple[BuildFinding, ...] = ()
+
+
+@dataclass(frozen=True)
+class CutTrain:
+    """The material of every wheel, read back from what is written of it, and which drawings cannot be cut."""
+
+    materials: dict[str, Any]
+    findings: tuple[BuildFinding, ...]
+
+
+def read_wheels(work: SolidModel) -> CutTrain:
+    """What the written drawings of a train leave of every wheel that is cut, half the kerf burnt off all round."""
+    kerf = work.process.kerf
+    materials: dict[str, Any] = {}
+    findings = []
+    for sheet in wheel_sheets(work.blanks.wheels):
+        pins = work.blanks.wheels[sheet.parts[0]].kind == "pins"
+        try:
+            material = read_material(to_svg(compensated(sheet.drawing, kerf)), pins)
+        except GearTrainError as error:
+            for problem in error.problems:
+                what = f"wheel {' and '.join(map(repr, sheet.parts))}: {problem.what}"
+                findings.append(BuildFinding("T0", "error", Problem(what, problem.why, problem.fix)))
+            continue
+        left = _burnt(material, kerf / (2 if pins else -2)) if kerf else material
+        left = _with_pins(left, work.blanks.wheels[sheet.parts[0]])
+        materials |= dict.fromkeys(sheet.parts, left)
+    return CutTrain(materials, tuple(findings))
+
+
+def _with_pins(ring: Any, blank: Blank) -> Any:
+    """A ring with the pins that lie in it, which are turned; any other wheel as it is."""
+    if blank.pins is None:
+        return ring
+    shapely = plane_geometry()
+    R, radius = blank.pins.circle * blank.module, blank.pins.radius * blank.module
+    turns = 2 * np.pi * np.arange(blank.teeth) / blank.teeth
+    middles = shapely.points(np.column_stack([R * np.cos(turns), R * np.sin(turns)]))
+    # corners stand outside, so that no chord leaves room which the pin takes
+    chords = ceil(np.pi / (4 * np.arccos(1 / (1 + TOLERANCE / radius))))
+    return shapely.union_all([ring, *shapely.buffer(middles, radius + TOLERANCE, quad_segs=chords)])
+
+
+def _burnt(material: Any, by: float) -> Any:
+    return material.buffer(by, quad_segs=_AROUND)
+
+
+def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairPlay, tuple[Blank, Blank], TurnedPair]]:
+    """Every mesh whose two wheels are cut: its play, its wheels (a ring second), and both as they are turned."""
+    found = {}
+    for play in work.blanks.plays:
+        bent = any(work.train.declaration.wheels[name][1].flexible for name in play.wheels)
+        if set(play.wheels) <= set(cut.materials) and not bent:
+            one, other = (work.blanks.wheels[name] for name in play.wheels)
+            wheels = (other, one) if one.kind == "ring" else (one, other)
+            names = tuple(each.wheel for each in wheels)
+            first, second = (cut.materials[name] for name in names)
+            counts = wheels[0].teeth, wheels[1].teeth
+            apart = axis_distance(work.layout, (names[0], names[1]))
+            same = max(SAME, _BUFFER * work.process.kerf)
+            turned = TurnedPair((first, second), counts, apart, wheels[1].kind == "ring", same)
+            found[play.pair] = play, wheels, turned
+    return found
+
+
+def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
+    """How far apart (mm) the axles of two wheels stand, across the axis of the first."""
+    first, second = (layout.wheels[name] for name in wheels)
+    between = np.subtract(second.centre, first.centre)
+    along = np.array(layout.axes[first.axis].direction)
+    return float(np.linalg.norm(between - (between @ along) * along))
+
+
+def prove_mesh(play: PairPlay, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
+    """Turn a mesh and hold what is measured against the rules."""
+    found = turned.turn()
+    R, module = wheels[1].pitch_radius, wheels[1].module
+    room = (found.high - found.low) * R
+    measured = room[~np.isnan(room)]
+    blocked = bool((found.overlap > NOTHING).any())
+    tips = zip(turned.materials, turned.reaches, turned.counts, strict=True)
+    proof = MeshProof(
+        play.pair,
+        play.length,
+        0.0 if blocked else float(measured.min()),
+        float(measured.max(initial=0.0)),
+        float(found.overlap.max()),
+        play.contact_ratio,
+        clearance(turned),
+        min(tip_width(*each) for each in tips),
+        module,
+    )
+    names, rolls = (wheels[0].wheel, wheels[1].wheel), wheels[1].pins is not None
+    findings = _findings(play, proof, found, turned, names)
+    return replace(
+        proof, findings=tuple(each for each in findings if not (rolls and each.rule == "T2"))
+    )  # the bottom between two lobes is itself a flank, as near to pins as its play is small
+
+
+def clearance(turned: TurnedPair) -> float:
+    """Least distance (mm) of a tip from the mate's root, on the line of centres."""
+    (tip, root), (other_tip, other_root) = turned.reaches
+    a = turned.distance
+    if turned.ring:
+        return min(other_root - a - tip, other_tip - a - root)
+    return min(a - tip - other_root, a - other_tip - root)
+
+
+def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
+    """Mean width (mm) of the tips, a little under the tip circle; of a lantern the diameter of its pins."""
+    shapely = plane_geometry()
+    tip, root = reach
+    if material.geom_type != "Polygon":
+        return abs(tip - root)
+    radius = tip - (tip - root) * _LAND
+    circle = shapely.Point(0.0, 0.0).buffer(radius, quad_segs=max(64, 16 * teeth)).exterior
+    return float(shapely.length(shapely.intersection(circle, material))) / teeth
+
+
+def _findings(
+    play: PairPlay, proof: MeshProof, found: FreeTurn, turned: TurnedPair, names: tuple[str, str]
+) -> Iterator[BuildFinding]:
+    pair, module = f"pair '{proof.pair}'", proof.module
+    if found.place is not None:
+        where = turned.words(found.place, names)
+        yield _error("T5", f"{pair}: {where} overlap by {proof.overlap:.3g} mm2", _STUCK, _LOOSER)
+    elif min(proof.least, proof.declared) <= _TOUCH:
+        what = f"{pair} has no play"
+        yield _error(
+            "T5", what, "two wheels that are cut never fit without", f"give a backlash of {0.05 * module:.3g} mm"
+        )
+    elif proof.least < proof.declared - ALLOWED:
+        what = f"{pair} has {proof.least:.4g} mm of play, and {proof.declared:.4g} mm are declared"
+        yield _error("T5", what, "its teeth are thicker as cut than as declared", _LOOSER)
+    elif not np.isfinite(proof.most):
+        yield _error("T5", f"{pair} does not hold: one wheel turns past the other", "their tips do not reach", _NEARER)
+    if proof.clearance < _CLEARANCE * module - TOLERANCE:
+        what = f"{pair}: tips stand {proof.clearance:.3g} mm from roots"
+        fix = f"deepen the roots, to leave {_CLEARANCE * module:.3g} mm"
+        yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, "dirt stops them", fix))
+    ratio = proof.contact_ratio
+    if ratio is not None and ratio < _EASY_RATIO:
+        level: BuildLevel = "error" if ratio < _WHOLE else "note"
+        why = (
+            "one couple of teeth parts before the next meets"
+            if ratio < _WHOLE
+            else "little is left for wear and distance"
+        )
+        yield BuildFinding("T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, play.more_contact))
+    if proof.tip_width < _TIP * module:
+        what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
+        yield BuildFinding("T4", "note", Problem(what, "so narrow they burn or break", "shorten the addendum"))
+
+
+_STUCK = "it cannot turn"
+_LOOSER = "give more backlash, shorter addenda, or another distance"
+_NEARER = "bring the axes nearer, or take taller teeth"
+
+
+def _error(rule: str, what: str, why: str, fix: str) -> BuildFinding:
+    return BuildFinding(rule, "error", Problem(what, why, fix))

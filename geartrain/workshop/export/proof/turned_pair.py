@@ -1,0 +1,294 @@
+"""Two written outlines turned against each other: where they overlap, and how far the second is free.
+
+Wheel 1 stands at the origin, wheel 2 at the distance of the axes on the positive x axis, a ring on the negative one, so
+that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (a ring by +t z1/z2) and by a
+`lag` more. Between which lags it is free is found by turning it until it bites: bisection on the area of the overlap.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import acos, cos, hypot, lcm, pi, sin
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.workshop.export.proof.cut_outlines import plane_geometry
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from geartrain.numerics.arrays import Floats
+
+NOTHING = 1e-9  # mm2: an overlap that is none
+_STEPS = 12  # positions in a pitch at which play is measured
+_DENSE = 36  # positions in a pitch at which overlaps are looked for: between two of them a tooth moves by 0.02 modules
+_OFF = 0.137  # of a step: no position is a symmetric one
+_HALVINGS = 22  # of half a pitch: to a ten-millionth of it
+_PARTS = 16  # of a pitch, at which a wheel that is free half a pitch on is stopped
+_TRIES = 48  # places in a pitch at which a wheel that does not stand free is tried
+SAME = 5e-6  # mm: above the digits of a drawing
+_ENDS = 0.2  # of a tooth's height: what counts as its tip, and as its root
+
+
+@dataclass(frozen=True, slots=True)
+class FreeTurn:
+    """How wheel 2 stands while wheel 1 is turned, an item a position.
+
+    turned    angles of wheel 1 (rad), from where a tooth stands on the line of centres
+    low, high   lags (rad) between which wheel 2 is free; NaN where it is not
+    overlap   least common area (mm2); 0 where it is free
+    place     where they overlap most, from the axle of wheel 1 (mm); None where nowhere
+    """
+
+    turned: Floats
+    low: Floats
+    high: Floats
+    overlap: Floats
+    place: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class TurnedPair:
+    """Two wheels as materials about their own axles, a tooth on the x axis of each.
+
+    counts     teeth of both
+    distance   of the axles (mm); `ring`, wheel 2 is one
+    same       teeth that differ by less (mm) are alike
+    """
+
+    materials: tuple[Any, Any]
+    counts: tuple[int, int]
+    distance: float
+    ring: bool = False
+    same: float = SAME
+
+    @cached_property
+    def pitches(self) -> tuple[float, float]:
+        """Angles (rad) from tooth to tooth."""
+        return 2 * pi / self.counts[0], 2 * pi / self.counts[1]
+
+    @cached_property
+    def reaches(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Radii of tips and of roots of both wheels, as cut."""
+        outer, inner = self.materials
+        first = _teeth(outer, False)
+        return first, _teeth(inner, self.ring)
+
+    def turn(self) -> FreeTurn:
+        """Through a pitch of wheel 1; where teeth differ, through all couples of teeth that meet."""
+        found = [self._through(couple) for couple in self.couples]
+        worst = max(found, key=lambda each: float(each.overlap.max()))
+        return _joined(found, worst.place)
+
+    @cached_property
+    def couples(self) -> list[tuple[int, int]]:
+        """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; alike ones once."""
+        z1, z2 = self.counts
+        way = 1 if self.ring else -1
+        found: dict[tuple[int, int], tuple[int, int]] = {}
+        kinds = self._kinds(0), self._kinds(1)
+        for n in range(lcm(z1, z2)):
+            one, other = -n % z1, -way * n % z2
+            found.setdefault((kinds[0][one], kinds[1][other]), (one, other))
+            if len(found) == len(set(kinds[0])) * len(set(kinds[1])):
+                break
+        return list(found.values())
+
+    def free(self, turned: Floats, lags: Floats, couple: tuple[int, int] = (0, 0)) -> FreeTurn:
+        """At angles of wheel 1 within a pitch about 0, wheel 2 standing about some lags."""
+        t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
+        first = _moved(self._piece(0, couple[0]), t, 0.0)
+        areas = self._areas(first, t, lag, couple)
+        place = None
+        stuck = np.flatnonzero(areas > NOTHING)
+        for at in stuck.tolist():
+            lag[at], areas[at] = self._tried(first[at], float(t[at]), couple, (float(lag[at]), float(areas[at])))
+        if (areas > NOTHING).any():
+            place = self._place(first, t, lag, couple, int(areas.argmax()))
+        ends = [self._end(first, t, lag, way, couple) for way in (-1, 1)]
+        blocked = areas > NOTHING
+        low, high = (np.where(blocked, np.nan, end) for end in ends)
+        return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
+
+    def _through(self, couple: tuple[int, int]) -> FreeTurn:
+        """Where play is measured, and every other position at which the middle of that play is no place to stand."""
+        t = self._positions(_STEPS)
+        found = self.free(t, np.zeros(_STEPS), couple)
+        held = np.isfinite(found.low) & np.isfinite(found.high)
+        middle = (np.where(held, found.low, 0.0) + np.where(held, found.high, 0.0)) / 2
+        dense = self._positions(_DENSE)
+        # teeth that are not conjugate stand elsewhere at every position
+        lags = np.interp(dense, t, middle, period=self.pitches[0])
+        areas = self._areas(_moved(self._piece(0, couple[0]), dense, 0.0), dense, lags, couple)
+        stuck = areas > NOTHING
+        if not stuck.any():
+            return found
+        more = self.free(dense[stuck], lags[stuck], couple)
+        return _joined([found, more], found.place or more.place)
+
+    def _positions(self, steps: int) -> Floats:
+        return np.asarray(self.pitches[0] * ((np.arange(steps) + _OFF) / steps - 0.5))
+
+    def _tried(self, first: Any, t: float, couple: tuple[int, int], here: tuple[float, float]) -> tuple[float, float]:
+        """The nearest lag within half a pitch at which wheel 2 is free; else the one with the least overlap."""
+        tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
+        areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, couple)
+        open_ = np.flatnonzero(areas <= NOTHING)
+        if open_.size:
+            at = open_[np.abs(tries[open_] - here[0]).argmin()]
+        else:
+            at = areas.argmin()
+            if areas[at] >= here[1]:
+                return here
+        return float(tries[at]), float(areas[at])
+
+    def _end(self, first: Any, t: Floats, lag: Floats, way: int, couple: tuple[int, int]) -> Floats:
+        """The last free lag on one side; infinite where nothing stops it within a pitch."""
+        free, met = lag.copy(), lag + way * self.pitches[1] / 2
+        loose = self._areas(first, t, met, couple) <= NOTHING
+        if loose.any():  # play of half a pitch: the tooth that stops it is nearer or farther than that
+            for part in range(1, _PARTS):
+                there = lag + way * self.pitches[1] * part / _PARTS
+                bites = loose & (self._areas(first, t, there, couple) > NOTHING)
+                met, loose = np.where(bites, there, met), loose & ~bites
+        for _ in range(_HALVINGS):
+            middle = (free + met) / 2
+            bites = self._areas(first, t, middle, couple) > NOTHING
+            free, met = np.where(bites, free, middle), np.where(bites, middle, met)
+        return np.where(loose, way * np.inf, free)
+
+    def _second(self, t: Floats, lag: Floats, couple: tuple[int, int]) -> Any:
+        ratio = self.counts[0] / self.counts[1] * (1 if self.ring else -1)
+        away = -self.distance if self.ring else self.distance
+        return _moved(self._piece(1, couple[1]), t * ratio + lag, away)
+
+    def _areas(self, first: Any, t: Floats, lag: Floats, couple: tuple[int, int]) -> Floats:
+        shapely = plane_geometry()
+        return np.asarray(shapely.area(shapely.intersection(first, self._second(t, lag, couple))))
+
+    def _place(self, first: Any, t: Floats, lag: Floats, couple: tuple[int, int], at: int) -> tuple[float, float]:
+        """The middle of the greatest sliver."""
+        shapely = plane_geometry()
+        common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], couple)[0])
+        sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
+        return float(sliver.centroid.x), float(sliver.centroid.y)
+
+    # ---------------------------------------------------------------------------------------------- what is near enough
+
+    @cached_property
+    def _extents(self) -> tuple[float, float]:
+        """Half angles (rad), seen from both axles, of where the tip circles overlap."""
+        (tip, _), (other, _) = self.reaches
+        a = self.distance
+        if not a:
+            return pi, pi
+        one = (other**2 - tip**2 - a**2) / (2 * a * tip) * (1 if self.ring else -1)
+        two = (a**2 + other**2 - tip**2) / (2 * a * other)
+        return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
+
+    def _piece(self, which: int, tooth: int) -> Any:
+        """What of a wheel may meet the other while a tooth, or a space of wheel 2, passes the line of centres."""
+        return self._pieces[which](tooth)
+
+    @cached_property
+    def _pieces(self) -> tuple[Any, Any]:
+        cut: dict[tuple[int, int], Any] = {}
+
+        def piece(which: int, tooth: int) -> Any:
+            kind = self._kinds(which)[tooth]
+            if (which, kind) not in cut:
+                cut[which, kind] = self._cropped(which, tooth)
+            return cut[which, kind]
+
+        return (lambda tooth: piece(0, tooth)), (lambda tooth: piece(1, tooth))
+
+    def _cropped(self, which: int, tooth: int) -> Any:
+        """A wheel turned so that a tooth (of wheel 2 a space) stands at the contact, cut off to what may touch."""
+        shapely = plane_geometry()
+        pitch = self.pitches[which]
+        facing = 0.0 if which == 0 or self.ring else pi
+        turn = facing - tooth * pitch + (0.0 if which == 0 else pitch / 2)
+        whole = _moved(self.materials[which], np.array([turn]), 0.0)[0]
+        half = self._extents[which] + 1.1 * pitch
+        return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
+
+    def _kinds(self, which: int) -> tuple[int, ...]:
+        """For each tooth the first that is like it, with all that lies about it."""
+        return self._alike[which]
+
+    @cached_property
+    def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        first, second = self.materials
+        return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
+
+    # ---------------------------------------------------------------------------------------------------------- words
+
+    def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
+        """Where two wheels overlap: what of which, and at which radii (mm)."""
+        away = -self.distance if self.ring else self.distance
+        radii = hypot(*place), hypot(place[0] - away, place[1])
+        parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]
+        return " on ".join(
+            f"{part} of {name} (r {radius:.4g})" for part, name, radius in zip(parts, names, radii, strict=True)
+        )
+
+
+def _joined(found: Sequence[FreeTurn], place: tuple[float, float] | None) -> FreeTurn:
+    turned, low, high, overlap = (
+        np.concatenate([getattr(each, name) for each in found]) for name in ("turned", "low", "high", "overlap")
+    )
+    return FreeTurn(turned, low, high, overlap, place)
+
+
+def _part(radius: float, tip: float, root: float) -> str:
+    height = (radius - root) / (tip - root) if tip != root else 0.5
+    return "tip" if height > 1 - _ENDS else "root" if height < _ENDS else "flank"
+
+
+def _tooth_lines(material: Any, ring: bool) -> Any:
+    """The outer line, or of a ring its hole; of pins all their lines."""
+    shapely = plane_geometry()
+    if ring:
+        return max(material.interiors, key=lambda line: float(shapely.Polygon(line).area))
+    return material.exterior if material.geom_type == "Polygon" else shapely.boundary(material)
+
+
+def _teeth(material: Any, ring: bool) -> tuple[float, float]:
+    """Radii of the tips and of the roots; of pins what they reach."""
+    shapely = plane_geometry()
+    radii = np.hypot(*shapely.get_coordinates(_tooth_lines(material, ring)).T)
+    ends = float(radii.max()), float(radii.min())
+    return ends[::-1] if ring else ends
+
+
+def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
+    """Teeth by the first that is like them: a wheel that is the same after a pitch has one kind."""
+    shapely = plane_geometry()
+    lines = _tooth_lines(material, ring)
+    shapely.prepare(lines)
+    turned = shapely.get_coordinates(lines) @ (1, 1j) * np.exp(2j * pi / count)
+    near = shapely.dwithin(shapely.points(turned.real, turned.imag), lines, same)
+    return (0,) * count if near.all() else tuple(range(count))
+
+
+def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
+    """The sector about a direction, from well under the teeth to well over them."""
+    shapely = plane_geometry()
+    height = abs(reach[0] - reach[1])
+    steps = np.linspace(-half, half, 9)
+    low, high = max(min(reach) - height, 0.0), (max(reach) + height) / cos(half / 8)
+    outer = [(high * cos(facing + s), high * sin(facing + s)) for s in steps]
+    inner = [(low * cos(facing + s), low * sin(facing + s)) for s in steps[::-1]]
+    return shapely.Polygon([*outer, *inner] if low else [*outer, (0.0, 0.0)])
+
+
+def _moved(material: Any, turns: Floats, away: float) -> Any:
+    """Copies of a material, each turned about its axle, then taken along the x axis."""
+    shapely = plane_geometry()
+    x, y = shapely.get_coordinates(material).T
+    c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
+    places = np.stack([c * x - s * y + away, s * x + c * y], axis=2)
+    copies = np.full(len(turns), material, dtype=object)
+    return shapely.set_coordinates(copies, places.reshape(-1, 2))

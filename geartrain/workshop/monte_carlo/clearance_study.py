@@ -1,0 +1,158 @@
+"""The same wheels at other clearances, and with their errors greater or smaller: how often the train jams."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.confidence_intervals import ProbabilityEstimate
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.work import Execution
+from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
+from geartrain.workshop.monte_carlo.trial_results import EVENTS, EventRates
+from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
+
+if TYPE_CHECKING:
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+
+_MOST = 1000  # clearances
+
+
+@dataclass(frozen=True, slots=True)
+class ClearanceCase(Result):
+    """The train at one clearance, its errors so many times as great.
+
+    Attributes
+    ----------
+    clearance : float or None
+        Factor of the centre distance, or share of each pair's own window; None as declared.
+    scale : float
+        Factor of all errors.
+    events : mapping of str to ProbabilityEstimate
+        Jam, clash, stops (jam or clash), standstill, disengaged -> how often in any pair.
+    pairs : mapping of str to mapping
+        The same by pair.
+
+    See Also
+    --------
+    jamming_map : gives it
+    """
+
+    KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
+
+    clearance: float | None
+    scale: float
+    events: Mapping[str, ProbabilityEstimate]
+    pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
+
+    @property
+    def rates(self) -> EventRates:
+        """How often any pair does what."""
+        return cast("EventRates", self.events)
+
+
+def read_clearances(text: str) -> list[float]:
+    """`1.005:1.04:8`: factors, from, to, how many; `0.1:0.9:9`: shares of each pair's own window."""
+    first, last, many = [*text.split(":"), "", ""][:3]
+    try:
+        low, high, count = float(first), float(last or first), int(many or (1 if not last else 9))
+    except ValueError:
+        low, high, count = -1.0, -1.0, 0
+    if text.count(":") > 2 or not 0 <= low <= high < 10 or not 1 <= count <= _MOST or (low < 1 <= high):
+        why = "a sweep goes from a least to a greatest clearance, both factors (1 and above) or both shares of windows"
+        raise QuestionError(Problem(f"'{text}' is no sweep of clearance", why, "write for example 1.005:1.04:8"))
+    return [float(each) for each in np.linspace(low, high, count)]
+
+
+def run_clearances(
+    plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: Execution | None = None
+) -> list[ClearanceCase]:
+    """The train at each clearance, by the same wheels."""
+    return jamming_map(plan, clearances, (1.0,), trials, seed, means)
+
+
+def jamming_map(
+    plan: TrialPlan,
+    clearances: Sequence[float | None],
+    scales: Sequence[float],
+    trials: int,
+    seed: int = 1,
+    means: Execution | None = None,
+) -> list[ClearanceCase]:
+    """Monte Carlo of the same wheels at every clearance and every scale of their errors: how often the train jams.
+
+    Parameters
+    ----------
+    plan : TrialPlan
+        The train with its errors.
+    clearances : sequence of float or None
+        From 1 on factors of the least centre distance at which teeth bottom, 0 to 1 shares of each pair's own window,
+        None as declared; it runs slowest.
+    scales : sequence of float
+        Factors of all errors, 0 or more.
+    trials : int
+        Of each case, 1 to 10^9.
+    seed : int
+        The same seed cuts the same wheels.
+    means : Execution, optional
+        Executor, journal of finished work, progress report; by default this process, and none of the others.
+
+    Returns
+    -------
+    list of ClearanceCase
+        A case for each clearance and scale.
+
+    Raises
+    ------
+    QuestionError
+        For a number of trials that tells nothing.
+    RangeError
+        For a share of a window, where a pair has none.
+
+    Examples
+    --------
+    >>> from geartrain import load
+    >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> [case.events["jam"].count for case in jamming_map(plan, [0.5], [1.0, 80.0], trials=16)]
+    [0, 16]
+    """
+    check_trials(trials)
+    means = means or Execution()
+    cases = [(clearance, scale) for clearance in clearances for scale in scales]
+    return list(_judged(plan, cases, trials, seed, means))
+
+
+def _judged(
+    plan: TrialPlan, cases: Sequence[tuple[float | None, float]], trials: int, seed: int, means: Execution
+) -> Iterator[ClearanceCase]:
+    parts = trial_tasks(trials, len(cases))
+    results = means.run(partial(work_case, plan, seed), [[*case, *part] for case in cases for part in parts])
+    for clearance, scale in cases:
+        counts = np.sum([next(results) for _ in parts], axis=0)
+        found = [
+            {name: ProbabilityEstimate(*each) for name, each in zip(EVENTS, row.tolist(), strict=True)}
+            for row in counts
+        ]
+        yield ClearanceCase(
+            clearance, scale, found[-1], dict(zip((pair.name for pair in plan.pairs), found, strict=False))
+        )
+
+
+def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
+    """Some trials of one case: for each pair and then the train, for each event, how many of how many."""
+    clearance, scale, first, trials = task
+    changed = plan.scaled(scale)
+    changed = changed if clearance is None else changed.cleared(clearance)
+    marks, _ = judge_trial_pairs(draw_trial_wheels(changed, RandomStreams(seed, first // BLOCK), trials, first % BLOCK))
+    columns = [*marks.T, np.bitwise_or.reduce(marks, axis=1)]
+    return [
+        [[int(np.count_nonzero(cut & mark)), len(cut)] for mark in EVENTS.values()]
+        for cut in (each[(each & UNCUT) == 0] for each in columns)
+    ]

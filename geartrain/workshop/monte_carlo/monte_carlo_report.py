@@ -1,0 +1,198 @@
+"""Trials of wheels cut by hand as a page: how often pairs jam, how far pointers stray, and which errors cause it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees
+from typing import TYPE_CHECKING, Any
+
+from geartrain.report.document import Document, Section, Table, cut
+
+if TYPE_CHECKING:
+    from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorStatistics
+    from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
+    from geartrain.workshop.monte_carlo.trial_results import PairEventRates
+
+
+def describe_monte_carlo(found: MonteCarloResult) -> Document:
+    """Trials of wheels cut by hand: how often pairs jam, how far pointers stray, and what was asked beside.
+
+    Parameters
+    ----------
+    found : MonteCarloResult
+        Trials, with courses, Sobol indices and clearances where these were requested.
+
+    Returns
+    -------
+    Document
+        Assumptions first; probabilities with Wilson's intervals of 95 %, errors of pointers in degrees.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import (MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
+    >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).lead[0]
+    '2 trials, seed 1; intervals hold with 95 %.'
+    """
+    trials = found.trials
+    lead = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
+    if not trials.complete:
+        lead.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
+    return Document(f"Cut by hand: {trials.plan.name}", lead, list(_sections(found)))
+
+
+def _sections(found: MonteCarloResult) -> Iterator[Section]:
+    yield _verdict(found)
+    yield _pairs(found)
+    if found.trials.filings:
+        yield _filing(found)
+    yield _pointers(found)
+    for course in found.courses:
+        yield _course(course.to_dict())
+    yield from (_shares(found, pointer) for pointer in found.trials.pointers[:4] if len(pointer.shares) > 1)
+    yield from map(_indices, found.indices)
+    if found.cleared:
+        yield _cleared(found)
+    yield _convergence(found)
+
+
+def share_text(each: ProbabilityEstimate) -> str:
+    """`1.2 % (0.9..1.6)`."""
+    if not each.of:
+        return "-"
+    low, high = each.interval
+    return f"{_percent(each.value)} % ({_percent(low)}..{_percent(high)})"
+
+
+def _percent(value: float) -> str:
+    """A share in percent: two digits, or one after the point near the ends."""
+    percent = 100 * value
+    return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
+
+
+def angle_text(figure: IntervalEstimate) -> str:
+    """`2.04 (1.9..2.2)` in degrees."""
+    value, low, high = (degrees(each) for each in (figure.value, figure.low, figure.high))
+    return f"{value:.3g} ({low:.3g}..{high:.3g})"
+
+
+def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
+    """`12.4 (11.8..13)`."""
+    return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
+
+
+def _verdict(found: MonteCarloResult) -> Section:
+    train = found.trials.train
+    jam, stops = train.events["jam"], train.events["stops"]
+    worst = sorted(found.trials.pairs, key=lambda pair: -pair.events["jam"].value)[:3]
+    names = ", ".join(f"{pair.name} ({share_text(pair.events['jam'])})" for pair in worst if pair.events["jam"].count)
+    text = f"Some pair jams in {share_text(jam)} of the trials, and jams or clashes in {share_text(stops)}."
+    return Section("Verdict", (text, f"Jams most often: {names}." if names else "No pair jams."))
+
+
+def _pairs(found: MonteCarloResult) -> Section:
+    rows = [_tallied(pair) for pair in (*found.trials.pairs, found.trials.train)]
+    header = ("pair", "play (pitches)", "jam", "clash", "standstill", "disengaged", "bound on jams")
+    text = (
+        "Over the full cycle of teeth. Play is that of even wheels, in pitches of the driven wheel; the bound, of "
+        "errors of placement alone, is 2 lcm Q(play/2 sigma)."
+    )
+    return Section("Pairs", (text,), (Table(header, cut(rows)),))
+
+
+def _filing(found: MonteCarloResult) -> Section:
+    rows = []
+    for each in found.trials.filings:
+        work = number_text(each.strokes), number_text(each.teeth), str(each.most)
+        rows.append((each.name, share_text(each.filed), *work, share_text(each.jams)))
+    header = ("pair", "jams before", "strokes", "teeth filed", "most strokes", "jams after")
+    text = "Where a pair jams, its flanks are filed until it passes. Strokes and teeth are means over all trials."
+    return Section("Filing", (text,), (Table(header, cut(rows)),))
+
+
+def _tallied(pair: PairEventRates) -> tuple[str, ...]:
+    play, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.play, pair.bound))
+    events = (share_text(pair.events[name]) for name in ("jam", "clash", "standstill", "disengaged"))
+    return (pair.name, play, *events, bound)
+
+
+def _pointers(found: MonteCarloResult) -> Section:
+    rows, texts = [], ["At random positions of the input, in degrees. Trials that jam are counted, not averaged in."]
+    for pointer in found.trials.pointers:
+        ends = pointer.percentiles
+        rows.append(
+            (
+                pointer.name + (" *" if pointer.of_all else ""),
+                str(pointer.stopped),
+                angle_text(pointer.mean),
+                angle_text(pointer.deviation),
+                *(angle_text(ends[percent]) for percent in (2.5, 97.5)),
+                f"{degrees(pointer.greatest):.3g}",
+                f"{degrees(pointer.first[0]):.2g}",
+            )
+        )
+    if any(row[0].endswith("*") for row in rows):
+        texts.append(
+            "* Nearly all trials jam: given is what the pushing flanks would do in all of them, were jams let pass."
+        )
+    texts.append("First order off: what plain superposition of the pairs' errors is off from the composed motion, rms.")
+    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "greatest", "first order off")
+    return Section("Pointers", texts, (Table(header, cut(rows)),))
+
+
+def _course(data: dict[str, Any]) -> Section:
+    rows = [(f"{percent} %", f"{each[0]:.3g}", f"{each[1]}..{each[2]}") for percent, each in _rounded(data)]
+    text = f"The greatest error either way along one turn of '{data['output']}', {data['trials']} trials (deg)."
+    return Section(f"Along a turn of {data['output']}", (text,), (Table(("percentile", "error", "interval"), rows),))
+
+
+def _rounded(data: dict[str, Any]) -> Iterator[tuple[str, list[Any]]]:
+    for percent, (value, low, high) in data["greatest_deg"].items():
+        yield percent, [value, *("?" if each is None else f"{each:.3g}" for each in (low, high))]
+
+
+def _shares(found: MonteCarloResult, pointer: PointerErrorStatistics) -> Section:
+    rows = [
+        (name, f"{100 * each:.3g} %")
+        for name, each in sorted(pointer.shares.items(), key=lambda item: -abs(item[1]))
+        if abs(each) > 5e-4  # three digits in percent would show 0
+    ]
+    text = "Exact shares of the variance by pair, to first order; wheels that two pairs share may make one negative."
+    return Section(f"Variance of {pointer.name}", (text,), (Table(("pair", "share"), rows),))
+
+
+def _indices(each: SobolIndices) -> Section:
+    rows = [(index.name, *map(_index, (index.first, index.total))) for index in each.indices]
+    text = f"Sobol indices by {each.by}, {each.trials} base samples: alone, and with all it takes part in."
+    title = f"Sensitivity of {each.output} by {each.by}"
+    return Section(title, (text,), (Table((each.by, "first order", "total"), cut(rows)),))
+
+
+def _index(figure: IntervalEstimate) -> str:
+    return f"{figure.value:.3f} ({figure.low:.3f}..{figure.high:.3f})"
+
+
+def _cleared(found: MonteCarloResult) -> Section:
+    rows = []
+    for each in found.cleared:
+        events = (share_text(each.events[name]) for name in ("jam", "clash", "standstill", "disengaged"))
+        rows.append((f"{each.clearance:.6g}", *events))
+    text = "Any pair of the train, the same wheels at every clearance."
+    header = ("clearance", "jam", "clash", "standstill", "disengaged")
+    return Section("Clearance", (text,), (Table(header, rows),))
+
+
+def _convergence(found: MonteCarloResult) -> Section:
+    trials = found.trials
+    rows = [
+        (str(count), share_text(jam), share_text(stops))
+        for (count, jam), (_, stops) in zip(trials.convergence("jam"), trials.convergence("stops"), strict=True)
+    ]
+    tables = [Table(("trials", "some pair jams", "jams or clashes"), rows)]
+    for at, pointer in enumerate(trials.pointers[:4]):
+        spread = [(str(n), f"{sd:.4g} ({low:.4g}..{high:.4g})") for n, sd, low, high in found.pointer_convergence(at)]
+        tables.append(Table((f"trials of {pointer.name}", "sd (deg)"), spread))
+    return Section("Convergence", ("The same estimates from the first part of the trials.",), tuple(tables))

@@ -1,0 +1,236 @@
+"""Sobol indices of a pointer's error by wheel or by kind of error: Monte Carlo estimates from two independent samples.
+
+All teeth of a wheel are one input, and so is the position of the train's input. With the samples A and B, and AB(i)
+equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
+
+    first order   S_i = mean(f(B) (f(AB(i)) - f(A))) / V        total   T_i = mean((f(A) - f(AB(i)))^2) / 2 V
+
+`scipy.stats.sobol_indices` has the same estimators, but takes a number of samples that is a power of 2 only, and its
+bootstrap takes no seed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.confidence_intervals import IntervalEstimate, deviations
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.work import Execution
+from geartrain.workshop.cutting.declared_errors import ERROR_KINDS
+from geartrain.workshop.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
+from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+
+
+By = Literal["wheel", "kind"]
+_STREAMS = 1 << 21  # blocks of these studies: streams of their own
+_RESAMPLES = 200  # for the intervals
+
+
+@dataclass(frozen=True, slots=True)
+class SobolIndex(Result):
+    """First-order and total Sobol index of one input, with 95 % intervals by resampling."""
+
+    KEYS = (Key("of", "name"), "first", "total")
+
+    name: str
+    first: IntervalEstimate
+    total: IntervalEstimate
+
+
+@dataclass(frozen=True, slots=True)
+class SobolIndices(Result):
+    """Shares of the variance of one output by wheel or by kind of error.
+
+    Attributes
+    ----------
+    output : str
+        Its name.
+    by : {"wheel", "kind"}
+        What an input is: all errors of one wheel, or one kind of error of all wheels.
+    trials : int
+        Base samples in which every output was found.
+    indices : tuple of SobolIndex
+        `name`, `first` and `total` of each input, the greatest first; "position" is where the input stands.
+
+    See Also
+    --------
+    find_sobol_indices : gives it
+    """
+
+    output: str
+    by: By
+    trials: int
+    indices: tuple[SobolIndex, ...]
+
+
+def find_sobol_indices(
+    plan: TrialPlan,
+    output: int,
+    by: By = "wheel",
+    trials: int = 1024,
+    seed: int = 1,
+    means: Execution | None = None,
+) -> SobolIndices:
+    """Sobol indices of an output's error at random positions, by Saltelli's scheme.
+
+    Pairs that jam move the output by their pushing flanks.
+
+    Parameters
+    ----------
+    plan : TrialPlan
+        The train with its errors.
+    output : int
+        Its number in `plan.outputs`, from 0.
+    by : {"wheel", "kind"}
+        What an input is: all errors of one wheel, or one kind of error of all wheels.
+    trials : int
+        Base samples, 1 to 10^9; each costs as many trials as there are inputs, and two.
+    seed : int
+        Of the random numbers.
+    means : Execution, optional
+        Executor and progress report; by default this process, and none. Nothing is journalled.
+
+    Returns
+    -------
+    SobolIndices
+        The greatest total index first.
+
+    Raises
+    ------
+    QuestionError
+        Where nothing that is off moves the output.
+
+    References
+    ----------
+    Saltelli, A. et al. 2010. Variance based sensitivity analysis of model output. Comput. Phys. Commun. 181, table 2.
+
+    Examples
+    --------
+    >>> from geartrain import load
+    >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=1 %"]), ["sun"])
+    >>> sorted(index.name for index in find_sobol_indices(plan, 0, trials=16).indices)
+    ['a', 'b1', 'position']
+    """
+    check_trials(trials)
+    means, names = means or Execution(), [name for name, _ in error_groups(plan, output, by)]
+    if len(names) < 2:
+        what = f"no wheel that is off moves '{plan.outputs[output]}'"
+        raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))
+    rows: list[Any] = []
+    # not journalled: a journal knows its tasks by block and trials, which are those of the trials themselves
+    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
+        rows += part
+    values = np.array(rows, dtype=float)
+    values = values[np.isfinite(values).all(axis=1)]
+    indices = [SobolIndex(name, *both) for name, both in zip(names, saltelli_indices(values, seed), strict=True)]
+    ordered = tuple(sorted(indices, key=lambda each: -each.total.value))
+    return SobolIndices(plan.outputs[output], by, len(values), ordered)
+
+
+def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
+    """First-order and total index of each input, with bootstrap intervals; 0 where the values do not vary.
+
+    values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
+    seed     of the resamples
+    """
+    values = values - values.mean()  # the estimate of S_i is less scattered for centred values
+    rng, n = np.random.default_rng(seed), len(values)
+    estimates = _saltelli(values)
+    resampled = np.array([_saltelli(values[rng.integers(n, size=n)]) for _ in range(_RESAMPLES)])
+    halves = deviations() * resampled.std(axis=0, ddof=1)
+    first, total = (
+        [IntervalEstimate(value, value - half, value + half) for value, half in zip(*row, strict=True)]
+        for row in zip(estimates.tolist(), halves.tolist(), strict=True)
+    )
+    return list(zip(first, total, strict=True))
+
+
+def _saltelli(values: Floats) -> Floats:
+    """First-order and total indices, (2, d)."""
+    a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
+    variance = np.var(values[:, [0, -1]])
+    if not variance:
+        return np.zeros((2, mixed.shape[1]))
+    indices: Floats = np.stack([np.mean(b * (mixed - a), axis=0), np.mean((a - mixed) ** 2, axis=0) / 2]) / variance
+    return indices
+
+
+def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callable[[int, int], bool]]]:
+    """Names of the inputs that can move an output, and which streams are theirs."""
+    pairs = plan.reach[output]
+    wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
+    off = [at for at in wheels if not plan.wheels[at].true]
+    fits = [at for at in pairs if plan.pairs[at].fitting]
+    found: list[tuple[str, Callable[[int, int], bool]]] = []
+    if by == "wheel":
+        found += [(plan.wheels[at].name, _Item(at)) for at in off]
+        found += [(plan.pairs[at].name, _Item(len(plan.wheels) + at)) for at in fits]
+    else:
+        errors = [plan.wheels[at].errors for at in off] + [plan.pairs[at].fitting for at in fits]
+        found += [(kind, _Kind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
+    return [*found, ("position", _Item(plan.position))]
+
+
+@dataclass(frozen=True, slots=True)
+class _Item:
+    item: int
+
+    def __call__(self, item: int, kind: int) -> bool:
+        del kind
+        return item == self.item
+
+
+@dataclass(frozen=True, slots=True)
+class _Kind:
+    kind: str
+
+    def __call__(self, item: int, kind: int) -> bool:
+        del item
+        also = {TOWARDS} if NUMBER[self.kind] == ECCENTRICITY else set()
+        return kind in {NUMBER[self.kind], *also}
+
+
+def _all(item: int, kind: int) -> bool:
+    del item, kind
+    return True
+
+
+def _none(item: int, kind: int) -> bool:
+    del item, kind
+    return False
+
+
+@dataclass(frozen=True)
+class SobolBlock:
+    """Some base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
+
+    plan: TrialPlan
+    seed: int
+    output: int
+    by: By
+
+    def __call__(self, task: Sequence[int]) -> list[list[float]]:
+        """The samples of a task as plain data."""
+        first, trials = task
+        inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
+        columns = [self._errors(first, trials, choice) for choice in (_none, *inputs, _all)]
+        found: list[list[float]] = np.stack(columns, axis=1).tolist()
+        return found
+
+    def _errors(self, first: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
+        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, choice)
+        drawn = draw_trial_wheels(self.plan, streams, trials, first % BLOCK)
+        found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
+        errors: Floats = found.errors(input_positions(drawn))[0]
+        return errors

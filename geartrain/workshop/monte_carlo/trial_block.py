@@ -1,0 +1,168 @@
+"""One block of trials: wheels drawn, pairs judged, and where the pointers stand; the same wherever it is worked out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.dynamics.motion.error_composition import ErrorComposition
+from geartrain.dynamics.motion.superposition import Superposition
+from geartrain.teeth.constant_lag import ConstantLag
+from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.workshop.cutting.file_strokes import FilingWork
+    from geartrain.workshop.cutting.trial_transmission import TrialTransmissionFunction
+    from geartrain.workshop.monte_carlo.trial_pair import TrialPair
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+
+    Marks = NDArray[np.uint8]
+
+JAM, CLASH, STANDSTILL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
+"""Marks of a pair in a trial: a sum of these."""
+STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
+"""A pair that, dragging, does not turn through its cycle; and one whose outputs are not averaged in."""
+
+
+@dataclass(frozen=True)
+class TrialWheels:
+    """The wheels of some trials: `wheels` by number, of outer radius 1; `good` where they can be cut."""
+
+    plan: TrialPlan
+    streams: RandomStreams
+    rows: slice
+    wheels: tuple[CutWheel | DisplacedWheel, ...]
+    good: tuple[Bools, ...]
+
+    @property
+    def trials(self) -> int:
+        """How many trials there are."""
+        return int(self.rows.stop - self.rows.start)
+
+    def pair(self, at: int, widest: int = 0) -> Any:
+        """One pair as it was drawn; `widest` 1 and -1 have its bearings at their farthest and nearest."""
+        pair = self.plan.pairs[at]
+        if not pair.stroke:
+            return pair.cut(self.wheels, self._shift(pair, at, widest))
+        filed = self.filing[at].pair
+        return filed if widest < 0 else replace(filed, shift=self._shift(pair, at, widest))
+
+    @cached_property
+    def filing(self) -> dict[int, FilingWork[Any]]:
+        """What is filed of each pair that is fitted so, by number, its bearings at their nearest."""
+        pairs = enumerate(self.plan.pairs)
+        return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
+
+    def strokes(self) -> Floats:
+        """How many strokes of the file each pair takes, and on how many teeth, (trials, 2 pairs)."""
+        found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
+        for at, work in self.filing.items():
+            found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
+        return found
+
+    def _shift(self, pair: TrialPair, at: int, widest: int) -> Floats | float:
+        if not pair.fitting:
+            return 0.0
+        shift = np.zeros(self.trials)
+        for kind, off in pair.fitting.items():
+            # always a whole block, then cut: a trial is the same however many are wanted
+            drawn = self.streams.errors(len(self.plan.wheels) + at, kind, off, (BLOCK,))[self.rows]
+            # a bearing moves from tooth to tooth: where it matters most is where it counts
+            shift = shift + (widest * np.abs(drawn) if kind == "bearing" and widest else drawn)
+        return shift * pair.depth
+
+
+def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
+    """The wheels of some trials of a block, from number `start` of it on."""
+    rows = slice(start, start + trials)
+    found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
+    return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
+
+
+# ------------------------------------------------------------------------------------------------------------- verdicts
+
+
+def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
+    """Marks, and least play in pitches of the driven wheel, of every pair in every trial (trials, pairs)."""
+    wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
+    marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
+    play = np.full(marks.shape, inf)
+    for at in wanted:
+        marks[:, at], play[:, at] = _judged(drawn, at)
+    return marks, play
+
+
+def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
+    pair = drawn.plan.pairs[at]
+    near, far = pair.verdicts(drawn.pair(at, -1)), None
+    if pair.fitting.get("bearing"):
+        far = pair.verdicts(drawn.pair(at, 1))
+    loose = far or near
+    marks = (
+        JAM * near.jams
+        + CLASH * (near.clash | loose.clash)
+        + STANDSTILL * (near.standstill | loose.standstill)
+        + DISENGAGED * (near.disengaged | loose.disengaged)
+    )
+    uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
+    marks = np.where(uncut, UNCUT, marks)
+    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.play / pair.pitches[1]
+
+
+# ------------------------------------------------------------------------------------------------------------- pointers
+
+
+def input_positions(drawn: TrialWheels) -> Floats:
+    """The position of the input in each trial (turns)."""
+    # a whole block, then cut, as all errors are
+    return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
+
+
+@dataclass(frozen=True)
+class TrialPointers:
+    """The train of some trials in motion."""
+
+    cut: ErrorComposition
+    even: ErrorComposition
+    laws: dict[str, TrialTransmissionFunction]
+
+    def errors(self, turns: Floats) -> Floats:
+        """How far each output is from where even teeth would have it on average (rad), (outputs, n)."""
+        return self.cut.at(turns).error - self.even.at(turns).error
+
+    def superposed(self, turns: Floats) -> Floats:
+        """The same to first order: every pair at its mean angle, every pin at its mean ratio."""
+        return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
+
+
+def trial_pointers(
+    drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
+) -> TrialPointers:
+    """Outputs, by default all, with the drawn wheels; `rows` says which trial is asked at each position.
+
+    The laws of all pairs and pins are composed exactly, for every trial at its own position.
+    """
+    plan, whole = drawn.plan, drawn.plan.composition
+    at = {pair.name: number for number, pair in enumerate(plan.pairs)}
+    wanted = whole.outputs if outputs is None else tuple(whole.outputs[each] for each in outputs)
+    offsets = whole.offsets and (whole.offsets if outputs is None else tuple(whole.offsets[each] for each in outputs))
+    pairs = {source.id: plan.pairs[at[source.id]] for source in whole.sources if source.id in at}
+    laws = {name: pair.law(drawn.pair(at[name]), rows) for name, pair in pairs.items()}
+    cut, even = [], []
+    for source in whole.sources:
+        pair, law = pairs.get(source.id), laws.get(source.id)
+        # a cut law repeats after the whole cycle of teeth, an even one after a pitch
+        cut.append(replace(source, law=law, cycles=source.cycles / law.count) if law else source)
+        even.append(replace(source, law=ConstantLag(law.ratio, law.pitches[0], pair.even)) if pair and law else source)
+    made = [ErrorComposition(whole.spread, tuple(each), wanted, offsets) for each in (cut, even)]
+    return TrialPointers(made[0], made[1], laws)

@@ -1,0 +1,290 @@
+"""What many trials say: how often pairs jam, and by pair and output all that is known of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import nan, sqrt
+from typing import TYPE_CHECKING, TypedDict, cast
+
+import numpy as np
+
+from geartrain.numerics.confidence_intervals import IntervalEstimate, ProbabilityEstimate, deviation_of, mean_of
+from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.workshop.monte_carlo.pointer_error import FirstOrderError, PointerErrorCourse, PointerErrorStatistics
+from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+
+    Marks = NDArray[np.uint8]
+
+EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, "disengaged": DISENGAGED}
+
+
+class EventRates(TypedDict):
+    """How often wheels do what beside turning."""
+
+    jam: ProbabilityEstimate
+    clash: ProbabilityEstimate
+    stops: ProbabilityEstimate
+    standstill: ProbabilityEstimate
+    disengaged: ProbabilityEstimate
+
+
+@dataclass(frozen=True, slots=True)
+class PairEventRates(Result):
+    """How often one pair, or any pair of the train, does what over its full cycle of teeth.
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or "the train".
+    events : mapping of str to ProbabilityEstimate
+        Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut.
+    uncut : int
+        Trials that hold a wheel that cannot be cut.
+    play : float
+        Nominal play of even wheels [pitch of the driven wheel]; NaN for the train.
+    bound : float
+        Bound on the probability of a jam by pitch errors alone; NaN where other errors take part.
+
+    See Also
+    --------
+    TrialResults : holds them
+    """
+
+    KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
+
+    name: str
+    events: Mapping[str, ProbabilityEstimate]
+    uncut: int
+    play: float = nan
+    bound: float = nan
+
+    @property
+    def rates(self) -> EventRates:
+        """The events, by name."""
+        return cast("EventRates", self.events)
+
+
+@dataclass(frozen=True, slots=True)
+class FilingStatistics(Result):
+    """How much one pair, or the whole train, was filed until it passed.
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or "the train".
+    filed : ProbabilityEstimate
+        How often it jams before it is filed.
+    strokes, teeth : IntervalEstimate
+        Mean number of strokes, and of teeth that took them, over all trials.
+    most : int
+        Strokes of the trial that took most.
+    jams : ProbabilityEstimate
+        How often it jams after, a flank being spoilt first.
+
+    See Also
+    --------
+    TrialResults : holds them
+    """
+
+    KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
+
+    name: str
+    filed: ProbabilityEstimate
+    strokes: IntervalEstimate
+    teeth: IntervalEstimate
+    most: int
+    jams: ProbabilityEstimate
+
+
+@dataclass(frozen=True)
+class ConvergenceStep:
+    """A probability from the first so many trials."""
+
+    KEYS = ("trials", Key("", "share"))
+
+    trials: int
+    share: ProbabilityEstimate
+
+
+@dataclass(frozen=True)
+class TrialResults:
+    """All trials that were done, in their order.
+
+    Attributes
+    ----------
+    plan : TrialPlan
+        What was asked, and the `seed` of its random numbers.
+    seed, wanted : int
+        The seed, and the number of trials wanted: more than `done` in a run that was interrupted.
+    marks : ndarray
+        What each pair does, (trials, pairs): a sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
+    turns : ndarray
+        Where the input stands in each trial, (trials,) [turn].
+    errors : ndarray
+        Of each output, (trials, outputs); infinite where nothing touches [rad].
+    first : sequence of (float, float, int)
+        By output: sums of squares of what superposition is off, and of the errors there, and of how many trials.
+    sums : sequence of mapping
+        By output: the sums over trials of which variance shares are made.
+    bounds : mapping of str to float
+        Pair -> bound on the probability of a jam, where one is known.
+    courses : sequence of PointerErrorCourse
+        Along a turn, where asked for.
+    filing : ndarray
+        Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to fit.
+
+    See Also
+    --------
+    run_trials : gives it
+    """
+
+    plan: TrialPlan
+    seed: int
+    wanted: int
+    marks: Marks
+    turns: Floats
+    errors: Floats
+    first: Sequence[tuple[float, float, int]]
+    sums: Sequence[Mapping[str, tuple[float, ...]]]
+    bounds: Mapping[str, float] = field(default_factory=dict)
+    courses: Sequence[PointerErrorCourse] = ()
+    filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+
+    @property
+    def done(self) -> int:
+        """Trials done: fewer than wanted in a run that was interrupted."""
+        return len(self.turns)
+
+    @property
+    def complete(self) -> bool:
+        """True if no trial is missing."""
+        return self.done == self.wanted
+
+    @cached_property
+    def pairs(self) -> tuple[PairEventRates, ...]:
+        """Each pair."""
+        return tuple(
+            _tally(pair.name, self.marks[:, at], pair.play, self.bounds.get(pair.name, nan))
+            for at, pair in enumerate(self.plan.pairs)
+        )
+
+    @cached_property
+    def train(self) -> PairEventRates:
+        """Any pair of the train."""
+        bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
+        return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
+
+    @cached_property
+    def filings(self) -> tuple[FilingStatistics, ...]:
+        """Each pair that is filed to fit, and the train; none where nothing is."""
+        if not self.plan.files:
+            return ()
+        found = [
+            self._filing(pair.name, self.filing[:, 2 * at : 2 * at + 2], self.pairs[at])
+            for at, pair in enumerate(self.plan.pairs)
+            if pair.stroke
+        ]
+        whole = np.stack([self.filing[:, ::2].sum(axis=1), self.filing[:, 1::2].sum(axis=1)], axis=1)
+        return (*found, self._filing("the train", whole, self.train))
+
+    def _filing(self, name: str, work: Floats, events: PairEventRates) -> FilingStatistics:
+        strokes, teeth = work.T
+        filed = ProbabilityEstimate(int(np.count_nonzero(strokes)), len(strokes))
+        most = int(strokes.max(initial=0.0))
+        return FilingStatistics(name, filed, mean_of(strokes), mean_of(teeth), most, events.events["jam"])
+
+    @cached_property
+    def pointers(self) -> tuple[PointerErrorStatistics, ...]:
+        """Each output."""
+        return tuple(self._pointer(at) for at in range(len(self.plan.outputs)))
+
+    def pointer(self, name: str) -> PointerErrorStatistics:
+        """One output.
+
+        Parameters
+        ----------
+        name : str
+            Of the output.
+        """
+        return self.pointers[self.plan.outputs.index(name)]
+
+    def _pointer(self, at: int) -> PointerErrorStatistics:
+        errors = self.errors[:, at]
+        runs = turning_trials(self.marks, self.plan.reach[at]) & np.isfinite(errors)
+        off, size, count = self.first[at]
+        first = FirstOrderError(sqrt(off / count), sqrt(size / count)) if count else FirstOrderError(nan, nan)
+        return PointerErrorStatistics(
+            self.plan.outputs[at],
+            errors[runs],
+            errors[np.isfinite(errors)],
+            int(np.count_nonzero(~runs)),
+            first,
+            _shares(self.sums[at]),
+        )
+
+    @property
+    def jams(self) -> list[ConvergenceStep]:
+        """How often some pair jams, in ever more trials."""
+        return [ConvergenceStep(*each) for each in self.convergence("jam")]
+
+    @property
+    def stops(self) -> list[ConvergenceStep]:
+        """How often some pair jams or clashes, in ever more trials."""
+        return [ConvergenceStep(*each) for each in self.convergence("stops")]
+
+    def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
+        """The share of trials in which any pair does this, after 1/16, 1/8, ... and all of them.
+
+        Parameters
+        ----------
+        event : str
+            Jam, clash, stops, standstill or disengaged.
+        """
+        mark, whole = EVENTS[event], np.bitwise_or.reduce(self.marks, axis=1)
+        counts = sorted({max(1, self.done >> half) for half in range(5)}) if self.done else []
+        return [(count, _share(whole[:count], mark)) for count in counts]
+
+    def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
+        """The standard deviation of an output after 1/16, 1/8, ... and all trials that run [rad].
+
+        Parameters
+        ----------
+        at : int
+            The number of the output, from 0.
+        """
+        kept = self.pointers[at].kept
+        counts = sorted({len(kept) >> half for half in range(5)} - {0})
+        return [(count, deviation_of(kept[:count])) for count in counts]
+
+
+def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
+    """The trials in which none of some pairs jams, is lost or cannot be cut (trials,); a clash may be led past."""
+    runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
+    return runs
+
+
+def _share(marks: Marks, mark: int) -> ProbabilityEstimate:
+    cut = marks[(marks & UNCUT) == 0]
+    return ProbabilityEstimate(int(np.count_nonzero(cut & mark)), len(cut))
+
+
+def _tally(name: str, marks: Marks, play: float, bound: float) -> PairEventRates:
+    events = {event: _share(marks, mark) for event, mark in EVENTS.items()}
+    return PairEventRates(name, events, int(np.count_nonzero(marks & UNCUT)), play, bound)
+
+
+def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
+    """Covariance of each pair's part with the whole, over the variance of the whole."""
+    found = {}
+    for name, (count, part, whole, product) in sums.items():
+        found[name] = product - part * whole / count if count else 0.0
+    total = sum(found.values())
+    return {name: each / total for name, each in found.items()} if total else {}

@@ -1,0 +1,146 @@
+"""`geartrain montecarlo`: a train cut by hand, many times over: how often it jams, how far its pointers stray."""
+
+from __future__ import annotations
+
+from contextlib import nullcontext, suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import (
+    INTERRUPTED,
+    STANDARD,
+    File,
+    Force,
+    Json,
+    Names,
+    Out,
+    Seed,
+    Sink,
+    StateName,
+    Without,
+    check_distinct_outputs,
+    draw,
+    give,
+    picture_sink,
+    sink,
+    tell,
+)
+from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.theme import Theme
+
+if TYPE_CHECKING:
+    from geartrain.numerics.work import Execution
+    from geartrain.scene.palette import ThemeName
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+    from geartrain.workshop.monte_carlo.trial_results import TrialResults
+    from geartrain.workshop.monte_carlo.trial_run import TrialTable
+
+Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+Picture = Annotated[
+    str, typer.Option("--picture", help="What --plot draws: errors, course, convergence, sobol, pairs or map.")
+]
+
+
+def run(
+    file: File,
+    trials: Annotated[int, typer.Option("--trials", help="How many times the train is cut.")] = 1000,
+    seed: Seed = 1,
+    set_: Annotated[
+        Names, typer.Option("--set", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
+    ] = None,
+    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
+    state: StateName = None,
+    without: Without = None,
+    clearance: Annotated[
+        str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
+    ] = None,
+    sobol: Annotated[bool, typer.Option("--sobol", help="Sobol indices by wheel and by kind of error.")] = False,
+    workers: Workers = None,
+    dask: Dask = None,
+    resume: Resume = False,
+    plot: Plot = None,
+    picture: Picture = "errors",
+    json: Json = False,
+    theme: Theme = "light",
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
+    from geartrain.analysis.gear_train import load
+    from geartrain.workshop.cutting.declared_errors import read_error_overrides
+    from geartrain.workshop.monte_carlo.clearance_study import read_clearances
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies
+    from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
+    from geartrain.workshop.monte_carlo.trial_run import SUFFIXES, TrialTable, check_trials, journal_key
+
+    to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
+    check_trials(trials)
+    drawing = _check_plot(plot, force, theme, picture)
+    check_distinct_outputs(to, drawing)
+    sweep = read_clearances(clearance) if clearance else []
+    studies = TrialStudies(sweep, bool(output), sobol)
+    plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
+    options = RunOptions(workers, dask, resume)
+    table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
+    findings = drawn = None
+    with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:
+        found = _trials(plan, trials, seed, given, table)
+        if found.complete:
+            later = replace(given, journal=None)  # the journal is of the trials alone
+            findings = studies.of(found, later)
+            if plot is not None:
+                drawn = studies.mapped(findings, later) if picture == "map" else findings
+            close_journal(given.journal, cut=False)
+        else:
+            tell(f"stopped after {found.done} of {trials} trials; the figures are of those")
+            if given.journal is not None:
+                tell(f"what is done is in {given.journal.path}: give the same command with --resume")
+    _answer(findings or MonteCarloResult(found), json or to.suffix == ".json", to if table is None else STANDARD)
+    if table is not None and found.complete:
+        tell(f"wrote {out}")
+    if drawn is not None and plot is not None:
+        _draw_findings(drawn, picture, drawing)
+    if findings is None:
+        raise typer.Exit(INTERRUPTED)
+
+
+def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
+    from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo
+
+    give(to, json, lambda: findings, lambda: [describe_monte_carlo(findings)])
+
+
+class _StoppedError(Exception):
+    """The user interrupts."""
+
+
+def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: TrialTable | None) -> TrialResults:
+    """The trials, kept in the journal, and handed on to a table block by block."""
+    from geartrain.workshop.monte_carlo.trial_run import run_trials
+
+    with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
+        found = run_trials(plan, trials, seed, given, take)
+        if not found.complete:
+            raise _StoppedError  # so that the table stays partial
+    return found
+
+
+def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
+    """Where a picture goes; one that there is not, or that may not be written, is refused before the work."""
+    if plot is not None:
+        from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
+
+        if picture not in ALL:
+            raise typer.BadParameter(f"'{picture}' is no picture; use {', '.join(ALL)}", param_hint="--picture")
+    return picture_sink(plot, force, theme)
+
+
+def _draw_findings(findings: MonteCarloResult, picture: str, to: Sink) -> None:
+    """One picture of trials to a file."""
+    from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure
+
+    draw(monte_carlo_figure(findings, picture), to)

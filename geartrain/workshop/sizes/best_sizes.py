@@ -1,0 +1,181 @@
+"""The best sizes of a pair with triangular teeth, beside radii by rule, and judged by the contact of their outlines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.plain_data import Result
+from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.tabular import Tabular
+from geartrain.workshop.sizes.outline_agreement import OutlineAgreement, confirm_by_outlines
+from geartrain.workshop.sizes.size_design import (
+    AIMS,
+    SizeLimit,
+    ToothSizes,
+    equal_depth_radii,
+    size_columns,
+)
+from geartrain.workshop.sizes.size_search import ChanceLimit, Range, SizeSearch, best_within, checked_ranges
+
+
+@dataclass(frozen=True)
+class BestToothSizes(Tabular, Pictured, Result):
+    """The best sizes of a pair with triangular teeth, and what they are better than.
+
+    Attributes
+    ----------
+    aims : tuple of str
+        What was asked for: one of `loss`, `error`, `impact`, `jam`, or two for a front between them.
+    free : mapping of str to tuple of float
+        Bounds of the free parameters; angles in rad.
+    limits : tuple of SizeLimit
+        What had to be kept.
+    best : ToothSizes
+        The best in the first aim.
+    outlines : OutlineAgreement
+        What the contact of the drawn outlines says of it.
+    equal_depth, pitch_true : ToothSizes or None
+        With the window and half angles of `start`, and radii by rule; None where such a pair does not turn.
+    front : tuple of ToothSizes
+        With two aims, the designs that none is better than in both, from the best in the first to that in the second.
+    evaluations : int
+        Designs that were looked at.
+    stops : float or None
+        The chance that the best stops, where that was limited.
+    tried : tuple of ToothSizes
+        Those of them that turn and keep the limits.
+
+    See Also
+    --------
+    find_tooth_sizes : an example.
+    """
+
+    FIGURE = "tooth_sizes_figure"
+    DRAWN_IN = "workshop"
+
+    KEYS = (
+        *("teeth", "driver", "friction", "aims", "free", "limits", "best", "outlines"),
+        *("equal_depth", "pitch_true", "front", "evaluations", "stops"),
+    )
+
+    aims: tuple[str, ...]
+    free: Mapping[str, Range]
+    limits: tuple[SizeLimit, ...]
+    best: ToothSizes
+    outlines: OutlineAgreement
+    equal_depth: ToothSizes | None
+    pitch_true: ToothSizes | None
+    front: tuple[ToothSizes, ...]
+    evaluations: int
+    stops: float | None
+    tried: tuple[ToothSizes, ...]
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """A row for the best, those by rule that turn, and those of a front: sizes and figures; angles in rad."""
+        rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
+        rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
+        rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
+        return {"design": [name for name, _ in rows], **size_columns([sizes for _, sizes in rows])}
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Of the first and the second wheel."""
+        return self.best.teeth
+
+    @property
+    def driver(self) -> int:
+        """Which wheel drives, 1 or 2."""
+        return self.best.driver
+
+    @property
+    def friction(self) -> float:
+        """Coefficient of friction."""
+        return self.best.friction
+
+
+def find_tooth_sizes(
+    start: ToothSizes,
+    aims: Sequence[str] = ("loss",),
+    free: Mapping[str, Range | None] | None = None,
+    limits: Sequence[SizeLimit] = (),
+    chance: ChanceLimit | None = None,
+    on_design: Callable[[], None] = lambda: None,
+) -> BestToothSizes:
+    """The radii, the clearance and the half angle with which a pair with triangular teeth is best.
+
+    Parameters
+    ----------
+    start : ToothSizes
+        The pair; what is not free stays as it is here.
+    aims : sequence of str
+        One or two of `loss`, `error`, `impact` and `jam`; with two there is a front between them.
+    free : mapping of str to (float, float), optional
+        Bounds of the free parameters, of `radii`, `window`, `half_angle` [rad]; None for those of `USUAL_RANGES`. By
+        default the radii are free.
+    limits : sequence of SizeLimit
+        What the design has to keep.
+    chance : ChanceLimit, optional
+        What a pair cut with errors has to keep; with one aim only.
+    on_design : callable
+        Called at each design that is looked at.
+
+    Returns
+    -------
+    BestToothSizes
+        The best design, confirmed by the contact of its outlines.
+
+    Raises
+    ------
+    QuestionError
+        For aims, parameters or ranges that there are not, and where no design turns and keeps the limits.
+
+    Notes
+    -----
+    DIRECT (Jones, Perttunen, Stuckman 1993), polished by Brent's bounded method or by that of Nelder and Mead;
+    docs/teeth.md, section on the best sizes.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> found = find_tooth_sizes(ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2), free={"radii": (0.95, 1.0)})
+    >>> round(found.best.radii, 3), round(found.best.loss, 4), round(found.equal_depth.loss, 4)
+    (0.982, 0.0089, 0.0319)
+    """
+    ranges = _checked(start, tuple(aims), {"radii": None} if free is None else free)
+    search = SizeSearch(start, ranges, limits, on_design)
+    rules = [start.at({"radii": radii}) for radii in (equal_depth_radii(*start.teeth, start.half_angles), 1.0)]
+    equal, true = (each if each.runs else None for each in rules)
+    best = search.least(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
+    if chance is not None and len(aims) == 2:
+        raise QuestionError(Problem("a front has no limit on a chance", "it would cost too much", "ask for one aim"))
+    best, stops = (best, None) if chance is None else best_within(search, aims[0], chance)
+    front = search.front(*aims) if len(aims) == 2 else ()
+    tried = tuple(each for each in search.designs.values() if search.keeps(each))
+    return BestToothSizes(
+        tuple(aims),
+        ranges,
+        tuple(limits),
+        best,
+        confirm_by_outlines(best),
+        equal,
+        true,
+        front,
+        len(search.designs),
+        stops,
+        tried,
+    )
+
+
+def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range | None]) -> dict[str, Range]:
+    """The ranges of what is free. Raises `QuestionError`."""
+    if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
+        what = f"'{', '.join(aims)}' is nothing to be best in"
+        raise QuestionError(Problem(what, "", f"ask for one or two of {', '.join(AIMS)}"))
+    if "loss" in aims and not start.friction:
+        what = "without friction every tooth loses nothing"
+        raise QuestionError(Problem(what, "", "give a friction above 0, or another aim"))
+    return checked_ranges(free)

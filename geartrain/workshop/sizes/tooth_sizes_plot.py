@@ -1,0 +1,193 @@
+"""The best sizes of triangular teeth: of a pair among all designs looked at, of a train by what each pair gains."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import TYPE_CHECKING, Any
+
+from geartrain.drawing.backend import Axes, Figure
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WHITE, WIDTH, headed, plain, short
+
+if TYPE_CHECKING:
+    from geartrain.workshop.sizes.best_sizes import BestToothSizes
+    from geartrain.workshop.sizes.size_design import ToothSizes
+    from geartrain.workshop.sizes.train_sizes import BestTrainSizes
+
+_LABELS = {
+    "loss": "loss (%)",
+    "error": "error, peak to peak (deg)",
+    "impact": "impact",
+    "jam": "margin (modules)",
+    "radii": "R2/R1 over z2/z1",
+    "window": "window",
+    "half_angle": "half angle (deg)",
+}
+_OPEN: dict[str, Any] = {"markerfacecolor": WHITE, "markeredgewidth": 1.6}
+_PAIR_MARKS: tuple[tuple[str, str, dict[str, Any]], ...] = (  # one within the other where they are at one place
+    ("as declared", "declared", {"marker": "s", "markersize": 12, "color": BLACK, **_OPEN}),
+    ("best by itself", "apart", {"marker": "o", "markersize": 8.5, "color": BLUE, **_OPEN}),
+    ("best for the train", "together", {"marker": "*", "markersize": 6, "color": RED}),
+)
+_DESIGN_MARKS: dict[str, dict[str, Any]] = {
+    "equal depth": {"marker": "s", "markersize": 12, "color": BLACK, **_OPEN},
+    "pitch-true": {"marker": "D", "markersize": 8, "color": GREEN, **_OPEN},
+    "best": {"marker": "*", "markersize": 8, "color": RED},
+}
+_MARGIN = 0.08  # of what is shown
+_WORST = 4.0  # times the better of the designs by rule: worse ones are beyond the rim
+
+
+def tooth_sizes_figure(found: BestToothSizes) -> Figure:
+    """The best sizes of a pair with triangular teeth among all that were looked at.
+
+    Parameters
+    ----------
+    found : BestToothSizes
+        What `geartrain.workshop.find_tooth_sizes` gives.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Of one aim a panel for each free size; of two the Pareto front between them, alone and among all designs. Radii
+        of equal depth and pitch-true ones are marked.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.workshop import (ToothSizes, find_tooth_sizes)
+    >>> start = ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2)
+    >>> tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)})).axes[0].get_xlabel()
+    'window'
+    """
+    z1, z2 = found.teeth
+    best = " and ".join(_LABELS[aim].partition(",")[0].partition(" (")[0] for aim in found.aims)
+    title = f"triangular teeth, {z1} and {z2}, wheel {found.driver} drives: best {best}"
+    return headed(_front_figure(found) if len(found.aims) == 2 else _aim_figure(found), title)
+
+
+def _aim_figure(found: BestToothSizes) -> Figure:
+    """A panel for each free size."""
+    names = list(found.free)
+    figure = Figure(figsize=(WIDTH, 3.2 * len(names)), layout="constrained")
+    for axes, name in zip(figure.subplots(len(names), 1, squeeze=False)[:, 0], names, strict=True):
+        _panel(axes, found, name, found.aims[0])
+    _key(figure, figure.axes[0])
+    return figure
+
+
+def train_sizes_figure(found: BestTrainSizes) -> Figure:
+    """What each pair of a train gains by the best sizes of its teeth, the worst as declared on top.
+
+    Parameters
+    ----------
+    found : BestTrainSizes
+        What `geartrain.workshop.find_train_sizes` gives.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A line for each pair from its figure as declared to the one with which the train is best; the title has the
+        train's own figure before and after.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import find_train_sizes
+    >>> found = find_train_sizes(geartrain.load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)})
+    >>> train_sizes_figure(found).axes[0].get_xlabel()
+    'margin (modules)'
+    """
+    sign = -1.0 if found.aim == "jam" else 1.0
+    pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
+    figure = Figure(figsize=(WIDTH, 1.6 + 0.32 * len(pairs)), layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    for at, pair in enumerate(pairs):
+        ends = [_shown(each, found.aim) for each in (pair.declared, pair.together) if each is not None]
+        axes.plot(ends, [at] * len(ends), color=GREY, linewidth=1.6, zorder=1)
+    for name, which, look in _PAIR_MARKS:
+        places = [(each, at) for at, pair in enumerate(pairs) if (each := getattr(pair, which)) is not None]
+        x, y = [_shown(each, found.aim) for each, _ in places], [at for _, at in places]
+        axes.plot(x, y, linewidth=0, label=name, gid=which, zorder=3, clip_on=False, **look)
+    labels = [f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}" for pair in pairs]
+    axes.set_yticks(range(len(pairs)), [short(label, 30) for label in labels])
+    axes.set_ylim(len(pairs) - 0.5, -0.5)
+    axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
+    axes.set_xlabel(_LABELS[found.aim], fontsize=TEXT)
+    axes.set_title(_gain(found), fontsize=TEXT, loc="left", color=BLACK)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
+    return figure
+
+
+def _gain(found: BestTrainSizes) -> str:
+    """`pennestri-2002-teeth to 19: loss (%) 46.9 as declared, 15.7 at best`."""
+    before, after = (
+        "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
+    )
+    return f"{found.train} to {found.output}: {_LABELS[found.aim]} {before} as declared, {after} at best"
+
+
+def _front_figure(found: BestToothSizes) -> Figure:
+    """The front alone, and where it stands among all designs."""
+    first, second = found.aims
+    figure = Figure(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
+    near, far = figure.subplots(1, 2)
+    x, y = ([_shown(each, name) for each in found.front] for name in (first, second))
+    plain(near)
+    near.set_xlabel(_LABELS[first], fontsize=TEXT)
+    near.set_ylabel(_LABELS[second], fontsize=TEXT)
+    near.set_title("Pareto front", fontsize=TEXT)
+    near.locator_params(axis="x", nbins=4)
+    _panel(far, found, first, second)
+    far.set_title("among all designs", fontsize=TEXT)
+    for axes in (near, far):
+        axes.plot(x, y, color=BLUE, linewidth=1.8, marker="o", markersize=3, gid="front", label="front", zorder=2.5)
+    near.plot(x[0], y[0], color=RED, marker="*", markersize=9, linewidth=0)
+    _key(figure, far)
+    return figure
+
+
+def _key(figure: Figure, axes: Axes) -> None:
+    """What the marks are, below all panels: within one there are designs everywhere."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles), fontsize=SMALL, frameon=False)
+
+
+def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
+    """Designs as points, the best and those by rule marked."""
+    plain(axes)
+    order = sorted(found.tried, key=lambda each: _shown(each, across))
+    x, y = ([_shown(each, name) for each in order] for name in (across, up))
+    single = len(found.free) == 1 and across in found.free
+    axes.plot(x, y, color=GREY, linewidth=1.2 if single else 0, marker=".", markersize=3, gid="tried")
+    designs = (found.equal_depth, found.pitch_true, found.best)
+    for each, (name, look) in zip(designs, _DESIGN_MARKS.items(), strict=True):
+        if each is not None:
+            at = _shown(each, across), _shown(each, up)
+            axes.plot(*at, linewidth=0, label=name, gid=name, zorder=3, clip_on=False, **look)
+    axes.set_xlabel(_LABELS[across], fontsize=TEXT)
+    axes.set_ylabel(_LABELS[up], fontsize=TEXT)
+    for name, limit in ((across, axes.set_xlim), (up, axes.set_ylim)):
+        if name not in found.free and name != "jam":
+            limit(*_span(found, name))
+
+
+def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
+    """What is shown of an aim: from its least to what is worth a look, the designs by rule included."""
+    values = sorted(_shown(each, name) for each in found.tried)
+    marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
+    low, high = min(values[0], *marked), max((*marked, min(values[-1], _WORST * max(values[0], 1e-12))))
+    rim = _MARGIN * (high - low)
+    return low - rim, high + rim
+
+
+def _shown(design: ToothSizes, name: str) -> float:
+    """A size or a figure in the unit of its axis."""
+    value = design.parameter(name) if name in ("radii", "window", "half_angle") else float(getattr(design, name))
+    return _in_units(value, name)
+
+
+def _in_units(value: float, name: str) -> float:
+    if name in ("error", "half_angle"):
+        return degrees(value)
+    return 100 * value if name == "loss" else value

@@ -1,0 +1,233 @@
+"""Pages on the best sizes of triangular teeth: of one pair, and of a train."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import degrees
+from typing import TYPE_CHECKING
+
+from geartrain.report.document import Document, Section, Table
+
+if TYPE_CHECKING:
+    from geartrain.workshop.sizes.best_sizes import BestToothSizes
+    from geartrain.workshop.sizes.outline_agreement import OutlineAgreement
+    from geartrain.workshop.sizes.size_design import SizeLimit, ToothSizes
+    from geartrain.workshop.sizes.train_sizes import BestTrainSizes, PairSizes
+
+AIM_WORDS: Mapping[str, str] = {
+    "loss": "least loss",
+    "error": "least transmission error",
+    "impact": "least impact",
+    "jam": "widest margin before a jam",
+}
+_HEADER = ("sizes", "radii", "window", "half angle (deg)", "loss", "error p-p", "impact", "margin", "phases")
+_WORDS = (
+    "Radii: R2/R1 over z2/z1. Loss: 1 less the mean efficiency at constant driver torque. Error: transmission error of "
+    "the driven wheel, peak to peak. Impact: what the collisions of a pitch dissipate, over the kinetic energy of the "
+    "driven side. Margin: by how many modules the axes may come nearer or part before the teeth jam or lose each other."
+)
+
+
+def describe_tooth_sizes(found: BestToothSizes) -> Document:
+    """A page on the best sizes of a pair with triangular teeth.
+
+    Parameters
+    ----------
+    found : BestToothSizes
+        What `geartrain.workshop.find_tooth_sizes` gives.
+
+    Returns
+    -------
+    Document
+        The best sizes beside the radii by rule, what the contact of their outlines says, and a front of two aims.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.workshop import (ToothSizes, find_tooth_sizes)
+    >>> start = ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2)
+    >>> page = describe_tooth_sizes(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
+    >>> page.title, [section.title for section in page.sections]
+    ('Triangular teeth 48/96: least loss', ['Sizes', 'By the outlines'])
+    """
+    aims = " and ".join(AIM_WORDS[aim] for aim in found.aims)
+    z1, z2 = found.teeth
+    lead = [
+        f"The wheel of {found.teeth[found.driver - 1]} drives the wheel of {found.teeth[2 - found.driver]}; friction "
+        f"{found.friction:g}. Free: {free_text(found.free)}.{_limits_text(found.limits)}{_stops_text(found)} "
+        f"{found.evaluations} designs were looked at.",
+        sizes_text(found.best),
+    ]
+    sections = [Section("Sizes", (_WORDS,), (Table(_HEADER, list(_rows(found))),)), _agreement(found.outlines)]
+    if found.front:
+        sections.append(_front(found))
+    return Document(f"Triangular teeth {z1}/{z2}: {aims}", lead, sections)
+
+
+def describe_train_sizes(found: BestTrainSizes) -> Document:
+    """A page on the best sizes of the triangular teeth of a train.
+
+    Parameters
+    ----------
+    found : BestTrainSizes
+        What `geartrain.workshop.find_train_sizes` gives.
+
+    Returns
+    -------
+    Document
+        What was gained, pair by pair and together; the sizes of each pair before and after.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import find_train_sizes
+    >>> train = geartrain.load("moon-triangular")
+    >>> page = describe_train_sizes(find_train_sizes(train, "moon", "jam", {"window": (0.3, 0.7)}))
+    >>> page.title, [section.title for section in page.sections]
+    ('moon-triangular: widest margin before a jam at moon', ['What is gained', 'Pairs'])
+    """
+    aim = found.aim
+    rows = [
+        (name, "does not run" if each is None else told(aim, each), *_efficiency(aim, each))
+        for name, each in (
+            ("as declared", found.before),
+            ("pair by pair", found.apart),
+            ("together", found.together),
+        )
+    ]
+    header = ("sizes", _TRAIN_FIGURES[aim], *(("efficiency",) if aim == "loss" else ()))
+    sections = [Section("What is gained", (), (Table(header, rows),)), _pairs(found)]
+    if found.untouched:
+        reasons: dict[str, list[str]] = {}
+        for name, reason in found.untouched.items():
+            reasons.setdefault(reason, []).append(name)
+        rows = [(reason, ", ".join(names)) for reason, names in reasons.items()]
+        sections.append(Section("Left as they are", (), (Table(("why", "pairs"), rows),)))
+    shared = ""
+    if "half_angle" in found.free:
+        shared = " Pairs that share a wheel have one half angle; it stays as declared where a mate is not sized."
+    lead = [
+        f"Power enters at '{found.source}'. Free: {free_text(found.free)}.{_limits_text(found.limits)} Each pair is "
+        f"sized by itself, then all together by the figure of the train.{shared}",
+    ]
+    return Document(f"{found.train}: {AIM_WORDS[aim]} at {found.output}", lead, sections)
+
+
+_TRAIN_FIGURES = {
+    "loss": "loss of the train",
+    "error": "error of the output, p-p",
+    "impact": "sum of impacts",
+    "jam": "least margin",
+}
+
+
+def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
+    if aim != "loss":
+        return ()
+    return ("-",) if loss is None else (f"{1 - loss:.6f}",)
+
+
+def _pairs(found: BestTrainSizes) -> Section:
+    """Each pair before and after; windows and half angles where they are free."""
+    sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
+    header = ["pair", "drives", "teeth"]
+    for _, words in sizes:
+        header += [f"{words} as declared", "by itself", "together"]
+    header += [f"{found.aim} as declared", "by itself", "together", "by outlines"]
+    rows = [_pair_row(pair, [name for name, _ in sizes], found.aim) for pair in found.pairs]
+    text = f"{_WORDS} The last column: how far the contact of the drawn outlines differs from the law, relatively."
+    return Section("Pairs", (text,), (Table(header, rows, True),))
+
+
+def _pair_row(pair: PairSizes, sizes: Sequence[str], aim: str) -> tuple[str, ...]:
+    designs = (pair.declared, pair.apart, pair.together)
+    cells: list[str] = []
+    for name in sizes:
+        cells += ["-" if each is None else _size(name, each.parameter(name)) for each in designs]
+    cells += ["-" if each is None else told(aim, getattr(each, aim)) for each in designs]
+    agreed = f"{pair.outlines.difference:.1g}" if pair.outlines.turns else "does not turn"
+    return (pair.name, pair.driver, f"{pair.teeth[0]}/{pair.teeth[1]}", *cells, agreed)
+
+
+def _size(name: str, value: float) -> str:
+    return told(name, value) if name == "half_angle" else f"{value:.5f}"
+
+
+def told(figure: str, value: float) -> str:
+    """A figure of a design with its unit."""
+    if figure == "loss":
+        return f"{100 * value:.4f} %"
+    if figure in ("error", "play", "half_angle"):
+        return f"{degrees(value):.5g} deg"
+    return f"{value:.5g}"
+
+
+def sizes_text(sizes: ToothSizes) -> str:
+    """The sizes as a declaration says them."""
+    angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
+    angle = angles if "," not in angles else f"[{angles}]"
+    return (
+        f"Declared as {{form: triangular, half_angle: {angle}, window: {sizes.window:.6g}, radii: {sizes.radii:.6g}}}."
+    )
+
+
+def free_text(free: Mapping[str, tuple[float, float]]) -> str:
+    """What is free, with its bounds."""
+    parts = []
+    for name, (low, high) in free.items():
+        unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")
+        parts.append(f"{name} {unit[0]:.6g} to {unit[1]:.6g}{unit[2]}")
+    return ", ".join(parts)
+
+
+def _limits_text(limits: Sequence[SizeLimit]) -> str:
+    if not limits:
+        return ""
+    parts = [
+        f"{limit.figure} at {'least' if limit.figure in limit.LEAST else 'most'} {told(limit.figure, limit.bound)}"
+        for limit in limits
+    ]
+    return f" Within: {', '.join(parts)}."
+
+
+def _stops_text(found: BestToothSizes) -> str:
+    if found.stops is None:
+        return ""
+    return f" Cut with the errors given, the best jams or clashes in {100 * found.stops:.3g} % of the trials."
+
+
+def _rows(found: BestToothSizes) -> Iterator[Sequence[str]]:
+    yield _row("best", found.best)
+    for name, each in (("equal depth", found.equal_depth), ("pitch-true", found.pitch_true)):
+        yield (name, "does not turn", *("" for _ in _HEADER[2:])) if each is None else _row(name, each)
+
+
+def _row(name: str, sizes: ToothSizes) -> tuple[str, ...]:
+    angles = ", ".join(f"{degrees(angle):.5g}" for angle in dict.fromkeys(sizes.half_angles))
+    figures = (told(figure, getattr(sizes, figure)) for figure in ("loss", "error", "impact", "jam"))
+    return (name, f"{sizes.radii:.5f}", f"{sizes.window:.4f}", angles, *figures, sizes.phases)
+
+
+def _agreement(found: OutlineAgreement) -> Section:
+    text = (
+        "The contact of the drawn outlines, which knows nothing of the law: the wheels "
+        f"{'turn' if found.turns else 'do not turn'}; the greatest relative difference is {found.difference:.2g}."
+    )
+    rows = [
+        (name, *(told(name, each) for each in getattr(found, name)), f"{off:.2g}")
+        for name, off in found.differences.items()
+    ]
+    return Section("By the outlines", (text,), (Table(("figure", "law", "outlines", "relative difference"), rows),))
+
+
+def _front(found: BestToothSizes) -> Section:
+    """Some ten designs of the front, spread over it."""
+    most, front = 12, found.front
+    chosen = front if len(front) <= most else [front[round(k * (len(front) - 1) / (most - 1))] for k in range(most)]
+    rows = [_row(str(at + 1), each) for at, each in enumerate(chosen)]
+    first, second = found.aims
+    text = (
+        f"No design found is better than one of these in both {first} and {second}: {len(front)} in all, of which "
+        f"{len(rows)} are shown."
+    )
+    return Section("Pareto front", (text,), (Table(_HEADER, rows),))

@@ -1,0 +1,543 @@
+"""A fitter's rules: known sets, equations against brute force, equal planets against teeth put in one by one."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from itertools import product
+from math import gcd
+from typing import Any
+
+import numpy as np
+import pytest
+from fitters import SIMPLE, box, columns, declared, epicyclic, passed, rules_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from teeth3d import best, in_space
+
+from geartrain import GearTrain, load
+from geartrain.errors import QuestionError
+from geartrain.numerics import Quantity
+from geartrain.search import ConstraintOptions
+from geartrain.search.constraints.assembly_constraints import find_constraints
+from geartrain.search.constraints.constraint_options import read_constraint_options
+from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
+from geartrain.search.constraints.planet_constraints import bezout
+
+SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+
+Data = dict[str, Any]
+
+
+def equations(rules: Sequence[CountConstraint]) -> list[CountEquation]:
+    return [rule for rule in rules if isinstance(rule, CountEquation)]
+
+
+def length(text: str) -> Quantity:
+    return Quantity.parse(text, "length", plain=True)
+
+
+def ordinary(wheels: Mapping[str, tuple[str, Any]], meshes: Sequence[tuple[str, str]]) -> Data:
+    """Wheels on arbors, each arbor on the axis that has its first letter."""
+    links: Data = {"frame": {}}
+    for name, (link, teeth) in wheels.items():
+        links.setdefault(link, {"wheels": {}})["wheels"][name] = teeth
+    revolutes = [{"pair": ["frame", link], "axis": link[0]} for link in links if link != "frame"]
+    return {"links": links, "revolutes": revolutes, "gears": [{"pair": list(pair)} for pair in meshes]}
+
+
+def reverted(modules: Sequence[str | None]) -> Data:
+    """Two pairs between the same two axes: z1 on A1 drives z2 on B, z3 on B drives z4 on A2."""
+    teeth = dict(zip(("z1", "z2", "z3", "z4"), (20, 40, 24, 36), strict=True))
+    arbors = dict(zip(teeth, ("A1", "B1", "B1", "A2"), strict=True))
+    wheels = {}
+    for (name, z), module in zip(teeth.items(), modules, strict=True):
+        wheels[name] = (arbors[name], {"teeth": z} | ({} if module is None else {"module": module}))
+    return ordinary(wheels, [("z1", "z2"), ("z3", "z4")])
+
+
+# ------------------------------------------------------------------------------------------------------------- coaxial
+
+
+def test_a_planetary_has_a_ring_of_the_sun_and_two_planets() -> None:
+    rules = rules_of(epicyclic(*SIMPLE))
+    assert [rule.name for rule in rules] == ["coaxial closure: s + 2 p = r"]
+    assert passed(rules, s=24, p=18, r=60)
+    assert not passed(rules, s=30, p=23, r=78)
+    assert not passed(rules, s=21, p=43, r=108)
+    assert passed(rules_of(epicyclic(*SIMPLE), shift=2), s=30, p=23, r=78)
+    assert not passed(rules_of(epicyclic(*SIMPLE), shift=1), s=30, p=23, r=78)
+
+
+def test_fixed_counts_are_folded_into_the_equation() -> None:
+    (rule,) = equations(rules_of(epicyclic(*SIMPLE), ["p", "r"]))
+    assert rule.name == "coaxial closure: 24 + 2 p = r"
+    assert dict(rule.coefficients) == {"p": 2, "r": -1}
+    assert rule.constant == 24
+    (alone,) = equations(rules_of(epicyclic(*SIMPLE), ["p"]))
+    assert (alone.name, alone.wheels) == ("coaxial closure: p = 18", ("p",))
+    assert rules_of(epicyclic(*SIMPLE), []) == ()
+
+
+def test_a_reverted_train_has_two_equal_sums() -> None:
+    (rule,) = equations(rules_of(reverted([None] * 4)))
+    assert rule.name == "coaxial closure: z1 + z2 = z3 + z4"
+    grid = box(z1=range(8, 14), z2=range(30, 34), z3=range(10, 14), z4=range(28, 33))
+    wanted = [a + b == c + d for a, b, c, d in zip(*(grid[name].tolist() for name in grid), strict=True)]
+    assert rule.holds(grid).tolist() == wanted
+
+
+def test_declared_modules_weigh_the_counts_and_one_of_a_pair_speaks_for_both() -> None:
+    (rule,) = equations(rules_of(reverted(["1.25 mm", None, None, "1.5 mm"]), coaxial=True))
+    assert dict(rule.coefficients) == {"z1": 5, "z2": 5, "z3": -6, "z4": -6}
+    assert rule.name == "coaxial closure: 5 z1 + 5 z2 = 6 z3 + 6 z4"
+    assert rules_of(reverted(["1.25 mm", None, None, None]), coaxial=True) == ()
+    assert rules_of(reverted(["1.25 mm", None, None, "1.5"]), coaxial=True) == ()
+    assert rules_of(reverted(["1 mm", "2 mm", "1 mm", "1 mm"]), coaxial=True) == ()
+
+
+def test_a_module_belongs_to_all_wheels_that_mesh_on_from_one() -> None:
+    data = epicyclic(*SIMPLE)
+    data["links"]["Ls"]["wheels"]["s"]["module"] = "2 mm"
+    assert [rule.name for rule in rules_of(data)] == ["coaxial closure: s + 2 p = r"]
+
+
+def test_shift_is_counted_in_half_modules_of_the_finer_pair() -> None:
+    data = reverted(["2 mm", None, "3 mm", None])
+    (rule,) = rules_of(data, coaxial=True, shift=1)
+    grid = box(z1=[20], z2=range(40, 80), z3=[20], z4=range(15, 40))
+    wanted = [abs(2 * (20 + b) - 3 * (20 + d)) <= 2 for b, d in zip(grid["z2"], grid["z4"], strict=True)]
+    assert rule.holds(grid).tolist() == wanted
+
+
+def test_a_stepped_planet_of_two_rings_has_two_equations() -> None:
+    names = [rule.name for rule in rules_of(load("wolfrom-175").declaration)]
+    assert names == ["coaxial closure: s12 + 2 p30 = r72", "coaxial closure: s12 + p30 + p28 = r70"]
+
+
+def test_equations_that_the_declared_counts_break_are_asked_for_only_on_demand() -> None:
+    # with one module for all, as for wheels of which nothing is known
+    one = "extends: freeth-2021\nname: one\nlinks: {frame: {wheels: {x49: {module: null}}}}"
+    train = load(one).declaration
+    assert rules_of(train) == ()
+    assert rules_of(load("freeth-2021").declaration, coaxial=True) == ()
+    (rule,) = rules_of(train, coaxial=True)
+    assert rule.name == "coaxial closure: x49 + spB62 = spB64 + no48"
+    # where it holds within the shift, it is asked for
+    assert [rule.name for rule in rules_of(train, shift=1)] == [
+        "coaxial closure within 1 half modules: x49 + spB62 = spB64 + no48"
+    ]
+    assert rules_of(train, coaxial=False) == ()
+
+
+def test_a_value_beside_a_search_is_no_evidence() -> None:
+    data = epicyclic(*SIMPLE)
+    data["links"]["P0"]["wheels"]["p"] = 19
+    assert rules_of(data) == ()
+    data["links"]["P0"]["wheels"]["p"] = {"teeth": {"value": 19, "range": [17, 20]}}
+    assert rules_of(data) == ()
+    data["links"]["P0"]["wheels"]["p"] = {"teeth": {"value": 19, "search": [12, 80]}}
+    assert [rule.name for rule in rules_of(data)] == ["coaxial closure: s + 2 p = r"]
+
+
+SHIPPED = ("ferguson-paradox", "huygens-planetarium-1682", "longcase-clock", "prague-orloj", "prius-power-split")
+
+
+@pytest.mark.parametrize("name", [*SHIPPED, "planetary", "simpson-set", "zf-8hp70", "ravigneaux-set", "freeth-2008"])
+def test_shipped_trains_keep_the_rules_that_hold_without_being_asked_for(name: str) -> None:
+    train = load(name).declaration
+    counts = {wheel: declared.count or 0 for wheel, (_, declared) in train.wheels.items()}
+    assert passed(rules_of(train), **counts)
+    asked = rules_of(train, coaxial=True)
+    assert passed(asked, **counts) == (name not in SHIPPED)
+
+
+def test_two_wheels_of_one_axis_on_one_mate_cannot_differ() -> None:
+    wheels = {"a": ("A1", 24), "b": ("A2", 30), "c": ("B", 40)}
+    data = ordinary(wheels, [("a", "c"), ("b", "c")])
+    with pytest.raises(QuestionError, match="never have one centre distance"):
+        rules_of(data, ["c"], coaxial=True)
+    assert rules_of(data, ["c"]) == ()
+    (rule,) = rules_of(data, ["a", "c"], coaxial=True)
+    assert rule.name == "coaxial closure: a = 30"
+
+
+def test_bevel_wheels_have_no_sums() -> None:
+    found = rules_of(load("bevel-differential").declaration, coaxial=True)
+    assert equations(found) == []
+    assert [rule.name for rule in found] == ["2 equal planets on 'crown': 2 divides l16 + r16"]
+
+
+# ----------------------------------------------------------------------------------------------------------- equations
+
+
+@given(
+    st.dictionaries(st.sampled_from("abcd"), st.integers(-6, 6).filter(bool), min_size=1),
+    st.integers(-40, 40),
+    st.integers(0, 10**6),
+)
+def test_an_equation_solved_for_a_wheel_gives_the_counts_that_meet_it(
+    factors: dict[str, int], constant: int, seed: int
+) -> None:
+    rule = CountEquation("", factors, constant)
+    rng = np.random.default_rng(seed)
+    found = {wheel: rng.integers(1, 30, 40) for wheel in factors}
+    wheel = rng.choice(list(factors))
+    others = {name: column for name, column in found.items() if name != wheel}
+    counts, whole = rule.solve_for(wheel, others)
+    assert counts.dtype == np.int64
+    for at in range(40 if others else 1):
+        rest = constant + sum(factors[name] * int(column[at]) for name, column in others.items())
+        meets = [z for z in range(-abs(rest), abs(rest) + 1) if factors[wheel] * z + rest == 0]
+        assert ([int(counts[at])] if whole[at] else []) == meets
+    wanted = [sum(factors[name] * int(found[name][at]) for name in factors) + constant == 0 for at in range(40)]
+    assert rule.holds(found).tolist() == wanted
+
+
+# ------------------------------------------------------------------------------------------------------- equal planets
+
+
+def planet_rule(data: Data, number: int) -> Condition:
+    """The condition that so many equal planets can be put in."""
+    (rule,) = [rule for rule in rules_of(data, planets=number, coaxial=False) if "equal planets" in rule.name]
+    assert isinstance(rule, Condition)
+    return rule
+
+
+def put_in(meshes: Sequence[tuple[int, int]], number: int) -> bool:
+    """A planet with wheels on one arbor, tried in every engagement with the first central wheel.
+
+    meshes   (teeth of the planet's wheel, teeth of the central one, negative for a ring): the first planet has a tooth
+             of each wheel in a gap; moved on by a turn over `number`, each central wheel is so many pitches farther on
+    """
+    off = [Fraction(central, number) for _, central in meshes]
+    first = meshes[0][0]
+    for tooth in range(abs(first)):
+        turn = (tooth - off[0]) / first
+        if all((own * turn + part).denominator == 1 for (own, _), part in zip(meshes, off, strict=True)):
+            return True
+    return False
+
+
+def test_planets_of_known_sets_can_be_put_in() -> None:
+    assert planet_rule(epicyclic(*SIMPLE), 3).name == "3 equal planets on 'arm': 3 divides r + s"
+    rule = planet_rule(epicyclic(*SIMPLE), 3)
+    assert rule.wheels == ("r", "s")
+    assert rule.holds(columns(s=21, r=108)).all()
+    assert rule.holds(columns(s=24, r=60)).all()
+    assert not rule.holds(columns(s=24, r=61)).any()
+    assert planet_rule(epicyclic(*SIMPLE), 4).holds(columns(s=24, r=60)).all()
+    assert not planet_rule(epicyclic(*SIMPLE), 5).holds(columns(s=24, r=60)).any()
+
+
+def stepped(s: int, p: int, q: int, r: int, first_ring: bool = False) -> tuple[Any, ...]:
+    return {"s": (s, first_ring), "r": (r, True)}, [{"p": p, "q": q}], [("s", "p"), ("q", "r")]
+
+
+@pytest.mark.parametrize("number", [2, 3, 4, 5])
+def test_stepped_planets_fit_as_in_every_engagement_tried(number: int) -> None:
+    rule = planet_rule(epicyclic(*stepped(20, 15, 12, 60)), number)
+    assert rule.name == f"{number} equal planets on 'arm': {number} gcd(q, p) divides r p + s q"
+    grid = box(s=range(12, 20), p=range(9, 17), q=range(8, 15), r=range(40, 48))
+    rows = zip(*(grid[name].tolist() for name in "spqr"), strict=True)
+    assert rule.holds(grid).tolist() == [put_in([(p, s), (-q, r)], number) for s, p, q, r in rows]
+
+
+def test_stepped_planets_between_two_suns_and_between_two_rings_fit_as_tried() -> None:
+    suns: Any = ({"s": (20, False), "r": (22, False)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
+    for parts, sign in ((suns, 1), (stepped(60, 15, 12, 62, True), -1)):
+        rule = planet_rule(epicyclic(*parts), 3)
+        grid = box(s=range(30, 36), p=range(9, 15), q=range(8, 14), r=range(36, 42))
+        rows = zip(*(grid[name].tolist() for name in "spqr"), strict=True)
+        assert rule.holds(grid).tolist() == [put_in([(sign * p, s), (sign * q, r)], 3) for s, p, q, r in rows]
+
+
+def test_planets_of_a_wolfrom_set_fit_three_central_wheels_at_once() -> None:
+    data = epicyclic(
+        {"s": (12, False), "r": (72, True), "t": (70, True)},
+        [{"p": 30, "q": 28}],
+        [("s", "p"), ("p", "r"), ("q", "t")],
+    )
+    for number in (2, 3, 4, 6):
+        rule = planet_rule(data, number)
+        grid = box(s=range(10, 14), p=(9, 12, 14), q=(8, 9, 10), r=range(26, 30), t=range(24, 28))
+        rows = zip(*(grid[name].tolist() for name in "spqrt"), strict=True)
+        wanted = [put_in([(p, s), (-p, r), (-q, t)], number) for s, p, q, r, t in rows]
+        assert rule.holds(grid).tolist() == wanted
+        assert any(wanted)
+
+
+def test_two_planets_one_after_the_other_fit_if_the_ring_less_the_sun_is_a_multiple() -> None:
+    data = epicyclic({"s": (24, False), "r": (72, True)}, [{"p": 15}, {"q": 14}], [("s", "p"), ("p", "q"), ("q", "r")])
+    rule = planet_rule(data, 3)
+    assert rule.wheels == ("r", "s") or rule.wheels == ("s", "r")
+    grid = box(s=range(20, 30), r=range(60, 72))
+    wanted = [(r - s) % 3 == 0 for s, r in zip(grid["s"], grid["r"], strict=True)]
+    assert rule.holds(grid).tolist() == wanted
+
+
+SETS: dict[str, tuple[Any, ...]] = {
+    "simple": (*SIMPLE, [(42.0, 0.0)]),
+    "stepped": (*stepped(20, 15, 12, 60), [(40.0, 0.0)]),
+    "wolfrom": (
+        {"s": (12, False), "r": (72, True), "t": (70, True)},
+        [{"p": 30, "q": 28}],
+        [("s", "p"), ("p", "r"), ("q", "t")],
+        [(42.0, 0.0)],
+    ),
+    "two after each other": (
+        {"s": (24, False), "r": (72, True)},
+        [{"p": 15}, {"q": 14}],
+        [("s", "p"), ("p", "q"), ("q", "r")],
+        [(39.0, 0.0), (58.0, 0.0731)],
+    ),
+    "ravigneaux": (
+        {"a": (30, False), "b": (36, False), "r": (72, True)},
+        [{"ps": 18}, {"pl": 18}],
+        [("a", "ps"), ("ps", "pl"), ("b", "pl"), ("pl", "r")],
+        [(48.0, 0.0), (54.0, 0.0577)],
+    ),
+    "stepped after stepped": (
+        {"s": (20, False), "r": (60, True)},
+        [{"p": 10, "q": 15}, {"u": 12, "v": 9}],
+        [("s", "p"), ("q", "u"), ("v", "r")],
+        [(30.0, 0.0), (48.0, 0.0917)],
+    ),
+}
+
+
+@given(st.sampled_from(sorted(SETS)), st.integers(2, 6), st.data())
+@settings(max_examples=150 if SLOW else 70)
+def test_equal_planets_can_be_put_in_if_and_only_if_all_loops_close(
+    name: str, number: int, data: st.DataObject
+) -> None:
+    central, planets, meshes, places = SETS[name]
+    drawn = {wheel: data.draw(st.integers(8, 40), label=wheel) for planet in [central, *planets] for wheel in planet}
+    central = {wheel: (drawn[wheel], ring) for wheel, (_, ring) in central.items()}
+    planets = [{wheel: drawn[wheel] for wheel in planet} for planet in planets]
+    rule = planet_rule(epicyclic(central, planets, meshes), number)
+    closure = GearTrain.declare(epicyclic(central, planets, meshes, number, places)).closure
+    assert closure.kind in ("closes", "misses")
+    assert bool(rule.holds(columns(**drawn))[0]) == (closure.kind == "closes")
+
+
+@pytest.mark.parametrize(
+    ("name", "counts"),
+    [
+        ("stepped", {"s": 9, "p": 4, "q": 2, "r": 12}),
+        ("stepped", {"s": 8, "p": 3, "q": 2, "r": 11}),
+        ("stepped", {"s": 7, "p": 3, "q": 2, "r": 11}),
+        ("two after each other", {"s": 9, "p": 7, "q": 5, "r": 30}),
+        ("two after each other", {"s": 9, "p": 7, "q": 5, "r": 31}),
+    ],
+)
+def test_teeth_in_space_agree_about_equal_planets(name: str, counts: dict[str, int]) -> None:
+    central, planets, meshes, places = SETS[name]
+    central = {wheel: (counts[wheel], ring) for wheel, (_, ring) in central.items()}
+    planets = [{wheel: counts[wheel] for wheel in planet} for planet in planets]
+    held = planet_rule(epicyclic(central, planets, meshes), 3).holds(columns(**counts))[0]
+    wheels, pairs = in_space(GearTrain.declare(epicyclic(central, planets, meshes, 3, places)))
+    assert (best(wheels, pairs) < 1e-6) == held
+
+
+@pytest.mark.parametrize("number", [2, 4])
+def test_bevel_planets_fit_as_their_loops_close(number: int) -> None:
+    ways = [(0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)][:number]
+    for left, right, pinion in [(16, 16, 10), (15, 16, 10), (15, 17, 9), (14, 16, 9), (18, 14, 11), (13, 14, 11)]:
+        data: Data = load("bevel-differential").declaration.model_dump(exclude_unset=True, mode="json")
+        data["links"]["left"]["wheels"]["l16"]["teeth"] = left
+        data["links"]["right"]["wheels"]["r16"]["teeth"] = right
+        del data["links"]["spider"], data["axes"]["spider"]
+        data["gears"] = [gear for gear in data["gears"] if "p10" not in gear["pair"]]
+        data["revolutes"] = [joint for joint in data["revolutes"] if "spider" not in joint["pair"]]
+        del data["outputs"], data["states"]
+        for at, way in enumerate(ways):
+            data["links"][f"spider{at}"] = {"wheels": {f"p{at}": {"teeth": pinion, "kind": "bevel"}}}
+            data["axes"][f"S{at}"] = {"direction": list(way)}
+            data["revolutes"].append({"pair": ["crown", f"spider{at}"], "axis": f"S{at}"})
+            data["gears"] += [{"pair": ["l16", f"p{at}"]}, {"pair": ["r16", f"p{at}"]}]
+        train = GearTrain.declare(data)
+        rules = rules_of(train.declaration, ["l16", "r16"], planets=number)
+        assert [rule.name for rule in rules] == [f"{number} equal planets on 'crown': {number} divides l16 + r16"]
+        assert passed(rules, l16=left, r16=right) == bool(train.closure)
+        assert train.closure.loops
+
+
+def test_planets_declared_one_by_one_are_equal_and_counted_once() -> None:
+    data = epicyclic(*stepped(20, 15, 12, 60), copies=3)
+    # another order of pairs does not hide that planets are alike
+    data["gears"] = data["gears"][::-1]
+    rules = rules_of(data, planets=3, coaxial=False)
+    names = {rule.name for rule in equations(rules)}
+    assert len(names) == 4
+    for wheel in "pq":
+        alike = {wheel, f"{wheel}-1", f"{wheel}-2"}
+        assert {w for rule in equations(rules) for w in rule.wheels if w[0] == wheel} == alike
+    assert sum("gcd" in rule.name for rule in rules) == 1
+    some = rules_of(data, ["p", "q-1"], planets=3, coaxial=False)
+    assert {rule.name for rule in equations(some)} >= {"equal planets: p = 15", "equal planets: q-1 = 12"}
+    with pytest.raises(QuestionError, match="3 sets are declared"):
+        rules_of(data, planets=4)
+
+
+def test_planets_are_asked_for_by_carrier_and_unknown_carriers_are_refused() -> None:
+    train = load("zf-8hp70").declaration
+    rules = rules_of(train, planets={"OUT": 4, "IN": 3}, coaxial=False)
+    assert {rule.name for rule in rules} == {
+        "4 equal planets on 'OUT': 4 divides r4 + s4",
+        "3 equal planets on 'IN': 3 divides r2 + s2",
+    }
+    with pytest.raises(QuestionError, match="'S12' carries no planets"):
+        rules_of(train, planets={"S12": 3})
+    with pytest.raises(QuestionError, match="no link carries planets"):
+        rules_of(reverted([None] * 4), planets=3)
+    with pytest.raises(QuestionError, match="one planet or more"):
+        rules_of(epicyclic(*SIMPLE), planets=0)
+
+
+def test_planets_that_mesh_in_a_loop_are_not_judged() -> None:
+    data = epicyclic(
+        {"s": (24, False)},
+        [{"p": 15}, {"q": 14}, {"u": 13}],
+        [("s", "p"), ("p", "q"), ("q", "u"), ("u", "p")],
+    )
+    with pytest.raises(QuestionError, match="in a loop"):
+        rules_of(data, planets=2)
+    assert rules_of(data) == ()
+
+
+@given(st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 10**6)), min_size=1, max_size=20))
+def test_common_divisors_are_sums_of_multiples(pairs: list[tuple[int, int]]) -> None:
+    a, b = (np.array(column, dtype=np.int64) for column in zip(*pairs, strict=True))
+    g, u, v = bezout(a, b)
+    assert g.tolist() == [gcd(*pair) for pair in pairs]
+    assert (u * a + v * b == g).all()
+
+
+# -------------------------------------------------------------------------------------------------------------- limits
+
+
+def test_limits_hold_for_every_free_wheel_alone() -> None:
+    rules = rules_of(
+        epicyclic(*SIMPLE), ["s", "p"], coaxial=False, least=12, most_teeth=40, largest_radius=length("18")
+    )
+    assert all(len(rule.wheels) == 1 for rule in rules)
+    for s, p in product(range(8, 45, 4), repeat=2):
+        assert passed(rules, s=s, p=p) == (12 <= s <= 36 and 12 <= p <= 36)
+
+
+def test_a_radius_is_a_length_where_modules_are() -> None:
+    data = reverted(["0.8 mm", None, None, "1.5 mm"])
+    rules = rules_of(data, coaxial=False, largest_radius=length("30 mm"))
+    assert "'z1' has a radius of at most 30 mm" in [rule.name for rule in rules]
+    assert passed(rules, z1=75, z2=75, z3=40, z4=40)
+    assert not passed(rules, z1=76, z2=75, z3=40, z4=40)
+    assert not passed(rules, z1=75, z2=75, z3=41, z4=40)
+    with pytest.raises(QuestionError, match="cannot be compared with 30"):
+        rules_of(data, largest_radius=length("30"))
+    with pytest.raises(QuestionError, match="its module is not declared"):
+        rules_of(reverted([None] * 4), largest_radius=length("30 mm"))
+
+
+def test_a_worm_is_asked_for_no_teeth() -> None:
+    train = load("worm").declaration
+    worm = next(name for name, (_, wheel) in train.wheels.items() if wheel.kind == "worm")
+    rules = rules_of(train, least=12, undercut=Quantity.parse("20 deg", "angle", False))
+    assert rules
+    assert all(worm not in rule.wheels for rule in rules)
+
+
+def test_hunting_teeth_have_no_common_divisor() -> None:
+    rules = rules_of(epicyclic(*SIMPLE), hunting=True, coaxial=False)
+    for s, p, r in product(range(20, 26), range(15, 19), range(58, 62)):
+        assert passed(rules, s=s, p=p, r=r) == (gcd(s, p) == gcd(p, r) == 1)
+    assert rules_of(epicyclic(*SIMPLE), [], hunting=True) == ()
+
+
+def test_different_counts_are_asked_of_all_wheels_but_equal_planets() -> None:
+    data = epicyclic(*SIMPLE, copies=3)
+    rules = rules_of(data, ["s", "p", "p-1"], different=True, coaxial=False)
+    assert passed(rules, **{"s": 24, "p": 18, "p-1": 18})
+    assert not passed(rules, **{"s": 18, "p": 17, "p-1": 17})
+    assert not passed(rules, **{"s": 60, "p": 17, "p-1": 17})
+    assert len({rule.name for rule in rules}) == 1
+
+
+# -------------------------------------------------------------------------------------------------------------- asking
+
+
+def test_wheels_without_a_count_get_rules_too() -> None:
+    data = epicyclic(*SIMPLE)
+    for link, wheel in (("Ls", "s"), ("Lr", "r"), ("P0", "p")):
+        own = data["links"][link]["wheels"]
+        own[wheel] = {"teeth": {"search": [12, 80]}} | ({"internal": True} if wheel == "r" else {})
+    free = {wheel: tuple(range(12, 81)) for wheel in "spr"}
+    rules = find_constraints(declared(data), free, ConstraintOptions(planets=3, clearance=Fraction(0)))
+    assert len(rules) == 3
+    grid = box(s=range(12, 30), p=range(12, 30), r=range(40, 80))
+    kept = np.logical_and.reduce([rule.holds(grid) for rule in rules])
+    rows = zip(*(grid[name].tolist() for name in "spr"), strict=True)
+    wanted = [s + 2 * p == r and (s + r) % 3 == 0 and (s + p) * 3**0.5 / 2 > p + 2 for s, p, r in rows]
+    assert kept.tolist() == wanted
+
+
+def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
+    train = load("planets-in-place").declaration
+    asked = read_constraint_options(
+        planets="3", clearance="0.5", undercut="20 deg", interference="20 deg", ring_addendum="0.8", least=12,
+        hunting=True, different=True, closure=True,
+    )  # fmt: skip
+    rules = find_constraints(train, dict.fromkeys(train.wheels, (20, 21)), asked)
+    some = columns(**{wheel: [20, 24, 18] for wheel in train.wheels})
+    for rule in rules:
+        again = pickle.loads(pickle.dumps(rule))
+        assert again.name == rule.name
+        assert again.holds(some).tolist() == rule.holds(some).tolist()
+    kinds = [(isinstance(rule, Condition), len(rule.wheels)) for rule in rules]
+    first = next(at for at, (condition, _) in enumerate(kinds) if not condition)
+    last = max(at for at, (condition, _) in enumerate(kinds) if not condition)
+    assert all(count == 1 for _, count in kinds[:first])
+    assert all(not condition for condition, _ in kinds[first : last + 1])
+    assert "phase closure" in rules[-1].name
+
+
+def test_what_is_asked_is_read_from_texts() -> None:
+    assert read_constraint_options() == ConstraintOptions()
+    found = read_constraint_options(
+        planets="arm=3, inner=4", clearance="1/2", undercut="14.5 deg", largest_radius="60 mm", least=9
+    )
+    assert found.planets == {"arm": 3, "inner": 4}
+    assert found.clearance == Fraction(1, 2)
+    assert found.least == 9
+    assert read_constraint_options(planets="3").planets == 3
+    plain = json.loads(json.dumps(found.to_dict()))
+    assert plain == {
+        "shift": 0, "planets": {"arm": 3, "inner": 4}, "clearance": "1/2", "undercut": "14.5 deg", "addendum": "1",
+        "least": 9, "largest_radius": "60 mm",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [
+        {"planets": "three"},
+        {"planets": "3,4"},
+        {"clearance": "much"},
+        {"undercut": "20"},
+        {"largest_radius": "20 deg"},
+        {"interference": "20 mm", "addendum": "x"},
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_advice(texts: dict[str, str]) -> None:
+    with pytest.raises(QuestionError) as caught:
+        read_constraint_options(**texts)
+    assert len(caught.value.problems) == len(texts)
+    assert all(problem.what.startswith("--") and problem.fix for problem in caught.value.problems)
+
+
+@pytest.mark.parametrize("angle", ["0 deg", "90 deg", "-20 deg"])
+def test_a_pressure_angle_is_between_nothing_and_a_right_angle(angle: str) -> None:
+    with pytest.raises(QuestionError, match="no pressure angle"):
+        rules_of(epicyclic(*SIMPLE), undercut=Quantity.parse(angle, "angle", False))

@@ -1,0 +1,40 @@
+"""Ranks of candidates are intervals where some weigh the same, among all that are counted."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+
+import pytest
+from concrete_trees import explanations, package_arbor, random_problem
+
+from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
+from geartrain.search.reconstruct.reconstruction_result import ExplanationCount, mechanism, prior
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+
+
+@pytest.mark.parametrize("seed", range(60, 100))
+def test_ranks_are_those_among_all_trains(seed: int) -> None:
+    problem = random_problem(seed, idlers=True)
+    grown = [package_arbor(tree) for found in explanations(problem) for tree in found.mechanisms]
+    weights: dict[object, Fraction] = {mechanism(arbor): prior(arbor, problem) for arbor in grown}
+    alike = Counter(weights.values())
+    for one in find_reconstructions(problem, listed=1).candidates:
+        own = weights[mechanism(one.arbor)]
+        heavier = sum(number for weight, number in alike.items() if weight > own)
+        assert one.ranks == (heavier + 1, heavier + alike[own])
+
+
+def test_a_page_shows_intervals_and_what_is_not_counted() -> None:
+    problem = random_problem(60)
+    counts = (ExplanationCount(0, 3, 2, 1), ExplanationCount(1, 999_999, None, None))
+    best = tuple(
+        RankedTrain(rank, ranks, 0, 0.25, {}, {}, ("a > b",)) for rank, ranks in ((1, (1, 1)), (2, (2, 3)), (3, (2, 3)))
+    )
+    sections = {
+        each.title: each
+        for each in describe_reconstruction(ReconstructionAnswer("some", problem, counts, True, (), best)).sections
+    }
+    assert sections["Counts"].tables[0].rows[1] == ("1", "999999", "not counted", "not counted")
+    assert [row[0] for row in sections["The best"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]

@@ -1,0 +1,97 @@
+"""Trains on a carrier are those that grow in the frame, and turn there as their dials say by the solver."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+import pytest
+from carried_trees import Node, carried_trains, random_evidence
+from concrete_trees import concrete
+
+from geartrain import load
+from geartrain.search.reconstruct.candidate_train import candidate_text
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.train import declare
+from geartrain.train.declaration_files import read_evidence
+
+
+@cache
+def grown(seed: int, rings: bool = False) -> list[set[Node]]:
+    return carried_trains(random_evidence(seed, rings))
+
+
+@pytest.mark.parametrize("rings", [False, True])
+@pytest.mark.parametrize("seeds", [range(100), pytest.param(range(100, 200), marks=pytest.mark.slow)])
+def test_trains_are_those_that_grow_in_the_frame(seeds: range, rings: bool, subtests: pytest.Subtests) -> None:
+    for seed in seeds:
+        with subtests.test(seed=seed):
+            evidence = random_evidence(seed, rings)
+            expected = grown(seed, rings)
+            found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
+            assert [count.mechanisms for count in found.counts] == [len(trees) for trees in expected]
+            assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
+
+
+@pytest.mark.parametrize("rings", [False, True])
+def test_most_random_questions_have_answers(rings: bool) -> None:
+    answered = [any(grown(seed, rings)) for seed in range(50)]
+    assert sum(answered) > 25
+
+
+@pytest.mark.parametrize("rings", [False, True])
+def test_candidates_turn_as_their_dials_say(rings: bool, subtests: pytest.Subtests) -> None:
+    """The solver knows nothing of reconstructions: it finds carriers by itself and solves Willis' equations."""
+    for seed in range(60):
+        with subtests.test(seed=seed):
+            _turn_as_their_dials_say(seed, rings)
+
+
+def _turn_as_their_dials_say(seed: int, rings: bool) -> None:
+    data = random_evidence(seed, rings)
+    evidence = declare(data)
+    found = find_reconstructions(evidence_question(evidence).problem, listed=10)
+    for one in found.candidates[:10]:
+        train = load(candidate_text(evidence, one.arbor, "one"))
+        assert train.mobility.by_rank == 1 + (len(data["inputs"]) - 1)
+        solved = train.solve()
+        assert solved
+        for name, output in data["outputs"].items():
+            assert train.declaration.outputs[name].relative_to == output.get("relative_to")
+            assert solved.outputs[name].speed == Fraction(output["expect"])
+
+
+MARS = """\
+name: mars
+links:
+  frame: {wheels: {x56: 56}}
+  b: {}
+  cp64: {wheels: {cp64: 64, cp38: 38}}
+  ma71: {wheels: {ma71: 71}}
+  ma80s: {wheels: {ma80s: 80}}
+  mars: {wheels: {ma80o: 80}}
+revolutes: [{pair: [frame, b], axis: B}, {pair: [frame, mars], axis: B}]
+inputs: {b: 1}
+outputs:
+  mars: {of: mars, expect: 151/284}
+  anomaly: {of: ma71, relative_to: b, expect: 133/284}
+reconstruct:
+  carrier: b
+  given: [{pair: [ma71, ma80s]}]
+  idlers: true
+  add: {wheels: 1, teeth: [12, 100]}
+"""
+
+
+def test_a_pin_in_a_slot_on_the_carrier() -> None:
+    """Mars of 2021 without its idler: one of 89 counts, before the arbor cp64 or behind it."""
+    evidence = read_evidence(MARS)
+    found = find_reconstructions(evidence_question(evidence).problem, listed=1000)
+    assert [count.mechanisms for count in found.counts] == [0, 2 * 89]
+    for one in found.candidates[::20]:
+        train = load(candidate_text(evidence, one.arbor, "one"))
+        assert train.mobility.by_rank == 1
+        solved = train.solve()
+        assert solved
+        assert (solved["mars"], solved["ma80s"]) == (Fraction(151, 284), Fraction(417, 284))

@@ -1,0 +1,634 @@
+"""Counts in doubt: every figure against brute force with the solver, one combination at a time."""
+
+from __future__ import annotations
+
+import math
+import random
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from geartrain import load
+from geartrain.analysis import GearTrain
+from geartrain.errors import DeclarationError, GearTrainError, QuestionError, RangeError
+from geartrain.kinematics.formulas import with_counts
+from geartrain.numerics import Journal, open_executor
+from geartrain.search import ToothCountPosterior, describe_posterior, infer_counts
+from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem
+from geartrain.search.posterior.observations import ObservedOutput
+from geartrain.search.posterior.priors import find_priors
+from geartrain.search.posterior.sampled_posterior import LikelihoodBatch, sample_task
+
+CHAIN: dict[str, Any] = {
+    "name": "chain",
+    "links": {
+        "frame": {},
+        "a": {"wheels": {"a1": {"teeth": {"value": 20, "range": [19, 22]}}}},
+        "b": {
+            "wheels": {
+                "b1": {"teeth": {"value": 60, "choices": [58, 60, 61], "weights": [1, 2, 1]}},
+                "b2": {"teeth": {"value": 30, "range": [29, 31], "weights": ["1/2", "1/3", "1/6"]}},
+            }
+        },
+        "c": {"wheels": {"c1": {"teeth": {"value": 90, "range": [88, 91]}}}},
+    },
+    "revolutes": [{"pair": ["frame", link], "axis": link.upper()} for link in "abc"],
+    "gears": [{"pair": ["a1", "b1"]}, {"pair": ["b2", "c1"]}],
+    "inputs": {"a": 1},
+    "outputs": {
+        "b": {"targets": [{"speed": "-1/3", "tolerance": "3 %"}]},
+        "c": {"targets": [{"speed": "1/9", "tolerance": "4 %"}]},
+    },
+}
+PLANETARY: dict[str, Any] = {
+    "name": "planetary",
+    "links": {
+        "frame": {"wheels": {"ring": {"teeth": {"value": 60, "range": [57, 63]}, "internal": True}}},
+        "sun": {"wheels": {"s": {"teeth": {"value": 24, "choices": [22, 24, 25], "weights": [1, 3, 2]}}}},
+        "planet": {"wheels": {"p": {"teeth": {"value": 18, "range": [17, 19]}}}},
+        "carrier": {},
+    },
+    "revolutes": [
+        {"pair": ["frame", "sun"], "axis": "main"},
+        {"pair": ["frame", "carrier"], "axis": "main"},
+        {"pair": ["carrier", "planet"], "axis": "planet"},
+    ],
+    "gears": [{"pair": ["s", "p"]}, {"pair": ["p", "ring"]}],
+    "inputs": {"sun": 1},
+    "outputs": {
+        "carrier": {"targets": [{"speed": "2/7", "tolerance": "2 %"}]},
+        "planet": {"expect": {"value": -0.66, "tolerance": 0.05}},
+    },
+}
+LOOP: dict[str, Any] = {  # both ways from a to d must have one ratio, or nothing turns
+    "name": "loop",
+    "links": {
+        "frame": {},
+        "a": {"wheels": {"a1": {"teeth": {"value": 20, "range": [18, 22]}}, "a2": {"teeth": 20}}},
+        "b": {"wheels": {"b1": {"teeth": {"value": 40, "range": [36, 44]}}}},
+        "d": {"wheels": {"d1": {"teeth": {"value": 60, "range": [58, 62]}}, "d2": {"teeth": 60}}},
+        "c": {"wheels": {"c1": {"teeth": 30}}},
+    },
+    "revolutes": [{"pair": ["frame", link], "axis": link.upper()} for link in "abcd"],
+    "gears": [{"pair": ["a1", "b1"]}, {"pair": ["b1", "d1"]}, {"pair": ["a2", "c1"]}, {"pair": ["c1", "d2"]}],
+    "inputs": {"a": 1},
+    "outputs": {"b": {"targets": [{"speed": "-1/2", "tolerance": "6 %"}]}},
+}
+TRAINS = {"chain": CHAIN, "planetary": PLANETARY, "loop": LOOP}
+
+
+def declared(data: Mapping[str, Any]) -> GearTrain:
+    return GearTrain.declare(data)
+
+
+def doubts_of(data: Mapping[str, Any]) -> dict[str, dict[int, Fraction]]:
+    """Wheel -> count -> prior, read off the plain data by hand."""
+    found = {}
+    for link in data["links"].values():
+        for wheel, teeth in link.get("wheels", {}).items():
+            doubt = teeth["teeth"]
+            if not isinstance(doubt, dict):
+                continue
+            counts = doubt.get("choices") or list(range(doubt["range"][0], doubt["range"][1] + 1))
+            weights = [Fraction(weight) for weight in doubt.get("weights", [1] * len(counts))]
+            found[wheel] = {count: weight / sum(weights) for count, weight in zip(counts, weights, strict=True)}
+    return found
+
+
+def with_teeth(data: Mapping[str, Any], teeth: Mapping[str, int]) -> dict[str, Any]:
+    links = {}
+    for name, link in data["links"].items():
+        wheels = {
+            wheel: {**made, "teeth": teeth.get(wheel, made["teeth"])} for wheel, made in link.get("wheels", {}).items()
+        }
+        links[name] = {"wheels": wheels} if wheels else {}
+    return {**data, "links": links}
+
+
+def all_of(data: Mapping[str, Any]) -> Iterator[tuple[dict[str, int], Fraction, dict[str, Fraction] | None]]:
+    """Every combination with its prior and the solver's speeds; None where the train does not turn."""
+    doubts = doubts_of(data)
+    for counts in product(*doubts.values()):
+        teeth = dict(zip(doubts, counts, strict=True))
+        answer = declared(with_teeth(data, teeth)).solve()
+        prior = math.prod((doubts[wheel][count] for wheel, count in teeth.items()), start=Fraction(1))
+        turns = bool(answer.verdict) and all(answer.speeds[link] is not None for link in answer.speeds)
+        yield teeth, prior, {name: Fraction(answer[name]) for name in data["outputs"]} if turns else None
+
+
+def misfit_of(data: Mapping[str, Any], speeds: Mapping[str, Fraction]) -> list[Fraction]:
+    """(error / tolerance) of every output."""
+    found = []
+    for name, output in data["outputs"].items():
+        if "targets" in output:
+            target = output["targets"][0]
+            wanted = Fraction(target["speed"])
+            share = Fraction(target["tolerance"].split()[0]) / 100
+            found.append((speeds[name] - wanted) / (share * wanted))
+        else:
+            wanted, half = (Fraction(str(output["expect"][key])) for key in ("value", "tolerance"))
+            found.append((speeds[name] - wanted) / half)
+    return found
+
+
+@pytest.fixture(scope="module", params=TRAINS)
+def case(request: pytest.FixtureRequest) -> tuple[dict[str, Any], list[Any]]:
+    data = TRAINS[request.param]
+    return data, list(all_of(data))
+
+
+def run(data: Mapping[str, Any], **options: Any) -> ToothCountPosterior:
+    return infer_counts(declared(data).declaration, **options)
+
+
+def test_what_fits_is_what_the_solver_says_fits(case: tuple[dict[str, Any], list[Any]]) -> None:
+    data, everything = case
+    found = run(data, method="exact", most=5)
+    turning = [row for row in everything if row[2] is not None]
+    fitting = [row for row in turning if all(abs(off) <= 1 for off in misfit_of(data, row[2]))]
+    assert 0 < len(fitting) < len(turning)
+    evidence = sum(prior for _, prior, _ in fitting)
+    assert found.method == "exact"
+    assert found.combinations == len(everything)
+    assert found.fits == len(fitting)
+    assert found.evidence.value == evidence
+    assert found.turning.value == sum(prior for _, prior, _ in turning)
+    for wheel, counts in doubts_of(data).items():
+        for count in counts:
+            share = sum(prior for teeth, prior, _ in fitting if teeth[wheel] == count) / evidence
+            assert found[wheel].chance(count).value == share
+    ranked = sorted(sum(off**2 for off in misfit_of(data, speeds)) for _, _, speeds in fitting)
+    assert [one.misfit for one in found.best] == ranked[:5]
+    assert found.ranked
+    for one in found.best:
+        speeds = next(row[2] for row in fitting if row[0] == {**row[0], **one.teeth})
+        assert all(one.speeds[name] == speeds[name] for name in one.speeds)
+
+
+def test_agreement_by_degree_is_a_sum_of_exponentials(case: tuple[dict[str, Any], list[Any]]) -> None:
+    data, everything = case
+    found = run(data, method="exact", soft=True)
+    weights = []
+    for teeth, prior, speeds in everything:
+        offs = [] if speeds is None else misfit_of(data, speeds)
+        near = speeds is not None and all(abs(off) <= 5 for off in offs)
+        weights.append((teeth, float(prior) * math.exp(-float(sum(off**2 for off in offs)) / 2) if near else 0.0))
+    total = math.fsum(weight for _, weight in weights)
+    assert float(found.evidence) == pytest.approx(total, rel=1e-12)
+    for wheel, counts in doubts_of(data).items():
+        for count in counts:
+            share = math.fsum(weight for teeth, weight in weights if teeth[wheel] == count) / total
+            assert float(found[wheel].chance(count)) == pytest.approx(share, rel=1e-11, abs=1e-15)
+
+
+def test_chances_sum_to_one_exactly(case: tuple[dict[str, Any], list[Any]]) -> None:
+    found = run(case[0], method="exact")
+    for posterior in found.posteriors.values():
+        assert sum(posterior.doubt.priors) == 1
+        assert sum(chance.value for chance in posterior.chances) == 1
+
+
+def test_correlations_are_those_of_what_fits(case: tuple[dict[str, Any], list[Any]]) -> None:
+    data, everything = case
+    fitting = [row for row in everything if row[2] and all(abs(off) <= 1 for off in misfit_of(data, row[2]))]
+    weights = np.array([float(prior) for _, prior, _ in fitting])
+    found = run(data, method="exact").correlations
+    for (first, second), value in found.items():
+        pair = np.array([[teeth[first], teeth[second]] for teeth, _, _ in fitting], dtype=float)
+        spread = np.cov(pair.T, aweights=weights, ddof=0)
+        assert value == pytest.approx(spread[0, 1] / math.sqrt(spread[0, 0] * spread[1, 1]), abs=1e-10)
+    assert found or data["name"] == "loop", "two of its wheels are forced"
+
+
+@st.composite
+def trains(draw: Callable[..., Any]) -> dict[str, Any]:
+    """A chain of pairs with outputs along it, every wheel in doubt."""
+    pairs = draw(st.integers(2, 3))
+    links: dict[str, Any] = {"frame": {}, "l0": {"wheels": {}}}
+    outputs: dict[str, Any] = {}
+    ratio = Fraction(1)
+    for at in range(pairs):
+        driver, driven = draw(st.integers(10, 60)), draw(st.integers(10, 60))
+        ratio *= Fraction(-driver, driven)
+        links[f"l{at}"]["wheels"][f"t{at}"] = {"teeth": draw(doubt(driver))}
+        links[f"l{at + 1}"] = {"wheels": {f"u{at}": {"teeth": draw(doubt(driven))}}}
+        if at == pairs - 1 or draw(st.booleans()):
+            share = draw(st.sampled_from(["0", "1 %", "3 %", "10 %"]))
+            outputs[f"l{at + 1}"] = {"targets": [{"speed": str(ratio), "tolerance": share}]}
+    return {
+        "name": "drawn",
+        "links": links,
+        "revolutes": [{"pair": ["frame", f"l{at}"], "axis": f"A{at}"} for at in range(pairs + 1)],
+        "gears": [{"pair": [f"t{at}", f"u{at}"]} for at in range(pairs)],
+        "inputs": {"l0": 1},
+        "outputs": outputs,
+    }
+
+
+@st.composite
+def doubt(draw: Callable[..., Any], count: int) -> dict[str, Any]:
+    low, high = count - draw(st.integers(0, 2)), count + draw(st.integers(1, 2))
+    found: dict[str, Any] = {"value": count, "range": [low, high]}
+    if draw(st.booleans()):  # weights so long that sums need Python's integers
+        found["weights"] = [draw(st.integers(1, 10**18)) for _ in range(low, high + 1)]
+    return found
+
+
+@settings(max_examples=25, deadline=None)
+@given(trains())
+def test_taking_all_together_equals_looking_at_each(data: dict[str, Any]) -> None:
+    train = declared(data).declaration
+    question, found = build_inference_problem(train, find_priors(train)), run(data, method="exact", most=7)
+    fitting = [
+        (teeth, question.weight(teeth), sum((one.misfit(speed) for one, speed in speeds), Fraction(0)))
+        for teeth, speeds in looked_at(question)
+        if all(one.fits(speed) for one, speed in speeds)
+    ]
+    total = sum(weight for _, weight, _ in fitting)
+    assert found.evidence.value == Fraction(total, question.total)
+    assert found.fits == len(fitting)
+    assert [one.misfit for one in found.best] == sorted(misfit for _, _, misfit in fitting)[:7]
+    if not fitting:
+        return
+    for wheel, doubt in question.doubts.items():
+        for count in doubt.counts:
+            own = sum(weight for teeth, weight, _ in fitting if teeth[wheel] == count)
+            assert found[wheel].chance(count).value == Fraction(own, total)
+    weights = np.array([float(Fraction(weight, total)) for _, weight, _ in fitting])
+    for pair, value in found.correlations.items():
+        one, other = (np.array([teeth[wheel] for teeth, _, _ in fitting], dtype=np.float64) for wheel in pair)
+        cov = np.cov(one, other, aweights=weights, ddof=0)
+        assert value == pytest.approx(cov[0, 1] / math.sqrt(cov[0, 0] * cov[1, 1]), abs=1e-6)
+
+
+def looked_at(question: InferenceProblem) -> Iterator[tuple[dict[str, int], list[tuple[ObservedOutput, Fraction]]]]:
+    """Every combination with which the train turns and all outputs have a speed, one by one."""
+    for counts in product(*question.domains.values()):
+        teeth = dict(zip(question.domains, counts, strict=True))
+        speeds = [(one, one.formula.value(teeth)) for one in question.witnesses]
+        held = [(each.strict, getattr(each.function, "value")(teeth)) for each in question.conditions]  # noqa: B009
+        if all(value is not None and (value != 0) == strict for strict, value in held):
+            known = [(one, speed) for one, speed in speeds if speed is not None]
+            if len(known) == len(speeds):
+                yield teeth, known
+
+
+def test_the_former_names_of_the_exact_method_are_understood() -> None:
+    assert run(CHAIN, method="enumerate") == run(CHAIN, method="decompose") == run(CHAIN, method="exact")
+
+
+@settings(max_examples=10, deadline=None)
+@given(trains())
+def test_the_order_of_the_declaration_changes_nothing(data: dict[str, Any]) -> None:
+    turned = {
+        **data,
+        "links": dict(reversed(data["links"].items())),
+        "gears": list(reversed(data["gears"])),
+        "outputs": dict(reversed(data["outputs"].items())),
+    }
+    one, other = run(data, method="exact"), run(turned, method="exact")
+    assert one.evidence == other.evidence
+    assert {wheel: one[wheel].chances for wheel in one.posteriors} == {
+        wheel: other[wheel].chances for wheel in one.posteriors
+    }
+    assert [each.misfit for each in one.best] == [each.misfit for each in other.best]
+
+
+def test_the_ends_of_a_tolerance_are_within_it_and_nothing_beyond_is() -> None:
+    """23/70 against 1/3 is off by 1/70 of it: no float tells that from 1/70 less a 10^-30th."""
+    for share, fits in (("1/70", True), (str(Fraction(1, 70) - Fraction(1, 10**30)), False)):
+        data = with_teeth(CHAIN, {"b2": 30, "c1": 90})
+        data["outputs"] = {"b": {"targets": [{"speed": "-1/3", "tolerance": share}]}}
+        found = run(data, method="exact", free={"a1": [23], "b1": [70, 80]})
+        assert found.evidence.value == (Fraction(1, 2) if fits else 0)
+        assert bool(found.best) is fits
+
+
+def test_a_sample_covers_the_truth_as_often_as_its_intervals_promise(case: tuple[dict[str, Any], list[Any]]) -> None:
+    exact = run(case[0], method="exact")
+    covered = looked = 0
+    for seed in range(1, 21):
+        found = run(case[0], method="sample", samples=3000, seed=seed)
+        pairs = [(found.evidence, exact.evidence)]
+        for wheel, posterior in exact.posteriors.items():
+            pairs += list(zip(found[wheel].chances, posterior.chances, strict=True)) if not posterior.idle else []
+        for estimate, truth in pairs:
+            assert estimate.low is not None
+            assert estimate.high is not None
+            covered += estimate.low <= float(truth) <= estimate.high
+            looked += 1
+    assert 0.92 < covered / looked <= 1
+
+
+def test_a_sample_depends_on_its_seed_alone() -> None:
+    one, other, third = (run(CHAIN, method="sample", samples=20_000, seed=seed) for seed in (3, 3, 4))
+    assert one == other
+    assert one.evidence != third.evidence
+    assert not one.ranked
+
+
+def shares_by_force(data: Mapping[str, Any], output: str) -> dict[str, tuple[Fraction, Fraction]]:
+    """First-order and total shares by conditional means over all combinations."""
+    rows = [(teeth, prior, speeds[output]) for teeth, prior, speeds in all_of(data) if speeds is not None]
+    mean = sum(prior * speed for _, prior, speed in rows)
+    variance = sum(prior * (speed - mean) ** 2 for _, prior, speed in rows)
+    found = {}
+    for wheel in doubts_of(data):
+        parts = []
+        for known in ([wheel], [other for other in doubts_of(data) if other != wheel]):
+            sums: dict[tuple[int, ...], list[Fraction]] = {}
+            for teeth, prior, speed in rows:
+                key = tuple(teeth[each] for each in known)
+                weight, total = sums.get(key, (Fraction(0), Fraction(0)))
+                sums[key] = [weight + prior, total + prior * speed]
+            parts.append(sum(total**2 / weight for weight, total in sums.values()) - mean**2)
+        found[wheel] = parts[0] / variance, 1 - parts[1] / variance
+    return found
+
+
+def test_shares_of_variance_are_those_of_conditional_means() -> None:
+    for data, output, exact in ((CHAIN, "c", True), (PLANETARY, "carrier", False), (PLANETARY, "planet", False)):
+        shares = run(data).shares[output]
+        for wheel, (own, whole) in shares_by_force(data, output).items():
+            if wheel not in shares.own:
+                assert own == whole == 0
+            elif exact:
+                assert (shares.own[wheel], shares.whole[wheel]) == (own, whole)
+            else:
+                assert float(shares.own[wheel]) == pytest.approx(float(own), abs=1e-10)
+                assert float(shares.whole[wheel]) == pytest.approx(float(whole), abs=1e-10)
+
+
+@pytest.mark.parametrize("step", [Fraction(10**8), Fraction(1, 10**8)])
+def test_speeds_beyond_float64_have_shares_and_a_standard_deviation(step: Fraction) -> None:
+    """44 pairs of 10^8 teeth and of 1 make 10^352, or its inverse; one wheel of a single tooth may have two."""
+    up, last = step > 1, 44
+    driver, driven = (10**8, 1) if up else (1, 10**8)
+    links: dict[str, Any] = {f"l{at}": {"wheels": {f"p{at}": driver, f"w{at}": driven}} for at in range(last + 1)}
+    links["l1"]["wheels"]["w1" if up else "p1"] = {"teeth": {"value": 1, "range": [1, 2]}}
+    data = {
+        "name": "far",
+        "links": {"frame": {}, **links},
+        "revolutes": [{"pair": ["frame", link], "axis": link} for link in links],
+        "gears": [{"pair": [f"p{at}", f"w{at + 1}"]} for at in range(last)],
+        "inputs": {"l0": 1},
+        "outputs": {"far": {"of": f"l{last}"}, "near": {"of": "l2", "targets": [{"speed": 1, "tolerance": "1e40"}]}},
+    }
+    found = run(data)
+    shares = found.shares["far"]
+    far = step**last
+    ends = (far, far / 2) if up else (far, 2 * far)
+    assert shares.mean == sum(ends) / 2
+    assert abs(Fraction(shares.spread) / (abs(ends[0] - ends[1]) / 2) - 1) < Fraction(1, 10**15)
+    assert list(shares.whole.values()) == [1]
+    assert shares.to_dict()["mean"] is shares.to_dict()["spread"] is None
+    assert f"e{'+' if up else '-'}35" in repr(describe_posterior(found))
+
+
+def test_a_target_beyond_float64_is_refused_in_words() -> None:
+    outputs = {"c": {"targets": [{"speed": "1e-400", "tolerance": "50 %"}]}}
+    with pytest.raises(DeclarationError, match="from 1e-300 to 1e300"):
+        run({**CHAIN, "outputs": outputs})
+
+
+def test_sampled_shares_come_near_the_exact_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    exact = run(PLANETARY).shares["carrier"]
+    monkeypatch.setattr("geartrain.search.posterior.variance_shares._LISTED", 1)
+    about = run(PLANETARY).shares["carrier"]
+    assert not about.exact
+    for wheel, share in exact.whole.items():
+        assert float(about.whole[wheel]) == pytest.approx(float(share), abs=0.05)
+        assert float(about.own[wheel]) == pytest.approx(float(exact.own[wheel]), abs=0.05)
+
+
+def test_an_output_that_is_free_for_some_counts_has_no_shares_and_does_not_fit_there() -> None:
+    """sun -> carrier through 20 ~ 20, p2 ~ 20 on a held wheel: 1 / (1 - p2/20), and no speed at all for p2 = 20."""
+    data = {
+        "name": "pole",
+        "links": {
+            "frame": {"wheels": {"held": 20}},
+            "planet": {"wheels": {"p1": 20, "p2": {"teeth": {"value": 19, "range": [17, 21]}}}},
+            "sun": {"wheels": {"s": 20}},
+            "carrier": {},
+        },
+        "revolutes": [
+            {"pair": ["frame", "sun"], "axis": "main"},
+            {"pair": ["frame", "carrier"], "axis": "main"},
+            {"pair": ["carrier", "planet"], "axis": "planet"},
+        ],
+        "gears": [{"pair": ["held", "p1"]}, {"pair": ["p2", "s"]}],
+        "unit": {"per": "1 d"},
+        "inputs": {"sun": 1},
+        "outputs": {"carrier": {"targets": [{"period": "1/20 d", "tolerance": "60 %"}]}},
+    }
+    found = run(data, method="exact")
+    speeds = {count: 1 / (1 - Fraction(count, 20)) for count in (17, 18, 19, 21)}
+    fits = {count for count, speed in speeds.items() if abs(abs(speed) / 20 - 1) <= Fraction(6, 10)}
+    assert {count for count in range(17, 22) if found["p2"].chance(count).value} == fits == {18, 19, 21}
+    assert not found.shares
+
+
+def test_floats_stay_within_their_bounds_even_for_immense_counts() -> None:
+    for size in (1, 10**3, 10**9):
+        free = {wheel: [count * size + step for step in range(3)] for wheel, count in zip("sp", (22, 17), strict=True)}
+        train = declared(PLANETARY).declaration
+        question = build_inference_problem(train, find_priors(train, free))
+        batch = LikelihoodBatch(question, every=True)
+        draw = np.random.default_rng(size)
+        counts = {wheel: draw.choice(np.array(some), 50) for wheel, some in batch.domains.items()}
+        for name, (values, bounds) in batch.speeds(batch.columns(counts)).items():
+            for at in range(50):
+                exact = question.outputs[name].value({wheel: int(column[at]) for wheel, column in counts.items()})
+                assert exact is not None
+                assert abs(Fraction(float(values[at])) - exact) <= Fraction(float(bounds[at]))
+                assert bounds[at] < 1e-12
+
+
+def test_the_antikythera_fits_its_inscriptions_and_others_fit_as_well() -> None:
+    """What freeth-2008 prints meets every demand exactly; the evidence leaves more."""
+    found = infer_counts(load("freeth-2008-doubt").declaration, most=3)
+    assert found.method == "exact"
+    assert found.best[0].misfit == 0
+    printed = {"b2": 64, "c1": 38, "c2": 48, "e3": 223, "e4": 188, "m3": 27, "n1": 53, "f1": 53, "g1": 54}
+    assert {wheel: found.best[0].teeth[wheel] for wheel in printed} == printed
+    assert found.best[0].speeds["saros"] == -Fraction(940, 4237)
+    assert found.best[0].speeds["metonic"] == -Fraction(5, 19)
+    assert found["b2"].chance(64).value == 1
+    assert {count for count in range(15, 81) if found["n1"].chance(count).value} == {52, 53, 55}
+    assert found["a1"].idle
+    assert sum(chance.value for chance in found["e3"].chances) == 1
+
+
+def test_pointers_that_must_be_exact_force_the_published_counts() -> None:
+    """Only wheels that mesh and cancel (e5 ~ k1, k2 ~ e6), and those that no dial sees, may be other than printed."""
+    found = infer_counts(load("freeth-2008-doubt").declaration, scale=Fraction(0), most=3)
+    forced = {w: p.likeliest for w, p in found.posteriors.items() if max(c.value for c in p.chances) == 1}
+    printed = {"b2": 64, "c1": 38, "c2": 48, "e3": 223, "e4": 188, "l1": 38, "m1": 96, "m3": 27, "n1": 53, "nO": 57}
+    assert forced == printed | {"o1": 60, "f1": 53, "g1": 54, "h1": 60, "i1": 60}
+    both = len({50, 51, 52} & {48, 49, 50, 51}), len({48, 49, 50, 51, 52} & {49, 50, 51, 52, 53, 54, 55})
+    assert found.fits == both[0] * both[1] * 9 * 16
+
+
+def test_the_metonic_train_alone_by_brute_force() -> None:
+    """5 turns in 19 years through b2, l1, l2, m1, m2, n1, of which four are in doubt: plain fractions, no train."""
+    found = infer_counts(load("freeth-2008-doubt").declaration, outputs=["metonic"])
+    fits = [
+        (b2, l1, m1, n1)
+        for b2, l1, m1, n1 in product(range(64, 67), (37, 38), range(95, 100), range(15, 81))
+        if abs(Fraction(b2 * 53 * 15, l1 * m1 * n1) / Fraction(5, 19) - 1) <= Fraction(1, 470)
+    ]
+    assert found.evidence.value == Fraction(len(fits), 3 * 2 * 5 * 66)
+    for n1 in range(15, 81):
+        assert found["n1"].chance(n1).value == Fraction(sum(row[3] == n1 for row in fits), len(fits))
+
+
+def test_a_tighter_tolerance_never_lets_more_through() -> None:
+    shares = [run(CHAIN, scale=Fraction(factor)).evidence.value for factor in ("2", "1", "1/2", "0")]
+    assert shares == sorted(shares, reverse=True)
+    assert shares[-1] > 0, "the declared counts give the targets exactly"
+
+
+def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
+    whole = run(CHAIN, method="sample", samples=60_000)
+    with open_executor(2) as executor:
+        assert run(CHAIN, method="sample", samples=60_000, executor=executor) == whole
+    with Journal(tmp_path / "j.jsonl", {"train": "chain"}) as journal:
+        assert run(CHAIN, method="sample", samples=60_000, journal=journal) == whole
+        kept = len(journal)
+    with Journal(tmp_path / "j.jsonl", {"train": "chain"}) as journal:
+        assert len(journal) == kept > 1
+        assert run(CHAIN, method="sample", samples=60_000, journal=journal) == whole
+    with pytest.raises(QuestionError, match="another question"):
+        Journal(tmp_path / "j.jsonl", {"train": "planetary"})
+
+
+def test_an_interrupted_run_says_what_it_knows(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[object] = []
+
+    def first_only(shared: bytes, task: Any) -> Any:
+        asked.append(task)
+        if len(asked) > 1:
+            raise KeyboardInterrupt
+        return sample_task(shared, task)
+
+    monkeypatch.setattr("geartrain.search.posterior.inference.sample_task", first_only)
+    found = run(CHAIN, method="sample", samples=60_000)
+    assert found.cut
+    assert 0 < found.looked < 60_000
+    assert found.evidence.low is not None
+    assert found.evidence.low < float(run(CHAIN).evidence) < (found.evidence.high or 0)
+
+
+def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole = run(CHAIN)
+
+    def interrupted(*_: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("geartrain.search.posterior.inference.find_exact_posterior", interrupted)
+    for method in (None, "exact"):
+        found = run(CHAIN, method=method)
+        assert found.cut
+        assert (found.method, found.looked) == ("sample", 1 << 16)
+        assert "knows nothing before its end" in found.remarks[-1]
+        assert found.evidence.low is not None
+        assert found.evidence.low < float(whole.evidence) < (found.evidence.high or 0)
+        assert not found.ranked
+    assert run(CHAIN, samples=1000).looked == 1000, "no more is drawn than was allowed"
+
+
+def test_a_batch_says_what_the_solver_says() -> None:
+    train = declared(CHAIN)
+    asked = build_inference_problem(train.declaration, find_priors(train.declaration, {}))
+    batch, draw = LikelihoodBatch(asked, every=True), random.Random(1)
+    counts = {wheel: np.array([draw.choice(domain) for _ in range(40)]) for wheel, domain in batch.domains.items()}
+    rows = batch.columns(counts)
+    met, speeds = batch.judged(rows)[0], batch.speeds(rows)
+    for at in range(40):
+        answer = GearTrain(with_counts(train.declaration, {w: int(c[at]) for w, c in counts.items()})).solve()
+        for name, (values, bounds) in speeds.items():
+            assert abs(Fraction(float(values[at])) - answer[name]) <= Fraction(float(bounds[at]))
+            assert bounds[at] < 1e-12 * abs(float(answer[name]))
+        assert met[at] == all(witness.fits(Fraction(answer[witness.name])) for witness in asked.witnesses)
+    assert met.any()
+    assert not met.all()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"free": {"x9": [1]}}, "no wheel 'x9'"),
+        ({"free": {"a1": []}}, "no counts to choose from"),
+        ({"free": {"a1": [0, 1]}}, "0 is not a tooth count"),
+        ({"free": {"a1": [20], "b1": [60], "b2": [30], "c1": [90]}}, "in doubt"),
+        ({"outputs": ["moon"]}, "no output 'moon'"),
+        ({"state": "night"}, "no state 'night'"),
+        ({"against": "figures"}, "nothing is known"),
+        ({"against": "hopes"}, "no claims called"),
+        ({"limit": 0}, "limit is 0"),
+        ({"most": 0}, "most is 0"),
+        ({"samples": 0}, "samples is 0"),
+        ({"method": "guess"}, "no method 'guess'"),
+        ({"scale": Fraction(-1)}, "a distance"),
+        ({"tolerance": Fraction(-1)}, "a distance"),
+        ({"method": "exact", "limit": 1}, "too many steps"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused_with_a_way_out(options: dict[str, Any], said: str) -> None:
+    with pytest.raises((QuestionError, RangeError)) as caught:
+        run(CHAIN, **options)
+    assert said in str(caught.value)
+    assert all(problem.fix for problem in caught.value.problems)
+
+
+@pytest.mark.parametrize(
+    ("doubt", "said"),
+    [
+        ({"value": 20, "range": [22, 19]}, "is empty"),
+        ({"value": 20, "range": [19, 21], "weights": [1, -1, 1]}, "no chances"),
+        ({"value": 20, "range": [19, 21], "weights": [0, 0, 0]}, "no chances"),
+        ({"value": 20, "range": [1, 10**6]}, "too wide"),
+    ],
+)
+def test_doubts_that_are_none_are_refused(doubt: dict[str, Any], said: str) -> None:
+    with pytest.raises(GearTrainError, match=said):
+        run(with_teeth(CHAIN, {"a1": doubt}))  # type: ignore[dict-item]
+
+
+def test_a_train_that_never_turns_is_said_to() -> None:
+    held = {**CHAIN, "fixed": ["b"]}
+    with pytest.raises(QuestionError, match="does not turn"):
+        run(held)
+
+
+def test_an_output_without_a_tolerance_is_no_evidence() -> None:
+    data = {**CHAIN, "outputs": {**CHAIN["outputs"], "c": {"targets": [{"speed": "1/9"}]}}}
+    found = run(data)
+    assert [witness.name for witness in found.witnesses] == ["b"]
+    assert any("'c' is not judged" in remark for remark in found.remarks)
+    assert found["c1"].idle
+    with pytest.raises(QuestionError, match="nothing is known of output 'c'"):
+        run(data, outputs=["c"])
+    assert run(data, tolerance=Fraction(4, 100)).evidence == run(CHAIN).evidence
+
+
+def test_counts_of_no_weight_are_left_out() -> None:
+    doubt = {"value": 20, "range": [19, 21], "weights": [1, 1, 0]}
+    found = run(with_teeth(CHAIN, {"a1": doubt}))  # type: ignore[dict-item]
+    assert found["a1"].doubt.counts == (19, 20)
+
+
+def test_the_room_is_imported_without_any_large_library() -> None:
+    asked = "import sys, geartrain.workshop; print(*{'numpy', 'scipy', 'networkx'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""

@@ -1,0 +1,54 @@
+"""Trains drawn from the sums come as often as each other, and every train of a topology comes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from random import Random
+
+import pytest
+from concrete_trees import Node, concrete, explanations, random_problem, with_rings
+
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_search import draw_candidates, find_reconstructions
+from geartrain.search.reconstruct.search_tasks import TopologyTrains
+from geartrain.train.declaration_files import read_evidence
+
+DRAWS = 60
+"""For each train, on average."""
+
+
+@pytest.mark.parametrize("rings", [False, True])
+def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
+    chance, tried = Random(1), 0
+    for seed in range(300, 340):
+        plain = random_problem(seed, idlers=True)
+        problem = with_rings(plain, seed) if rings else plain
+        grown = {tree for found in explanations(problem) for tree in found.mechanisms}
+        trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
+        everything: set[Node] = set()
+        for each in find_reconstructions(problem, listed=0).topologies[:20]:
+            if each.mechanisms > 12:
+                continue
+            found = Counter(concrete(trains.draw(each.topology, chance)) for _ in range(DRAWS * each.mechanisms))
+            assert len(found) == each.mechanisms
+            assert set(found) <= grown
+            # eight standard deviations of a binomial
+            assert all(abs(number - DRAWS) < 8 * DRAWS**0.5 for number in found.values())
+            assert not everything & set(found)
+            everything |= set(found)
+            tried += each.mechanisms > 1
+    assert tried > (3 if rings else 20)
+
+
+def test_trains_of_different_weights_are_drawn_by_them() -> None:
+    problem = evidence_question(read_evidence("isfahan-without-pivot"), 3).problem
+    found = find_reconstructions(problem, listed=10_000)
+    drawn = draw_candidates(found, problem, [dial.name for dial in problem.dials], DRAWS * 100, 2)
+    assert drawn == draw_candidates(found, problem, [dial.name for dial in problem.dials], DRAWS * 100, 2)
+    listed = {one.arbor: one for one in found.candidates}
+    assert sum(one.weight for one in listed.values()) == pytest.approx(1)
+    assert all(listed[one.arbor] == one for one in drawn)
+    for added in {one.added for one in listed.values()}:
+        share = sum(one.weight for one in listed.values() if one.added == added)
+        number = sum(one.added == added for one in drawn)
+        assert abs(number - share * len(drawn)) < 6 * (share * (1 - share) * len(drawn)) ** 0.5 + 1

@@ -1,0 +1,168 @@
+"""Marginals, the next fact to look for and the family tree, of candidates made by hand."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import log2
+
+import pytest
+
+from geartrain.search.reconstruct.candidate_findings import grow_family_tree
+from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
+from geartrain.search.reconstruct.explained_facts import ExplainedFacts, Fact, FactMarginal, WeighedTrains
+from geartrain.search.reconstruct.reconstruction_problem import (
+    Additions,
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    SearchedDial,
+    SurvivingArbor,
+    SurvivingWheel,
+)
+
+
+def survivor(name: str, **counts: tuple[int, ...]) -> SurvivingArbor:
+    wheels = (
+        SurvivingWheel(wheel, tuple((count, Fraction(1, len(teeth))) for count in teeth))
+        for wheel, teeth in counts.items()
+    )
+    return SurvivingArbor(name, tuple(wheels))
+
+
+PROBLEM = ReconstructionProblem(
+    survivor("in", i=(10,)),
+    (survivor("a", a1=(20,), a2=(30,)), survivor("c", c1=(40, 41), c2=(15,))),
+    (SearchedDial("sun", Fraction(1), Fraction(1)),),
+    Additions(2, 10, 60),
+    use="some",
+)
+
+
+def sun(teeth: int) -> Arbor:
+    return Arbor(None, PlacedWheel(None, teeth), ("sun",), ())
+
+
+def arbor(name: str, driven: tuple[str, int], driving: tuple[str, int], below: Arbor) -> Arbor:
+    return Arbor(name, PlacedWheel(*driven), (), ((PlacedWheel(*driving), (below,)),))
+
+
+def named(first: Arbor) -> NamedArbor:
+    whole = Arbor("in", None, (), ((PlacedWheel("i", 10), (first,)),))
+    return name_train(whole, ("sun",), {"in", "a", "c"}, {"i", "a1", "a2", "c1", "c2"})
+
+
+def through_a_and_c(count: int, last: int) -> NamedArbor:
+    return named(arbor("a", ("a1", 20), ("a2", 30), arbor("c", ("c1", count), ("c2", 15), sun(last))))
+
+
+WEIGHED = WeighedTrains.of(
+    [
+        through_a_and_c(40, 53),
+        through_a_and_c(41, 53),
+        named(arbor("c", ("c1", 40), ("c2", 15), arbor("a", ("a1", 20), ("a2", 30), sun(53)))),
+        named(arbor("a", ("a2", 30), ("a1", 20), sun(50))),
+    ],
+    [4, 2, 1, 1],
+)
+"""Weights 1/2, 1/4, 1/8, 1/8: in > a > c twice, in > c > a, and in > a the other way round without c."""
+
+
+def test_weights_are_brought_to_whole_numbers() -> None:
+    assert (WEIGHED.weights, WEIGHED.whole) == ((4, 2, 1, 1), 8)
+    halves = WeighedTrains.of(WEIGHED.trains, [0.5, Fraction(1, 4), 0.125, Fraction(1, 8)])
+    assert (halves.weights, halves.whole) == ((4, 2, 1, 1), 8)
+
+
+@pytest.mark.parametrize(
+    ("kind", "subject", "answers"),
+    [
+        ("mesh", "i > a1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
+        ("mesh", "a2 > c1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
+        ("mesh", "c2 > new_sun1", [("yes", "3/4", 2), ("no", "1/4", 2)]),
+        ("mesh", "a1 > new_sun1", [("no", "7/8", 3), ("yes", "1/8", 1)]),
+        ("driver", "a", [("in", "7/8", 3), ("c", "1/8", 1)]),
+        ("driver", "c", [("a", "3/4", 2), ("in", "1/8", 1), ("not in the train", "1/8", 1)]),
+        ("pointer", "sun", [("an added arbor", "1", 4)]),
+        ("count", "c1", [("40", "5/8", 2), ("41", "1/4", 1), ("not used", "1/8", 1)]),
+        ("added", "new_sun1", [("53", "7/8", 3), ("50", "1/8", 1)]),
+        ("needed", "53", [("yes", "7/8", 3), ("no", "1/8", 1)]),
+        ("used", "c1", [("yes", "7/8", 3), ("no", "1/8", 1)]),
+    ],
+)
+def test_marginals(kind: str, subject: str, answers: list[tuple[str, str, int]]) -> None:
+    found = {(one.kind, one.subject): one for one in ExplainedFacts(WEIGHED, PROBLEM).marginals()}
+    told = [(answer.answer, answer.share, answer.mechanisms) for answer in found[kind, subject].answers]
+    assert told == [(answer, Fraction(share), count) for answer, share, count in answers]
+
+
+def test_what_all_agree_in_is_first_and_wheels_that_all_use_are_left_out() -> None:
+    found = ExplainedFacts(WEIGHED, PROBLEM).marginals()
+    assert [one.subject for one in found if one.kind == "used"] == ["c1", "c2"]
+    meshes = [one for one in found if one.kind == "mesh"]
+    assert [one.share("yes") for one in meshes] == sorted((one.share("yes") for one in meshes), reverse=True)
+    assert {one.kind for one in found} == {"mesh", "driver", "pointer", "count", "added", "needed", "used"}
+    fewer = WeighedTrains.of(WEIGHED.trains[3:], [1])
+    unused = [one for one in ExplainedFacts(fewer, PROBLEM).marginals() if one.kind == "used"]
+    assert [(one.subject, one.share("no")) for one in unused] == [("c1", 1), ("c2", 1)]
+
+
+def bits(*shares: float) -> float:
+    return -sum(share * log2(share) for share in shares)
+
+
+def test_the_most_telling_fact_is_first_and_those_that_divide_alike_stand_together() -> None:
+    found = ExplainedFacts(WEIGHED, PROBLEM).next_facts()
+    assert [(one.fact.kind, one.fact.subject) for one in found] == [
+        ("count", "c1"),
+        ("driver", "c"),
+        ("pair", "a1 and i"),
+        ("pair", "a1 and c2"),
+        ("pair", "a2 and i"),
+    ]
+    assert [one.fact.bits for one in found] == pytest.approx(
+        [
+            bits(5 / 8, 1 / 4, 1 / 8),
+            bits(3 / 4, 1 / 8, 1 / 8),
+            bits(3 / 4, 1 / 4),
+            bits(7 / 8, 1 / 8),
+            bits(7 / 8, 1 / 8),
+        ]
+    )
+    assert found[2].same == (Fact("pair", "a2 and c1"),)
+    assert Fact("driver", "a") in found[3].same
+    assert Fact("added", "new_sun1") in found[4].same
+
+
+def test_nothing_is_to_be_looked_for_where_there_is_one_candidate() -> None:
+    assert ExplainedFacts(WeighedTrains.of(WEIGHED.trains[:1], [1]), PROBLEM).next_facts() == ()
+
+
+def test_one_fact_is_certain() -> None:
+    found = ExplainedFacts(WEIGHED, PROBLEM).marginals()
+    pointer: FactMarginal = next(one for one in found if one.kind == "pointer")
+    assert pointer.bits == 0
+
+
+def test_the_family_tree() -> None:
+    tree = grow_family_tree(WEIGHED, ["c1"])
+    told = [(one.parent, one.meshes, one.share, one.mechanisms) for one in tree]
+    assert told == [
+        (None, (), 1, 4),
+        (0, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"), Fraction(3, 4), 2),
+        (0, ("i > c1", "c2 > a1", "a2 > new_sun1 (sun)"), Fraction(1, 8), 1),
+        (0, ("i > a2", "a1 > new_sun1 (sun)"), Fraction(1, 8), 1),
+    ]
+    ends = [[(train.rank, list(train.counts.items())) for train in one.trains] for one in tree]
+    assert ends == [
+        [],
+        [(1, [("new_sun1", 53), ("c1", 40)]), (2, [("new_sun1", 53), ("c1", 41)])],
+        [(3, [("new_sun1", 53), ("c1", 40)])],
+        [(4, [("new_sun1", 50)])],
+    ]
+
+
+def test_a_stem_is_one_branch_and_no_candidates_have_no_tree() -> None:
+    tree = grow_family_tree(WeighedTrains.of(WEIGHED.trains[:2], [1, 1]))
+    assert [(one.parent, one.meshes) for one in tree] == [(None, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"))]
+    assert [train.counts for train in tree[0].trains] == [{"new_sun1": 53}, {"new_sun1": 53}]
+    assert grow_family_tree(WeighedTrains((), ())) == ()

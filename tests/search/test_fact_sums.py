@@ -1,0 +1,113 @@
+"""Sums over all trains of random questions, against the same over concrete trees one by one: equal as fractions."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from concrete_trees import ADDED, concrete, explanations, meshes, nodes, package_arbor, random_problem, with_rings
+
+from geartrain.search.reconstruct import candidate_findings
+from geartrain.search.reconstruct.candidate_names import name_train
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.explained_facts import ExplainedFacts, WeighedTrains, sum_facts
+from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
+from geartrain.search.reconstruct.reconstruction_result import prior, topology_prior
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.train.declaration_files import read_evidence
+
+Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
+
+
+def questions(first: int, rings: bool) -> list[ReconstructionProblem]:
+    plain = [random_problem(seed, idlers=True) for seed in range(first, first + 60)]
+    return [with_rings(problem, seed) for seed, problem in enumerate(plain, first)] if rings else plain
+
+
+def by_sums(problem: ReconstructionProblem) -> Told | None:
+    topologies = find_reconstructions(problem, listed=0).topologies
+    weighed = ((each.topology, topology_prior(each.topology, problem)) for each in topologies)
+    tally = sum_facts(weighed, problem, [dial.name for dial in problem.dials])
+    assert tally.trains == sum(each.mechanisms for each in topologies)
+    if not tally.trains:
+        return None
+    found = (tally.marginal(fact) for fact in tally.facts())
+    return {(one.kind, one.subject): {a.answer: (a.share, a.mechanisms) for a in one.answers} for one in found}
+
+
+def by_trains(problem: ReconstructionProblem) -> Told:
+    """Each train with its names; what it says is read off by the program for single candidates."""
+    arbors = [package_arbor(tree) for found in explanations(problem) for tree in found.mechanisms]
+    own = (problem.input, *problem.arbors)
+    links, wheels = {arbor.name for arbor in own}, {wheel.name for arbor in own for wheel in arbor.wheels}
+    trains = [name_train(arbor, [dial.name for dial in problem.dials], links, wheels) for arbor in arbors]
+    facts = ExplainedFacts(WeighedTrains.of(trains, [prior(arbor, problem) for arbor in arbors]), problem)
+    found = [*facts.marginals(), *(one.fact for one in facts.next_facts())]
+    return {(one.kind, one.subject): {a.answer: (a.share, a.mechanisms) for a in one.answers} for one in found}
+
+
+@pytest.mark.parametrize("rings", [False, True])
+@pytest.mark.parametrize("first", [100, 160])
+def test_sums_are_those_over_all_trains(first: int, rings: bool) -> None:
+    answered = 0
+    for problem in questions(first, rings):
+        found = by_sums(problem)
+        if found is None:
+            continue
+        expected = by_trains(problem)
+        answered += 1
+        assert {key: found[key] for key in expected} == expected
+        assert all(len(found[key]) == 1 or key in expected for key in found if key[0] != "pair")
+    assert answered > (10 if rings else 40)
+
+
+@pytest.mark.parametrize("first", [220, 250])
+def test_sums_are_those_over_concrete_trees(first: int) -> None:
+    """Meshes of survivors and counts that are needed, weighed by the table of the page."""
+    for seed in range(first, first + 30):
+        problem = random_problem(seed, idlers=True)
+        found = by_sums(problem)
+        trees = [tree for one in explanations(problem) for tree in one.mechanisms]
+        if found is None:
+            assert not trees
+            continue
+        weights = [prior(package_arbor(tree), problem) for tree in trees]
+        direct: dict[tuple[str, str], Fraction] = defaultdict(Fraction)
+        for tree, weight in zip(trees, weights, strict=True):
+            assert concrete(package_arbor(tree)) == tree
+            for driving, driven in meshes(tree):
+                if driving[0] and driven[0]:
+                    direct["mesh", f"{driving[0]} > {driven[0]}"] += weight / sum(weights)
+            added = {node[1][1] for node in nodes(tree) if node[1] and node[1][0] == ADDED}
+            added |= {wheel[1] for node in nodes(tree) for wheel, _ in node[3] if wheel[0] == ADDED}
+            for teeth in added:
+                direct["needed", str(teeth)] += weight / sum(weights)
+        survivors = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
+        told = {
+            key: answers["yes"][0]
+            for key, answers in found.items()
+            if key[0] == "needed" or (key[0] == "mesh" and set(key[1].split(" > ")) <= survivors)
+        }
+        assert told == direct
+
+
+@pytest.mark.parametrize(("most", "told"), [(10**6, 4), (3, 1)])
+def test_facts_are_told_of_all_trains_unless_they_are_too_many(
+    most: int, told: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One of the four trains of the back is listed."""
+    evidence = read_evidence("back-train")
+    problem = evidence_question(evidence).problem
+    found = find_reconstructions(problem)
+    monkeypatch.setattr(candidate_findings, "MOST_SUMMED", most)
+    findings = candidate_findings.find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
+    assert findings.of_all == (told == 4)
+    assert {one.trains for one in findings.marginals} == {told}
+    assert (findings.listed, len(findings.family)) == (1, 1)
+    report = ReconstructionAnswer("back", problem, found.counts, True, (), (), findings=findings)
+    said = "are told of all." if told == 4 else "shares are of theirs."
+    assert sum(line.endswith(said) for line in describe_reconstruction(report).lead) == 1

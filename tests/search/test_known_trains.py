@@ -1,0 +1,342 @@
+"""A known train in a question: it breaks a rule just where plain growth does not find it, and ranks where it does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
+
+from geartrain import GearTrainError
+from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules
+from geartrain.search.reconstruct.candidate_train import TrainConstruction
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.known_rank import (
+    RankedQuestion,
+    find_place,
+    find_telling_facts,
+    rank_known_train,
+)
+from geartrain.search.reconstruct.known_train import check_same, find_known_train
+from geartrain.search.reconstruct.lost_arbors import lost_evidence
+from geartrain.search.reconstruct.reconstruction_problem import (
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    SearchedDial,
+    SurvivingArbor,
+)
+from geartrain.search.reconstruct.reconstruction_result import Reconstructions, mechanism
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.train import declare
+from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
+
+
+def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem:
+    """The question without some of its rules, so that plain growth finds trains that break them."""
+
+    def misread(arbor: SurvivingArbor) -> SurvivingArbor:
+        wheels = (replace(one, counts=(*one.counts, (one.counts[-1][0] + 1, Fraction(1)))) for one in arbor.wheels)
+        return replace(arbor, wheels=tuple(wheels))
+
+    def turned(dial: SearchedDial) -> SearchedDial:
+        ends = sorted((abs(dial.least), abs(dial.greatest)))
+        return replace(dial, least=ends[0] * Fraction(9, 10), greatest=ends[1], signed=False)
+
+    if part == 0:
+        free = frozenset[frozenset[str]]()
+        return replace(problem, meshes=free, apart=free, coaxial=free, idlers=True)
+    if part == 1:
+        return replace(problem, input=misread(problem.input), arbors=tuple(map(misread, problem.arbors)))
+    if part == 2:
+        return replace(problem, dials=tuple(map(turned, problem.dials)), use="some")
+    limits = replace(problem.additions, arbors=None, on="any", least=problem.additions.least - 1)
+    return replace(problem, dials=tuple(replace(dial, place=None) for dial in problem.dials), additions=limits)
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_a_candidate_breaks_no_rule_just_where_plain_growth_finds_it(part: int) -> None:
+    kept = broken = 0
+    rules = set[str]()
+    for seed in range(700, 760):
+        problem = random_problem(seed, idlers=True)
+        right = {tree for found in explanations(problem) for tree in found.mechanisms}
+        for found in explanations(loosened(problem, part)):
+            for tree in sorted(found.mechanisms)[:300]:
+                rank = broken_rules(package_arbor(tree), problem)
+                assert (not rank) == (tree in right), (seed, tree, rank)
+                kept, broken = kept + (not rank), broken + bool(rank)
+                rules |= {one.rule for one in rank}
+    assert kept > 50
+    assert broken > 100
+    assert (
+        rules
+        >= [{"seen", "apart", "idler"}, {"count"}, {"speed", "wheel", "arbor"}, {"place", "teeth", "beside"}][part]
+    )
+
+
+def test_a_driven_wheel_that_is_added_breaks_a_rule() -> None:
+    problem = random_problem(701)
+    problem = replace(problem, arbors=(SurvivingArbor("s", random_problem(701).input.wheels[:1]),), use="some")
+    wheel = problem.arbors[0].wheels[0]
+    dials = tuple(sorted(dial.name for dial in problem.dials))
+    new = Arbor("s", PlacedWheel(None, 9), dials, ())
+    tree = Arbor(problem.input.name, None, (), ((PlacedWheel(wheel.name, wheel.counts[0][0]), (new,)),))
+    assert "driven" in {one.rule for one in broken_rules(tree, problem)}
+
+
+# places
+
+
+def plain_prior(tree: tuple, problem: ReconstructionProblem) -> Fraction:
+    """The product of what every part of a concrete tree weighs."""
+    factors, limits = problem.factors, problem.additions
+    weights = {one.name: dict(one.counts) for arbor in (problem.input, *problem.arbors) for one in arbor.wheels}
+    weight, unused = Fraction(1), set(weights)
+    for name, driven, _, drives in nodes(tree):
+        weight /= factors.arbor if name == "" else 1
+        for wheel, teeth in [one for one in (driven, *(wheel for wheel, _ in drives)) if one]:
+            if wheel in weights:
+                weight *= weights[wheel][teeth]
+                unused.discard(wheel)
+    weight /= (factors.wheel * (limits.greatest - limits.least + 1)) ** added_wheels(tree)
+    return weight / factors.unused ** len(unused)
+
+
+def test_a_place_is_that_among_all_trains_of_plain_growth() -> None:
+    placed = 0
+    for seed in range(760, 800):
+        problem = random_problem(seed)
+        trees = [(found.counts.added, tree) for found in explanations(problem) for tree in found.mechanisms]
+        weights = {tree: plain_prior(tree, problem) for _, tree in trees}
+        found = find_reconstructions(problem, listed=0)
+        assert sum(one.mechanisms for one in found.weights) == len(trees)
+        for added, tree in trees[:20]:
+            place = find_place(package_arbor(tree), problem, found)
+            assert place is not None
+            alike = [weights[other] for own, other in trees if own == added]
+            for ranks, some in ((place.ranks, list(weights.values())), (place.ranks_alike, alike)):
+                heavier = sum(weight > weights[tree] for weight in some)
+                assert ranks == (heavier + 1, heavier + some.count(weights[tree]))
+            assert (place.trains, place.trains_alike) == (len(trees), len(alike))
+            assert place.weight == pytest.approx(float(weights[tree] / sum(weights.values())), rel=1e-12)
+            assert place.dearer == max(weights.values()) / weights[tree]
+            placed += 1
+    assert placed > 100
+
+
+# trains
+
+
+def test_a_shipped_train_is_read_as_its_own_tree() -> None:
+    """Of each that has one on the frame, with any arbor lost."""
+    read = 0
+    for name in shipped():
+        try:
+            tree = find_spur_tree(read_declaration(name))
+        except GearTrainError:
+            continue
+        if tree.base.is_carrier:
+            continue
+        for lost in combinations(list(tree.driven)[:6], 1):
+            problem = evidence_question(lost_evidence(tree, lost)).problem
+            known = find_known_train(tree.train, problem)
+            assert mechanism(known.arbor) == mechanism(tree.arbor(lost)), (name, lost)
+            assert not broken_rules(known.arbor, problem)
+            assert set(known.added) == {wheel for link in lost for wheel in tree.wheels_of(link)}
+            read += 1
+    assert read > 60
+
+
+PRICE = {"E4": "e3", "E3": "e4", "G2": "g1", "E2i": "e2", "four years": "metonic"}
+
+
+def sure_back(wheels: int = 3) -> ReconstructionProblem:
+    return evidence_question(read_evidence("back-wheels-sure"), wheels).problem
+
+
+def search(problem: ReconstructionProblem) -> Reconstructions:
+    return find_reconstructions(problem, listed=0)
+
+
+def sure_question() -> RankedQuestion:
+    problem = sure_back()
+    return RankedQuestion(read_evidence("back-wheels-sure"), problem, search(problem), search)
+
+
+def test_the_train_of_2008_is_one_of_21() -> None:
+    found = rank_known_train(read_declaration("freeth-2008"), sure_question())
+    assert found.wheels == {"m3": 27, "n1": 53, "nO": 57}
+    assert (found.arbors, found.broken, found.admitted) == (1, (), ())
+    assert found.place is not None
+    assert (found.place.ranks, found.place.trains, found.place.dearer) == ((1, 21), 21, 1)
+
+
+def test_the_train_of_2006_has_another_dial_on_o() -> None:
+    found = rank_known_train(read_declaration("freeth-2006"), sure_question())
+    (speed,) = found.broken
+    assert (speed.rule, speed.subject, speed.values) == ("speed", ("games",), (Fraction(-1, 76),))
+    as_it_has, without = found.admitted
+    assert (len(as_it_has.wheels), as_it_has.asked, as_it_has.place) == (5, 3, None)
+    assert without.changes == ("without the dial games", "without o")
+    assert without.wheels == {"m3": 27, "n1": 53}
+    assert without.mechanisms == (0, 0, 12)  # those of the dials without the Games dial
+
+
+def test_prices_train_breaks_many_rules() -> None:
+    found = rank_known_train(read_declaration("price-1974"), sure_question(), PRICE)
+    assert {(one.rule, *one.subject) for one in found.broken} >= {
+        ("speed", "metonic"),
+        ("dial", "saros"),
+        ("speed", "moon"),
+        ("count", "l1"),
+        ("count", "l2"),
+        ("count", "m2"),
+        ("arbor", "E"),
+        ("arbor", "f"),
+        ("arbor", "g"),
+    }
+    (granted,) = found.admitted
+    assert granted.wheels == {"B4": 32, "N": 64}
+    assert granted.mechanisms[:2] == (0, 4)
+    assert granted.place is not None
+    assert granted.place.dearer == 10 * 10 * 214  # a wheel and an arbor more
+
+
+def test_what_admits_a_train_leaves_no_rule_that_it_breaks() -> None:
+    """Each rule by itself too: it is broken no more, or less of the train is asked for."""
+    problem, train = sure_back(), read_declaration("price-1974")
+    for one in broken_rules(find_known_train(train, problem, PRICE).arbor, problem):
+        changed = admitting_question(problem, [one])
+        left = broken_rules(find_known_train(train, changed, PRICE).arbor, changed)
+        assert one not in left, one
+
+
+def test_names_are_found_whatever_their_capitals_unless_told_otherwise() -> None:
+    problem, train = sure_back(), read_declaration("price-1974")
+    told = find_known_train(train, problem, PRICE).arbor
+    assert {wheel.name for wheel in told.wheels()} > {"b2", "l1", "l2", "m1", "m2", "c1", "d2", "e2"}
+    plain = {wheel.name for wheel in find_known_train(train, problem).arbor.wheels()}
+    assert "e2" not in plain
+    with pytest.raises(GearTrainError, match="no wheel and no output"):
+        check_same({"E44": "e3"}, [train], problem)
+    with pytest.raises(GearTrainError, match="no wheel and no dial"):
+        check_same({"E4": "e33"}, [train], problem)
+
+
+def test_a_train_without_the_input_or_with_a_loop_is_refused() -> None:
+    problem = sure_back()
+    with pytest.raises(GearTrainError, match="no wheel of 'b'"):
+        find_known_train(read_declaration("vitruvius-hodometer"), problem)
+    looped = declare(
+        {
+            "name": "loop",
+            "links": {
+                "frame": {},
+                "b": {"wheels": {"b2": 64}},
+                "c": {"wheels": {"c1": 38, "c2": 48}},
+                "d": {"wheels": {"d1": 24}},
+            },
+            "revolutes": {"B": ["frame", "b"], "C": ["frame", "c"], "D": ["frame", "d"]},
+            "gears": ["b2 ~ c1", "c2 ~ d1", "d1 ~ b2"],
+            "inputs": {"b": 1},
+        }
+    )
+    with pytest.raises(GearTrainError, match="close a loop"):
+        find_known_train(looped, problem)
+
+
+def test_wheels_that_are_on_other_arbors_are_not_taken_for_those_that_survive() -> None:
+    parted = declare(
+        {
+            "name": "parted",
+            "links": {
+                "frame": {},
+                "b": {"wheels": {"b2": 64}},
+                "c": {"wheels": {"c1": 38}},
+                "x": {"wheels": {"c2": 48}},
+                "d": {"wheels": {"d1": 24, "d2": 127}},
+            },
+            "revolutes": {"B": ["frame", "b"], "C": ["frame", "c"], "D": ["frame", "d"], "X": ["frame", "x"]},
+            "gears": ["b2 ~ d1", "d2 ~ c2"],
+            "inputs": {"b": 1},
+        }
+    )
+    known = find_known_train(parted, sure_back())
+    assert known.notes == ("c2 is not fixed to the other wheels of c, and is not taken for c2",)
+    assert concrete(known.arbor) == ("b", (), (), ())
+
+
+# what singles a train out
+
+
+def plain_facts(tree: tuple) -> set[tuple]:
+    """Meshes of surviving wheels, drivers of surviving arbors and bounds of added wheels, of a concrete tree."""
+    found: set[tuple] = set()
+    added = []
+    for name, driven, _, drives in nodes(tree):
+        added += [
+            teeth for wheel, teeth in [one for one in (driven, *(wheel for wheel, _ in drives)) if one] if not wheel
+        ]
+        for wheel, children in drives:
+            for child in children:
+                if wheel[0] and child[1][0]:
+                    found.add(("pair", " and ".join(sorted((wheel[0], child[1][0]))), "yes"))
+                if child[0]:
+                    found.add(("driver", child[0], name or "an added arbor"))
+    return found | {("greatest", "", str(max(added))), ("least", "", str(min(added)))}
+
+
+def plainly_left(fact: tuple, facts: list[set[tuple]]) -> frozenset[int]:
+    """Trains of which a fact holds."""
+    if fact[0] in ("greatest", "least"):
+        bounds = [next(int(own[2]) for own in some if own[0] == fact[0]) for some in facts]
+        limit = int(fact[2])
+        return frozenset(
+            at for at, own in enumerate(bounds) if (own <= limit if fact[0] == "greatest" else own >= limit)
+        )
+    return frozenset(at for at, some in enumerate(facts) if fact in some)
+
+
+@pytest.mark.parametrize("name", ["back-train", "back-train-doubt", "back-wheels-sure"])
+def test_what_singles_a_train_out_is_what_plain_sets_of_trains_say(name: str) -> None:
+    """Each fact, and all sets of facts that leave as few; counts of wheels by their names are looked up in the list."""
+    evidence = read_evidence(name)
+    problem = evidence_question(evidence).problem
+    found = find_reconstructions(problem)
+    facts = []
+    for one in found.candidates:
+        train = TrainConstruction.of(evidence, one.arbor)
+        counts = {("added", wheel, str(teeth)) for wheel, teeth in train.added.items()}
+        counts |= {("count", wheel, str(teeth)) for wheel, teeth in train.doubtful.items()}
+        facts.append(plain_facts(concrete(one.arbor)) | counts)
+    sizes = set[int]()
+    for which, one in enumerate(found.candidates):
+        told = find_telling_facts(evidence, problem, found, one.arbor)
+        assert told is not None
+        left = {fact: plainly_left(fact, facts) for fact in facts[which]}
+        left = {fact: trains for fact, trains in left.items() if len(trains) < len(facts)}
+        assert {(each.kind, each.subject, each.answer): each.mechanisms for each in told.facts} == {
+            fact: len(trains) for fact, trains in left.items()
+        }
+        different = set(left.values())
+        for size in (1, 2, 3):
+            sets = [some for some in combinations(different, size) if frozenset.intersection(*some) == {which}]
+            if sets:
+                break
+        assert len(told.sets) == len(sets)
+        assert {len(some) for some in told.sets} == ({size} if sets else set())
+        for some in told.sets:
+            held = [left[each.kind, each.subject, each.answer] for each in some]
+            assert frozenset.intersection(*held) == {which}
+        sizes |= {len(some) for some in told.sets}
+    assert sizes <= {1, 2, 3}
+    assert max(sizes) > 1 or name == "back-train"
+
+
+def test_too_many_trains_single_none_out() -> None:
+    question = sure_question()  # of which none is listed
+    assert rank_known_train(read_declaration("freeth-2008"), question).telling is None

@@ -1,0 +1,339 @@
+"""Orreries, several periods from one arbor: against every tree of small ones, and the clock of 10000 years."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import product
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from geartrain import load
+from geartrain.analysis import GearTrain
+from geartrain.errors import QuestionError, RangeError
+from geartrain.search import Orrery, find_orrery
+from geartrain.search.orrery.arbor_trees import TreeEnumeration, fewest_wheels
+from geartrain.search.orrery.pair_ratio_table import pair_ratios, reach
+from geartrain.search.orrery.period_targets import read_period_targets
+from geartrain.train.periods import period_table
+
+HILLIS = {
+    "moon": "29.53058853",
+    "mercury": "87.96925718",
+    "venus": "224.7007992",
+    "earth": "365.2563554",
+    "mars": "686.9795859",
+    "jupiter": "4332.820129",
+    "saturn": "10755.69864",
+}
+DAYS = {name: Fraction(days) for name, days in HILLIS.items()}
+
+# R. W. Gosper's chains, wheel over pinion, and the periods printed beside them
+GOSPER = {
+    "moon": ("293/12 149/83 157/233", "29.5350888532671"),
+    "mercury": ("293/12 152/107 358/295 101/67 61/44", "87.9692571945795"),
+    "venus": ("293/12 152/107 149/23", "224.700799133144"),
+    "earth": ("293/12 152/107 358/295 269/31", "365.256355463807"),
+    "mars": ("293/12 152/107 358/295 101/67 263/47 267/138", "686.979585832448"),
+    "jupiter": ("293/12 152/107 358/295 101/67 263/47 322/103 281/107 272/183", "4332.8201300432"),
+    "saturn": ("293/12 152/107 358/295 101/67 263/47 322/103 281/29", "10755.6986519239"),
+}
+
+
+def chain(text: str) -> Fraction:
+    return math.prod((Fraction(pair) for pair in text.split()), start=Fraction(1))
+
+
+# ---- every tree of a small orrery, written without the library
+
+Link = tuple[int, Fraction]
+"""Parent and ratio of one arbor."""
+
+
+def all_trees(ratios: list[Fraction], pairs: int) -> Iterator[tuple[list[Link], list[Fraction]]]:
+    """All trees with so many pairs, an arbor after its parent, and the periods of their arbors."""
+
+    def grow(links: list[Link], periods: list[Fraction]) -> Iterator[tuple[list[Link], list[Fraction]]]:
+        if len(links) == pairs:
+            yield links, periods
+            return
+        # arbors in the order of their parents: each tree in few of its orders
+        first = links[-1][0] if links else 0
+        for parent in range(first, len(periods)):
+            for ratio in ratios:
+                yield from grow([*links, (parent, ratio)], [*periods, periods[parent] * ratio])
+
+    yield from grow([], [Fraction(1)])
+
+
+def shown(periods: list[Fraction], aims: list[Fraction], slack: Fraction) -> Iterator[tuple[int, ...]]:
+    """The ways to find each aim on an arbor of its own, the first excepted."""
+    fits = [[at for at, has in enumerate(periods) if at and abs(aim / has - 1) <= slack] for aim in aims]
+    return (places for places in product(*fits) if len(set(places)) == len(places))
+
+
+def useless(links: list[Link], places: tuple[int, ...]) -> bool:
+    """True if an arbor drives nothing and shows nothing."""
+    parents = {parent for parent, _ in links}
+    return any(at not in parents and at not in places for at in range(1, len(links) + 1))
+
+
+def wheels_needed(links: list[Link], counts: list[int]) -> int:
+    """Fewest wheels over all choices of teeth: every choice is counted."""
+    choices = [[(a, b) for a, b in product(counts, repeat=2) if Fraction(b, a) == ratio] for _, ratio in links]
+    fewest = 2 * len(links)
+    for teeth in product(*choices):
+        used = {(parent, a) for (parent, _), (a, _) in zip(links, teeth, strict=True)}
+        used |= {(at, b) for at, (_, b) in enumerate(teeth, start=1)}
+        fewest = min(fewest, len(used))
+    return fewest
+
+
+@st.composite
+def small(draw: st.DrawFn) -> tuple[list[int], list[Fraction], Fraction]:
+    counts = sorted(draw(st.lists(st.integers(4, 12), min_size=2, max_size=3, unique=True)))
+    steps = st.tuples(st.sampled_from(counts), st.sampled_from(counts)).map(lambda pair: Fraction(*pair))
+    periods = st.lists(steps, min_size=1, max_size=2).map(math.prod).map(Fraction)
+    slack = draw(st.sampled_from([Fraction(0), Fraction(1, 100), Fraction(1, 20)]))
+    aims = draw(st.lists(periods, min_size=1, max_size=2))
+    return counts, aims, slack
+
+
+@settings(max_examples=15, deadline=None)
+@given(small())
+def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], list[Fraction], Fraction]) -> None:
+    counts, aims, slack = question
+    ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
+    names = [f"p{at}" for at in range(len(aims))]
+    asked = read_period_targets(dict(zip(names, aims, strict=True)), slack)
+    for extra in range(4):
+        if len(aims) + extra > (4 if len(ratios) <= 3 else 3):
+            continue
+        expected = set()
+        for links, periods in all_trees(ratios, len(aims) + extra):
+            for places in shown(periods, aims, slack):
+                if not useless(links, places):
+                    expected.add(likeness([parent for parent, _ in links], periods, places))
+        found = set()
+        for tree in TreeEnumeration(pair_ratios(counts), asked, extra).trees():
+            periods = [arbor.period for arbor in tree]
+            places = tuple(next(at for at, arbor in enumerate(tree) if arbor.aim == aim) for aim in range(len(aims)))
+            found.add(likeness([arbor.parent for arbor in tree[1:]], periods, places))
+        assert found == expected
+
+
+def likeness(parents: list[int], periods: list[Fraction], places: tuple[int, ...]) -> str:
+    """Equal for trees that differ only in the order of their arbors: a name built from the leaves up."""
+    names = [""] * len(periods)
+    order = sorted(range(len(periods)), key=lambda at: -depth(parents, at))
+    for at in order:
+        children = sorted(names[child] for child, parent in enumerate(parents, start=1) if parent == at)
+        aims = [aim for aim, place in enumerate(places) if place == at]
+        names[at] = f"({periods[at]}|{aims}|{''.join(children)})"
+    return names[0]
+
+
+def depth(parents: list[int], at: int) -> int:
+    steps = 0
+    while at:
+        at, steps = parents[at - 1], steps + 1
+    return steps
+
+
+@settings(max_examples=25, deadline=None)
+@given(small())
+def test_a_small_orrery_has_the_fewest_pairs_and_wheels_of_all_trees(
+    question: tuple[list[int], list[Fraction], Fraction],
+) -> None:
+    counts, aims, slack = question
+    ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
+    names = [f"p{at}" for at in range(len(aims))]
+    found = find_orrery(dict(zip(names, aims, strict=True)), counts, slack)
+    checked(found, dict(zip(names, aims, strict=True)), slack, counts)
+    fewest: dict[int, int] = {}
+    for pairs in range(len(aims), 4):
+        for links, periods in all_trees(ratios, pairs):
+            if next(shown(periods, aims, slack), None) is not None:
+                fewest[pairs] = min(fewest.get(pairs, 99), wheels_needed(links, counts))
+    if fewest:
+        assert found.least_pairs <= min(fewest) <= len(found.pairs)
+        assert found.least_wheels <= min(fewest.values())
+        assert found.wheels <= min(fewest.values())
+    if found.complete:
+        assert found.wheels == found.least_wheels
+
+
+def checked(found: Orrery, periods: dict[str, Fraction], slack: Fraction, counts: list[int] | range) -> None:
+    """An orrery does what it says: from the teeth alone, and by the ordinary solver."""
+    has = {found.arbors[0].name: Fraction(1)}
+    senses = {found.arbors[0].name: 1}
+    wheels = set()
+    for pair in found.pairs:
+        assert {pair.driver, pair.driven} <= set(counts)
+        has[pair.child] = has[pair.parent] * Fraction(pair.driven, pair.driver)
+        senses[pair.child] = -senses[pair.parent]
+        wheels |= {(pair.parent, pair.driver), (pair.child, pair.driven)}
+    assert found.wheels == len(wheels)
+    for name, period in periods.items():
+        assert found.errors[name] == period / has[name] - 1
+        assert abs(found.errors[name]) <= slack
+    assert {arbor.name: arbor.sense for arbor in found.arbors} == senses
+    answer = GearTrain.declare(found.to_train()).solve()
+    assert answer
+    for name in periods:
+        assert answer[name] == senses[name] / has[name]
+        assert all(target.met for target in answer.outputs[name].targets)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.data())
+def test_no_choice_of_teeth_has_fewer_wheels(data: st.DataObject) -> None:
+    counts = sorted(data.draw(st.sets(st.integers(4, 30), min_size=3, max_size=8)))
+    teeth = st.sampled_from(counts)
+    links = [(data.draw(st.integers(0, at)), Fraction(data.draw(teeth), data.draw(teeth))) for at in range(4)]
+    edges = [(parent, at, ratio.numerator, ratio.denominator) for at, (parent, ratio) in enumerate(links, start=1)]
+    wheels, meshes, proved = fewest_wheels(pair_ratios(counts), edges)
+    assert proved
+    assert wheels == wheels_needed(links, counts)
+    assert [Fraction(b, a) for a, b in meshes] == [ratio for _, ratio in links]
+
+
+def test_every_way_of_two_pairs_is_within_reach() -> None:
+    counts = range(10, 25)
+    ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
+    aims = read_period_targets({"x": Fraction(22, 7), "y": Fraction("1.2345")}, Fraction(1, 1000))
+    pairs = pair_ratios(counts)
+    found = reach(pairs, aims, 0.0, 0b11)
+    seen = {Fraction(*pairs.terms(at)): int(bits) for at, bits in zip(found.first, found.sets, strict=True)}
+    for first in ratios:
+        bits = sum(
+            any(abs(aim / (first * second) - 1) <= Fraction(1, 1000) for second in ratios) << at
+            for at, aim in enumerate((Fraction(22, 7), Fraction("1.2345")))
+        )
+        assert seen.get(first, 0) == bits
+
+
+# ---- the clock of 10000 years
+
+
+@pytest.mark.parametrize("name", GOSPER)
+def test_the_published_chains_give_the_printed_periods(name: str) -> None:
+    teeth, printed = GOSPER[name]
+    digits = len(printed.partition(".")[2])
+    # the printed digits end where those of a float64 do
+    assert abs(chain(teeth) - Fraction(printed)) <= Fraction(12, 10 * 10**digits)
+    if name != "moon":
+        assert abs(DAYS[name] / chain(teeth) - 1) < Fraction("1.12e-9")
+
+
+def test_the_published_moon_was_made_for_a_month_with_two_digits_swapped() -> None:
+    moon = chain(GOSPER["moon"][0])
+    assert Fraction("1.5e-4") < moon / DAYS["moon"] - 1 < Fraction("1.6e-4")
+    # "+.3 lsd" is said beside it: so it is for the month of 29.530588853 d with 05 read as 50
+    assert round((moon - Fraction("29.535088853")) * 10**9, 1) == Fraction("0.3")
+    assert "29.530588853".replace("05", "50") == "29.535088853"
+    assert period_table()["month_synodic_J2000"].value == Fraction("29.530588853")
+
+
+def test_no_change_of_one_wheel_mends_the_published_moon() -> None:
+    over, under = [293, 149, 157], [12, 83, 233]
+    changed = []
+    for at, side in product(range(3), (over, under)):
+        for teeth in range(12, 401):
+            now = [*side[:at], teeth, *side[at + 1 :]]
+            top, beneath = (now, under) if side is over else (over, now)
+            changed.append(abs(Fraction(math.prod(top), math.prod(beneath)) / DAYS["moon"] - 1))
+    assert min(changed) > Fraction("1.5e-4")
+
+
+def test_two_pairs_from_the_published_earth_mend_its_moon() -> None:
+    moon = chain(GOSPER["earth"][0]) * Fraction(237, 389) * Fraction(28, 211)
+    assert abs(DAYS["moon"] / moon - 1) < Fraction("5e-10")
+
+
+def test_seven_periods_to_six_places_take_few_wheels() -> None:
+    found = find_orrery(DAYS, range(12, 401), Fraction("1e-6"), effort=4)
+    checked(found, DAYS, Fraction("1e-6"), range(12, 401))
+    assert found.wheels <= 20
+    assert found.least_pairs >= 9
+    assert found.least_wheels >= 12
+    assert not found.complete
+
+
+@pytest.mark.parametrize(
+    ("name", "wheels", "worst"), [("clock-10000-years", 20, "5e-7"), ("clock-10000-years-exact", 29, "1.11e-9")]
+)
+def test_the_shipped_clock_has_fewer_wheels_than_the_published(name: str, wheels: int, worst: str) -> None:
+    train = load(name)
+    assert len(train.declaration.wheels) == wheels
+    assert all(12 <= wheel.teeth <= 400 for _, wheel in train.declaration.wheels.values())
+    answer = train.solve()
+    for planet, days in DAYS.items():
+        assert abs(abs(Fraction(answer[planet])) * days - 1) <= Fraction(worst)
+        assert all(target.met for target in answer.outputs[planet].targets)
+
+
+def test_the_published_clock_misses_its_month_alone() -> None:
+    train = load("gosper-2005")
+    assert len(train.declaration.wheels) == 30
+    met = {name: all(target.met for target in result.targets) for name, result in train.solve().outputs.items()}
+    assert met == {name: name != "moon" for name in DAYS}
+
+
+# ---- questions that cannot be answered, and what ends a search
+
+
+def test_nothing_found_says_what_was_walked() -> None:
+    with pytest.raises(QuestionError, match=r"no orrery found(.|\n)*walked(.|\n)*loosen"):
+        find_orrery({"far": Fraction(10**6)}, [6, 7], Fraction(1, 1000))
+
+
+@pytest.mark.parametrize(
+    ("periods", "counts", "tolerance", "kind"),
+    [
+        ({}, [6], 0, QuestionError),
+        ({"a": Fraction(0)}, [6], 0, QuestionError),
+        ({"a": Fraction(2)}, [], 0, QuestionError),
+        ({"a": Fraction(2)}, [0, 6], 0, QuestionError),
+        ({"a": Fraction(2)}, [6, 7], 1, QuestionError),
+        ({"a": Fraction(2)}, [6, 7], {"b": 0}, QuestionError),
+        ({"day": Fraction(2)}, [6, 7], 0, QuestionError),
+        ({"a": Fraction(2)}, range(1, 9000), 0, RangeError),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(
+    periods: dict[str, Fraction], counts: list[int], tolerance: float, kind: type[Exception]
+) -> None:
+    with pytest.raises(kind, match=r"fix:"):
+        find_orrery(periods, counts, tolerance)
+
+
+def test_an_interrupt_keeps_what_was_found() -> None:
+    calls = 0
+
+    def stop(done: int, total: int) -> None:
+        nonlocal calls
+        assert 0 <= done <= total
+        calls += 1
+        if calls > 400:
+            raise KeyboardInterrupt
+
+    days = {name: DAYS[name] for name in ("moon", "mercury", "venus")}
+    found = find_orrery(days, range(12, 61), Fraction("1e-4"), effort=10**6, tell=stop)
+    assert found.ended == "interrupted"
+    checked(found, days, Fraction("1e-4"), range(12, 61))
+
+
+def test_time_ends_a_search() -> None:
+    with pytest.raises(QuestionError, match="time"):
+        find_orrery(DAYS, range(12, 101), Fraction("1e-9"), seconds=0)
+
+
+def test_the_same_question_has_the_same_answer() -> None:
+    days = {name: DAYS[name] for name in ("moon", "earth")}
+    first, second = (find_orrery(days, range(12, 121), Fraction("1e-5"), effort=4) for _ in range(2))
+    assert first == second
+    assert first.to_dict() == second.to_dict()

@@ -1,0 +1,437 @@
+"""Room between planets, interference and declared positions: against circles, involutes and teeth put in place."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from collections.abc import Mapping, Sequence
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+import shapely
+from fitters import SIMPLE, box, columns, declared, epicyclic, passed, rules_of
+from hypothesis import given
+from hypothesis import strategies as st
+from shapely import affinity
+
+from geartrain import GearTrain, load
+from geartrain.errors import QuestionError
+from geartrain.numerics import Quantity
+from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
+from geartrain.search.constraints.involute_interference import (
+    InRing,
+    OnInvolute,
+    external_terms,
+    least_teeth,
+    ring_terms,
+    tip_rooms,
+)
+
+Data = dict[str, Any]
+TWENTY = Fraction(1, 18)
+
+
+def angle(text: str) -> Quantity:
+    return Quantity.parse(text, "angle", plain=False)
+
+
+# ------------------------------------------------------------------------------------------------------ digits of sines
+
+
+@given(st.fractions(-1, Fraction(3, 4), max_denominator=1000))
+def test_sines_have_fifty_digits(turns: Fraction) -> None:
+    with mpmath.workdps(60), localcontext(prec=60):
+        x = 2 * mpmath.pi * mpmath.mpf(turns.numerator) / turns.denominator
+        assert abs(sine(turns) - Decimal(mpmath.nstr(mpmath.sin(x), 55))) < Decimal("1e-50")
+        assert abs(cosine(turns) - Decimal(mpmath.nstr(mpmath.cos(x), 55))) < Decimal("1e-50")
+
+
+def test_near_ties_are_decided_by_digits_that_floats_do_not_have() -> None:
+    # convergents of the square root of 2 are above and below it in turn, by less than a float can tell
+    p, q = [1], [1]
+    for _ in range(24):
+        p, q = [*p, p[-1] + 2 * q[-1]], [*q, p[-1] + q[-1]]
+    tops, beneath = np.array(p), np.array(q)
+    found = is_positive(lambda root, a, b, two: (a, -b * root(two)), [tops, beneath], [Decimal(2)], True)
+    assert found.tolist() == [at % 2 == 1 for at in range(len(p))]
+
+
+def test_a_tie_is_no_room_but_is_no_interference() -> None:
+    # sin(30 deg) is 1/2: 6 (6 + 2 5) / 4 = 4 (5 + 1)
+    ties = [np.array([6]), np.array([5])], [Decimal("0.25"), Decimal(1)]
+    assert is_positive(external_terms, *ties, False).all()
+    assert not is_positive(external_terms, *ties, True).any()
+    # six planets: half of s + p is p + 2 where s = p + 4
+    data = epicyclic(*SIMPLE)
+    rules = rules_of(data, ["s", "p"], coaxial=False, planets=6, clearance=Fraction(0))
+    (rule,) = [rule for rule in rules if "neighbours" in rule.name]
+    assert rule.holds(columns(s=[22, 23, 24, 23], p=[18, 19, 20, 18])).tolist() == [False, False, False, True]
+
+
+# ---------------------------------------------------------------------------------------------------------------- room
+
+
+def gap(planets: Sequence[tuple[float, float, float]], number: int, own: Sequence[tuple[int, int]]) -> float:
+    """The least gap between circles of neighbouring sets, and of those of one set that do not touch.
+
+    planets  (radius of the axis's circle, azimuth in turns, tip radius); own: pairs of one set that mesh
+    """
+    found = []
+    for (i, (a, u, r)), (j, (b, v, q)) in product(enumerate(planets), repeat=2):
+        for step in range(number):
+            if step == 0 and (i == j or (i, j) in own or (j, i) in own):
+                continue
+            turn = math.tau * (v - u + step / number)
+            found.append(math.dist((a, 0), (b * math.cos(turn), b * math.sin(turn))) - r - q)
+    return min(found)
+
+
+@pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])
+@pytest.mark.parametrize("clearance", ["0", "0.5", "-1/3"])
+def test_neighbouring_planets_clear_each_other_as_circles_do(number: int, clearance: str) -> None:
+    rules = rules_of(epicyclic(*SIMPLE), planets=number, clearance=Fraction(clearance), coaxial=False)
+    (rule,) = [rule for rule in rules if "neighbours" in rule.name]
+    grid = box(s=range(12, 60, 5), p=range(12, 60, 7))
+    for s, p, held in zip(grid["s"].tolist(), grid["p"].tolist(), rule.holds(grid), strict=True):
+        room = gap([((s + p) / 2, 0, p / 2 + 1)], number, []) - float(Fraction(clearance))
+        if abs(room) > 1e-9:
+            assert held == (room > 0)
+
+
+def test_known_sets_and_the_next_planet_too_many() -> None:
+    def fits(number: int, **counts: int) -> bool:
+        return passed(rules_of(epicyclic(*SIMPLE), planets=number, clearance=Fraction(0)), **counts)
+
+    # (24 + 18) sin(pi/5) = 24.7 and 20 are needed; with 6 it is 21, with 7 18.2
+    assert fits(6, s=24, p=18, r=60)
+    assert not fits(7, s=24, p=18, r=60)
+    # (7 + 7) sin(45 deg) = 9.9 and 9 are needed
+    assert fits(4, s=7, p=7, r=21)
+    # (21 + 43) sin(60 deg) = 55.4 and 45 are needed; with shift, for 21 + 2 43 is 107
+    rules = rules_of(epicyclic(*SIMPLE), planets=3, clearance=Fraction(1), shift=1)
+    assert passed(rules, s=21, p=43, r=108)
+    assert not passed(rules_of(epicyclic(*SIMPLE), planets=3, clearance=Fraction(12), shift=1), s=21, p=43, r=108)
+
+
+def test_the_larger_wheel_of_a_stepped_planet_needs_the_room() -> None:
+    data = epicyclic({"s": (20, False), "r": (60, True)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
+    rules = [rule for rule in rules_of(data, planets=4, clearance=Fraction(0), coaxial=True) if "gcd" not in rule.name]
+    for s, p, q in product(range(12, 40, 5), range(10, 40, 4), range(10, 40, 4)):
+        room = gap([((s + p) / 2, 0, max(p, q) / 2 + 1)], 4, [])
+        assert passed(rules, s=s, p=p, q=q, r=s + p + q) == (room > 0)
+
+
+def test_modules_weigh_the_tips_of_stepped_planets() -> None:
+    data = epicyclic({"s": (20, False), "r": (60, True)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
+    data["links"]["Ls"]["wheels"]["s"]["module"] = "1 mm"
+    data["links"]["Lr"]["wheels"]["r"]["module"] = "1.5 mm"
+    rules = [rule for rule in rules_of(data, planets=3, clearance=Fraction(0)) if "neighbours" in rule.name]
+    for s, p, q in product(range(12, 40, 5), range(10, 40, 4), range(10, 40, 4)):
+        r = q + Fraction(2 * (s + p), 3)
+        if r.denominator == 1:
+            room = gap([((s + p) / 2, 0, max(p / 2 + 1, 1.5 * (q / 2 + 1)))], 3, [])
+            assert passed(rules, s=s, p=p, q=q, r=int(r)) == (room > 0)
+    del data["links"]["Lr"]["wheels"]["r"]["module"]
+    with pytest.raises(QuestionError, match="declare the module of all of them"):
+        rules_of(data, planets=3, clearance=Fraction(0))
+
+
+PAIRED: tuple[Any, ...] = (
+    {"s": (24, False), "r": (72, True)},
+    [{"p": 15}, {"q": 14}],
+    [("s", "p"), ("p", "q"), ("q", "r")],
+)
+
+
+@pytest.mark.parametrize("number", [2, 3, 4])
+def test_planets_one_after_the_other_clear_each_other_and_the_central_wheels_as_circles_do(number: int) -> None:
+    rules = [
+        rule
+        for rule in rules_of(epicyclic(*PAIRED), planets=number, clearance=Fraction(1, 4))
+        if "neighbours" in rule.name
+    ]
+    assert len(rules) == 5
+    held = 0
+    for s, p, q, r in product(range(14, 40, 6), range(12, 30, 5), range(12, 30, 5), range(50, 100, 7)):
+        A, B, D = (s + p) / 2, (r - q) / 2, (p + q) / 2
+        fits = abs(A - B) <= D <= A + B
+        if fits:
+            delta = math.acos((A * A + B * B - D * D) / (2 * A * B)) / math.tau
+            room = gap([(A, 0, p / 2 + 1), (B, delta, q / 2 + 1)], number, [(0, 1)])
+            room = min(room, B - (s + q) / 2 - 2, r / 2 - 1 - A - p / 2 - 1) - 0.25
+            fits = room > 0
+            if abs(room) < 1e-9:
+                continue
+        held += fits
+        assert passed(rules, s=s, p=p, q=q, r=r) == fits
+    assert held > 3
+
+
+def test_planets_of_a_ravigneaux_set_reach_each_other() -> None:
+    train = load("ravigneaux-set").declaration
+    rules = [rule for rule in rules_of(train, planets=3, clearance=Fraction(0)) if "neighbours" in rule.name]
+    assert len(rules) == 3
+    for a, ps, pl, b in product(range(18, 40, 4), range(14, 30, 4), range(14, 30, 4), range(24, 50, 6)):
+        A, B, D = (a + ps) / 2, (b + pl) / 2, (ps + pl) / 2
+        fits = abs(A - B) <= D
+        if fits:
+            delta = math.acos((A * A + B * B - D * D) / (2 * A * B)) / math.tau
+            room = gap([(A, 0, ps / 2 + 1), (B, delta, pl / 2 + 1)], 3, [(0, 1)])
+            if abs(room) < 1e-9:
+                continue
+            fits = room > 0
+        assert passed(rules, a=a, ps=ps, pl=pl, b=b, r=b + 2 * pl) == fits
+
+
+def test_room_is_asked_only_where_the_number_of_spur_planets_is_known() -> None:
+    with pytest.raises(QuestionError, match="how many there are"):
+        rules_of(epicyclic(*SIMPLE), clearance=Fraction(0))
+    with pytest.raises(QuestionError, match="bevel"):
+        rules_of(load("bevel-differential").declaration, planets=2, clearance=Fraction(0))
+
+
+# ------------------------------------------------------------------------------------------------------------ undercut
+
+
+@pytest.mark.parametrize(
+    ("degrees", "addendum", "least"),
+    # 2 h / sin^2: 31.9, 17.1, 11.2, 8; with short teeth 13.7
+    [("14.5", "1", 32), ("20", "1", 18), ("25", "1", 12), ("30", "1", 8), ("20", "0.8", 14), ("45", "1", 4)],
+)
+def test_a_rack_undercuts_fewer_teeth_than_textbooks_print(degrees: str, addendum: str, least: int) -> None:
+    assert least_teeth(Fraction(degrees) / 360, Fraction(addendum)) == least
+    rules = rules_of(epicyclic(*SIMPLE), coaxial=False, undercut=angle(f"{degrees} deg"), addendum=Fraction(addendum))
+    assert {rule.wheels for rule in rules} == {("s",), ("p",)}
+    assert passed(rules, s=least, p=least)
+    assert not passed(rules, s=least - 1, p=least)
+
+
+# -------------------------------------------------------------------------------------------------------- interference
+
+
+def test_the_largest_mate_of_a_pinion_is_the_printed_one() -> None:
+    # 20 degrees, full depth, as in textbooks of machine elements; with 18 a rack may mesh
+    for pinion, largest in [(13, 16), (14, 26), (15, 45), (16, 101), (17, 1309)]:
+        good = OnInvolute(pinion, "g", TWENTY, Fraction(1))(columns(g=[largest, largest + 1]))
+        assert good.tolist() == [True, False]
+    assert OnInvolute(18, "g", TWENTY, Fraction(1))(columns(g=[18, 10**6])).all()
+    assert not OnInvolute(12, "g", TWENTY, Fraction(1))(columns(g=range(12, 200))).any()
+    assert OnInvolute("g", 13, TWENTY, Fraction(1))(columns(g=[13, 16, 17])).tolist() == [True, True, False]
+
+
+def contact_end(z: float, tip: float, pressure: float, ring: bool = False) -> float:
+    """Where a tip circle cuts the line of action, from the point where that touches its own base circle.
+
+    Found by walking along the line, not by a formula: the line is x = base radius, turned so that it stands upright.
+    """
+    base = z / 2 * math.cos(pressure)
+    low, high = 0.0, 2 * tip
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if math.hypot(base, middle) < tip else (low, middle)
+    return low
+
+
+@pytest.mark.parametrize("degrees", [14.5, 20.0, 25.0])
+@pytest.mark.parametrize("h", [1.0, 0.8])
+def test_tips_stay_on_involutes_as_points_on_the_line_of_action_say(degrees: float, h: float) -> None:
+    pressure = math.radians(degrees)
+    square = math.sin(pressure) ** 2
+    for z1, z2 in product(range(8, 60, 3), range(8, 200, 7)):
+        # the points where the line touches both base circles are a sin(alpha) apart
+        apart = (z1 + z2) / 2 * math.sin(pressure)
+        left = apart - contact_end(z2, z2 / 2 + h, pressure)
+        assert (sum(external_terms(None, z1, z2, square, h)) >= 0) == (left >= 0)
+        if z2 > z1 + 2:
+            apart = (z2 - z1) / 2 * math.sin(pressure)
+            reaches = z2 / 2 - h > z2 / 2 * math.cos(pressure)
+            good = reaches and contact_end(z2, z2 / 2 - h, pressure) >= apart
+            assert (sum(ring_terms(None, z1, z2, square, h)) >= 0) == good
+
+
+def half_angles(z: int, pressure: float, radii: Sequence[float]) -> list[float]:
+    """Half the angle of a tooth at some radii: unwinding a string from the base circle, radial below it."""
+    base = z / 2 * math.cos(pressure)
+    found = []
+    for r in radii:
+        string = math.sqrt(max(r * r - base * base, 0.0))
+        unwound, turned = string / base, math.atan2(string, base)
+        pitch = math.tan(pressure) - pressure
+        found.append(math.pi / (2 * z) + pitch - (unwound - turned))
+    return found
+
+
+def outline(z: int, pressure: float, low: float, high: float) -> list[tuple[float, float]]:
+    """A wheel with involute teeth between two radii (modules), without play."""
+    radii = np.linspace(low, high, 60).tolist()
+    halves = half_angles(z, pressure, radii)
+    points = []
+    for tooth in range(z):
+        at = math.tau * tooth / z
+        sides = [(r, at - half) for r, half in zip(radii, halves, strict=True)]
+        sides += [(r, at + half) for r, half in zip(radii[::-1], halves[::-1], strict=True)]
+        points += [(r * math.cos(a), r * math.sin(a)) for r, a in sides]
+    return points
+
+
+def overlap(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+    """The largest area (square modules) that a planet and a ring share while they turn through a pitch."""
+    planet = shapely.Polygon(outline(z1, pressure, z1 / 2 - 1.25, z1 / 2 + h1))
+    hole = shapely.Polygon(outline(z2, pressure, z2 / 2 - h2, z2 / 2 + 1.25))
+    ring = shapely.Point(0, 0).buffer(z2 / 2 + 3).difference(hole)
+    worst = 0.0
+    for step in range(12):
+        turn = math.tau / z1 * step / 12
+        here = affinity.translate(affinity.rotate(planet, turn, (0, 0), use_radians=True), (z2 - z1) / 2)
+        there = affinity.rotate(ring, turn * z1 / z2, (0, 0), use_radians=True)
+        worst = max(worst, here.intersection(there).area)
+    return worst
+
+
+@pytest.mark.parametrize(
+    ("h1", "h2", "ring", "least"), [(1, 1, 40, 9), (1, 1, 60, 9), (1, "0.8", 40, 8), ("0.8", "0.8", 40, 7)]
+)
+def test_planets_nearly_as_large_as_their_ring_collide_as_outlines_of_teeth_do(
+    h1: Any, h2: Any, ring: int, least: int
+) -> None:
+    # planets so large keep off the ring's flanks, so that corners alone decide
+    for less in (4, 5, 6, least - 1, least, least + 1, 12):
+        test = InRing("p", ring, TWENTY, Fraction(h1), Fraction(h2))
+        held = bool(test(columns(p=ring - less))[0])
+        assert held == (less >= least)
+        room = float(tip_rooms(ring - less, ring, math.radians(20), float(h1), float(h2)))
+        if abs(room) > 5e-4:
+            assert (overlap(ring - less, ring, math.radians(20), float(h1), float(h2)) < 5e-6) == held
+
+
+def test_a_ring_of_fifty_takes_forty_one_teeth_as_they_are_and_forty_two_only_shifted() -> None:
+    # as SDP/SI print it: 42 in 50 without trochoid interference at a shift of 0.01
+    test = InRing("p", 50, TWENTY, Fraction(1), Fraction(1))
+    assert test(columns(p=[41, 42])).tolist() == [True, False]
+    # the tips of a ring with fewer than 34 teeth lie within its base circle, where there is no involute
+    assert np.isfinite(tip_rooms([24, 24], [34, 33], math.radians(20), 1, 1)).tolist() == [True, False]
+
+
+def test_full_teeth_of_a_ring_cut_into_the_flanks_of_small_planets() -> None:
+    for planet, fits in [(14, False), (17, False), (22, True), (26, True)]:
+        assert InRing("p", 60, TWENTY, Fraction(1), Fraction(1))(columns(p=planet)).all() == fits
+        assert (overlap(planet, 60, math.radians(20), 1, 1) < 5e-6) == fits
+    # the usual example of a planetary needs a ring with shorter teeth
+    data = epicyclic(*SIMPLE)
+    twenty = angle("20 deg")
+    assert not passed(rules_of(data, interference=twenty), s=24, p=18, r=60)
+    assert passed(rules_of(data, interference=twenty, ring_addendum=Fraction("0.8")), s=24, p=18, r=60)
+
+
+def test_a_planet_as_large_as_its_ring_does_not_go_in() -> None:
+    test = InRing("p", 40, TWENTY, Fraction(1), Fraction(1))
+    assert not test(columns(p=range(35, 60))).any()
+    assert not InRing("p", 2, TWENTY, Fraction(1), Fraction(1))(columns(p=1)).any()
+
+
+# ----------------------------------------------------------------------------------------------------------- positions
+
+
+def closes(data: Data, counts: Mapping[str, int]) -> bool:
+    """The verdict of the train with these counts declared."""
+    for link in data["links"].values():
+        for name, wheel in link.get("wheels", {}).items():
+            if name in counts:
+                link["wheels"][name] = (wheel if isinstance(wheel, dict) else {}) | {"teeth": counts[name]}
+    return bool(GearTrain.declare(data).closure)
+
+
+def test_teeth_of_planets_in_place_meet_as_the_declared_train_says() -> None:
+    data = epicyclic(*SIMPLE, 3, [(42.0, 0.1)])
+    rules = rules_of(data, coaxial=False, closure=True)
+    assert [rule.name[:18] for rule in rules] == ["declared positions"] * 5 + ["phase closure: tee"]
+    for s, p in product(range(22, 28), range(15, 19)):
+        counts = {"s": s, "r": s + 2 * p, "p": p, "p-1": p, "p-2": p}
+        assert passed(rules, **counts) == closes(data, counts)
+    # one planet of another size would have to stand elsewhere
+    assert not passed(rules, **{"s": 24, "r": 60, "p": 18, "p-1": 18, "p-2": 19})
+    assert not passed(rules, **{"s": 24, "r": 61, "p": 18, "p-1": 18, "p-2": 18})
+
+
+def test_stepped_planets_in_place_are_judged_one_candidate_at_a_time() -> None:
+    parts: tuple[Any, ...] = (
+        {"s": (20, False), "r": (60, True)},
+        [{"p": 15, "q": 12}],
+        [("s", "p"), ("q", "r")],
+        3,
+        [(40.0, 0.0)],
+    )
+    data = epicyclic(*parts)
+    rules = rules_of(data, ["s", "r"], coaxial=False, closure=True)
+    (rule,) = [rule for rule in rules if "closure" in rule.name]
+    assert set(rule.wheels) == {"s", "r"}
+    grid = box(s=range(18, 23), r=range(57, 62))
+    found = pickle.loads(pickle.dumps(rule)).holds(grid)
+    wanted = [closes(data, {"s": s, "r": r}) for s, r in zip(grid["s"].tolist(), grid["r"].tolist(), strict=True)]
+    assert found.tolist() == wanted
+    assert 0 < sum(wanted) < len(wanted)
+
+
+def loop_of_four(side: float, other: float, modules: bool = False) -> Data:
+    """Four wheels at the corners of a rectangle, each meshing with the next."""
+    corners = [(0.0, 0.0), (side, 0.0), (side, other), (0.0, other)]
+    wheel: Data = {"teeth": 20} | ({"module": "2 mm"} if modules else {})
+    return {
+        "links": {"frame": {}} | {f"L{k}": {"wheels": {f"w{k}": dict(wheel)}} for k in range(4)},
+        "axes": {f"A{k}": {"position": [f"{x} mm", f"{y} mm", "0 mm"]} for k, (x, y) in enumerate(corners)},
+        "revolutes": [{"pair": ["frame", f"L{k}"], "axis": f"A{k}"} for k in range(4)],
+        "gears": [{"pair": [f"w{k}", f"w{(k + 1) % 4}"]} for k in range(4)],
+    }
+
+
+def test_four_wheels_in_a_square_reach_each_other_and_meet() -> None:
+    data = loop_of_four(40.0, 40.0)
+    rules = rules_of(data, coaxial=False, closure=True)
+    kept = set()
+    for counts in product(range(17, 24), repeat=4):
+        w0, w1, w2, w3 = counts
+        if passed(rules, w0=w0, w1=w1, w2=w2, w3=w3):
+            kept.add(counts)
+    # opposite wheels are alike, for all sides are equal; by turning round each corner a quarter, 2 divides their sum
+    wanted = {(a, b, a, b) for a, b in product(range(17, 24), repeat=2)}
+    assert kept == {counts for counts in wanted if closes(data, {f"w{k}": z for k, z in enumerate(counts)})}
+    assert 0 < len(kept) < len(wanted)
+
+
+def test_declared_modules_fix_the_sums_of_teeth() -> None:
+    rules = rules_of(loop_of_four(40.0, 44.0, modules=True), coaxial=False, closure=True)
+    near = [rule for rule in rules if "its module" in rule.name]
+    assert len(near) == 4
+    for counts in product(range(17, 25), repeat=4):
+        w0, w1, w2, w3 = counts
+        wanted = (w0 + w1, w1 + w2, w2 + w3, w3 + w0) == (40, 44, 40, 44)
+        assert passed(near, w0=w0, w1=w1, w2=w2, w3=w3) == wanted
+
+
+def test_positions_may_be_as_far_off_as_profile_shift_bridges() -> None:
+    data = loop_of_four(40.0, 40.0, modules=True)
+    near = [rule for rule in rules_of(data, coaxial=False, closure=True, shift=1) if "its module" in rule.name]
+    assert passed(near, w0=20, w1=21, w2=20, w3=20)
+    assert not passed(near, w0=21, w1=21, w2=20, w3=20)
+
+
+def test_closure_without_positions_is_refused() -> None:
+    with pytest.raises(QuestionError, match="no loop of 'train' has known places"):
+        rules_of(epicyclic(*SIMPLE, 3), closure=True)
+    with pytest.raises(QuestionError, match="no loop"):
+        rules_of(load("planetary").declaration, closure=True)
+
+
+def test_counts_outside_all_loops_are_not_asked_about() -> None:
+    data = epicyclic(*SIMPLE, 3, [(42.0, 0.0)])
+    data["links"] |= {"in": {"wheels": {"drive": 20}}}
+    data["links"]["Ls"]["wheels"]["driven"] = 40
+    data["revolutes"].append({"pair": ["frame", "in"], "axis": "in"})
+    data["gears"].append({"pair": ["drive", "driven"]})
+    assert rules_of(data, ["drive", "driven"], closure=True, coaxial=False) == ()
+    assert declared(data).wheels["drive"][1].count == 20

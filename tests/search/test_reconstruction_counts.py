@@ -1,0 +1,140 @@
+"""Counts of reconstructions against those of two programs in another language, written from the rules alone.
+
+One looks for trees whose added wheels are unknowns, one grows concrete trees; `reconstruction_counts.json` holds what
+they found: by number of added wheels from 0 on, mechanisms, bags and ratio classes. The historic questions among them
+have the counts that were known before.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct.reconstruction_problem import (
+    NEW,
+    Additions,
+    ReconstructionProblem,
+    SearchedDial,
+    SurvivingArbor,
+    SurvivingWheel,
+)
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.train.declaration_files import read_evidence
+
+LONG = {"b byzantine", "random 1016", "medium 7004"}  # each some seconds
+QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
+
+
+def asked(question: dict[str, Any]) -> ReconstructionProblem:
+    ((name, wheels),) = question["input"].items()
+    least, greatest = question["added"]
+    wheels_added = len(question["counts"]) - 1
+    return ReconstructionProblem(
+        input=_arbor(name, wheels),
+        arbors=tuple(_arbor(*each) for each in question["arbors"].items()),
+        dials=tuple(map(_dial, question["dials"])),
+        additions=Additions(wheels_added, least, greatest, question.get("most_arbors"), question.get("on", "any")),
+        use=question.get("use", "wheels"),
+        idlers=question.get("idlers", False),
+    )
+
+
+def _arbor(name: str, wheels: dict[str, int | list[int]]) -> SurvivingArbor:
+    counts = {wheel: teeth if isinstance(teeth, list) else [teeth] for wheel, teeth in wheels.items()}
+    found = (
+        SurvivingWheel(wheel, tuple((count, Fraction(1, len(some))) for count in some))
+        for wheel, some in counts.items()
+    )
+    return SurvivingArbor(name, tuple(found))
+
+
+def _dial(given: dict[str, Any]) -> SearchedDial:
+    signed = given.get("signed", True)
+    if "least" in given:
+        least, greatest = Fraction(given["least"]), Fraction(given["greatest"])
+    else:
+        least = greatest = Fraction(given["speed"]) if signed else abs(Fraction(given["speed"]))
+    place = given.get("place")
+    return SearchedDial(given["name"], least, greatest, signed, NEW if place == "new" else place)
+
+
+def _parameter(question: dict[str, Any]) -> Any:
+    name = question["name"]
+    return pytest.param(question, id=name.replace(" ", "-"), marks=[pytest.mark.slow] if name in LONG else [])
+
+
+@pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])
+def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
+    found = find_reconstructions(asked(question), listed=0)
+    assert found.complete
+    assert [[each.mechanisms, each.bags, each.classes] for each in found.counts] == question["counts"]
+
+
+@pytest.mark.parametrize(
+    ("evidence", "name"),
+    [
+        ("back-train", "e4 back"),
+        ("back-train-exeligmos", "e5 exeligmos"),
+        ("back-train-moon", "e6 moon"),
+        ("back-train-doubt", "back with doubts, Metonic+Saros"),
+        ("back-wheels-sure", "back with c d e o, Metonic+Saros+Moon+Games, counts sure"),
+    ],
+)
+def test_shipped_evidence_asks_what_other_programs_were_asked(evidence: str, name: str) -> None:
+    (question,) = (each for each in QUESTIONS if each["name"] == name)
+    assert _plain(evidence_question(read_evidence(evidence)).problem) == _plain(asked(question))
+
+
+def test_back_wheels_in_doubt_ask_what_other_programs_were_asked_with_the_games_beside() -> None:
+    problem = evidence_question(read_evidence("back-wheels")).problem
+    (games,) = (dial for dial in problem.dials if dial.place == "o")
+    assert (games.name, games.least, games.greatest) == ("games", Fraction(1, 4), Fraction(1, 4))
+    arbors = tuple(arbor for arbor in problem.arbors if arbor.name != "o")
+    dials = tuple(dial for dial in problem.dials if dial != games)
+    (question,) = (each for each in QUESTIONS if each["name"].startswith("back with doubts and c d e"))
+    assert _plain(replace(problem, arbors=arbors, dials=dials)) == _plain(asked(question))
+
+
+@pytest.mark.slow
+def test_back_wheels_have_as_many_trains_with_five_added_as_another_program_found() -> None:
+    problem = evidence_question(read_evidence("back-wheels-sure")).problem
+    problem = replace(problem, additions=replace(problem.additions, wheels=5))
+    found = find_reconstructions(problem, listed=0)
+    assert [each.mechanisms for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
+
+
+@pytest.mark.slow
+def test_counts_in_doubt_have_the_trains_of_each_combination() -> None:
+    whole = _read(evidence_question(read_evidence("back-wheels")).problem, {"l1": (37, 38), "e3": (222, 223)})
+    each = [_read(whole, {"l1": (one,), "e3": (other,)}) for one in (37, 38) for other in (222, 223)]
+    counts = [[count.mechanisms for count in find_reconstructions(one, listed=0).counts] for one in (whole, *each)]
+    assert counts[0] == [sum(column) for column in zip(*counts[1:], strict=True)]
+    assert counts[0][3]
+
+
+def _read(problem: ReconstructionProblem, counts: dict[str, tuple[int, ...]]) -> ReconstructionProblem:
+    """The same with fewer readings of some wheels, and the best of others that are in doubt."""
+    best = {"m1": (96,), "e4": (188,), "f1": (53,), "g1": (54,), **counts}
+
+    def kept(arbor: SurvivingArbor) -> SurvivingArbor:
+        wheels = (
+            replace(wheel, counts=tuple(one for one in wheel.counts if one[0] in best.get(wheel.name, (one[0],))))
+            for wheel in arbor.wheels
+        )
+        return replace(arbor, wheels=tuple(wheels))
+
+    return replace(problem, arbors=tuple(map(kept, problem.arbors)))
+
+
+def _plain(problem: ReconstructionProblem) -> tuple[Any, ...]:
+    """A question but for names of wheels, the order of its parts and how many wheels may be added."""
+    wheels = {arbor.name: sorted(wheel.counts for wheel in arbor.wheels) for arbor in (problem.input, *problem.arbors)}
+    facts = (problem.meshes, problem.apart, problem.coaxial)
+    additions = replace(problem.additions, wheels=0)
+    return wheels, {*problem.dials}, problem.input_speed, additions, problem.use, problem.idlers, facts

@@ -1,0 +1,153 @@
+"""Strength of helical pairs: lines of contact counted, Hertz in space, and the factors of the standard."""
+
+from __future__ import annotations
+
+from math import asin, atan, cos, pi, radians, sin, sqrt, tan
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import geartrain
+from geartrain.simulation import PairStrength
+from geartrain.simulation.strength.formulas.iso_6336 import RackWheel, ToothLean, root_stress
+from geartrain.simulation.strength.formulas.leaning_contact import least_couples
+
+Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
+
+
+def strength(helix: float, width: float, form: str = "{form: involute}") -> PairStrength:
+    lean = "" if not helix else f", helix_angle: {helix} deg"
+    hands = ("", "") if not helix else (", hand: right", ", hand: left")
+    pair = geartrain.load(f"""
+name: helical
+material: steel
+links:
+  frame: {{}}
+  a: {{wheels: {{p: {{teeth: {Z1}, module: {NORMAL} mm, face_width: {width} mm{lean}{hands[0]}}}}}}}
+  b: {{wheels: {{w: {{teeth: {Z2}, module: {NORMAL} mm, face_width: {width} mm{lean}{hands[1]}}}}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+gears: [{{pair: [p, w], tooth_form: {form}}}]
+inputs: {{a: 1}}
+loads: {{a: {TORQUE} N m}}
+solve_for: b
+""").strength()
+    return pair.pairs["p~w"]
+
+
+@given(st.floats(1.05, 2.6), st.floats(0.01, 3.5))
+def test_the_least_number_of_couples_is_that_of_many_slices(contact_ratio: float, overlap: float) -> None:
+    """Counted: a couple touches from 0 to the contact ratio, and slices lag by up to the overlap."""
+    slices = np.linspace(0, overlap, 4001)
+    means = []
+    for phase in np.linspace(0, 1, 201):
+        at = phase - slices
+        means.append(float((np.floor(at) - np.ceil(at - contact_ratio) + 1).mean()))
+    assert min(means) == pytest.approx(least_couples(contact_ratio, overlap), abs=0.02 + 0.004 / overlap)
+
+
+def test_straight_teeth_have_as_many_couples_as_touch_at_least() -> None:
+    assert least_couples(1.64, 0.0) == 1
+    assert least_couples(2.3, 0.0) == 2
+    assert least_couples(1.64, 1.0) == least_couples(1.64, 2.0) == pytest.approx(1.64)
+
+
+def test_teeth_that_hardly_lean_are_as_strong_as_straight_ones() -> None:
+    straight, leaning = strength(0, 20), strength(0.01, 20)
+    assert leaning.iso is not None
+    assert straight.iso is not None
+    assert leaning.iso.stress == pytest.approx(straight.iso.stress, rel=1e-3)
+    for one, other in zip(leaning.wheels, straight.wheels, strict=True):
+        assert one.tip_stress == pytest.approx(other.tip_stress, rel=1e-3)
+        assert one.iso is not None
+        assert other.iso is not None
+        assert one.iso.stress == pytest.approx(other.iso.stress, rel=1e-3)
+
+
+@pytest.mark.parametrize("helix", [8.0, 15.0, 30.0])
+def test_pressure_at_the_pitch_point_is_hertz_in_space_and_that_of_the_standard(helix: float) -> None:
+    """An overlap of 1: all phases alike. Two cylinders of the flanks' curvatures along lines of a known length."""
+    width = pi * NORMAL / sin(radians(helix))
+    found = strength(helix, width)
+    beta, alpha = radians(helix), radians(20)
+    transverse = atan(tan(alpha) / cos(beta))
+    base = asin(sin(beta) * cos(alpha))
+    r1, r2 = (z * NORMAL / cos(beta) / 2 for z in (Z1, Z2))
+    ends = []
+    for z, r in ((Z1, r1), (Z2, r2)):
+        tip, foot = r + NORMAL, r * cos(transverse)
+        ends.append(sqrt(tip**2 - foot**2))
+        assert z * NORMAL == pytest.approx(2 * r * cos(beta))
+    ratio = (sum(ends) - (r1 + r2) * sin(transverse)) / (pi * NORMAL / cos(beta) * cos(transverse))
+    lines = width / cos(base) * ratio
+    normal = TORQUE * 1e3 / r1 / cos(transverse) / cos(base)
+    curvature = sum(1 / (r * sin(transverse) / cos(base)) for r in (r1, r2))
+    pressure = 189.8 * sqrt(normal / lines * curvature)
+    (pitch,) = (each for each in found.contact if each.where == "pitch point")
+    assert pitch.pressure == pytest.approx(pressure * found.elasticity / 189.8, rel=1e-9)
+    assert found.iso is not None
+    assert found.iso.Zeps == pytest.approx(1 / sqrt(ratio))
+    assert found.iso.nominal == pytest.approx(pitch.pressure * found.iso.Zbeta, rel=1e-9)
+    assert found.iso.stress == (found.iso.nominal, found.iso.nominal), "single contact there is none"
+
+
+@pytest.mark.parametrize(("helix", "width"), [(8.0, 12.0), (15.0, 20.0), (30.0, 40.0)])
+def test_the_couples_told_are_those_that_share_the_force(helix: float, width: float) -> None:
+    """Force across the axes times its part along the pitch circle times couples: the whole; counted by slices."""
+    beta, alpha = radians(helix), radians(20)
+    transverse = atan(tan(alpha) / cos(beta))
+    r1, r2 = (z * NORMAL / cos(beta) / 2 for z in (Z1, Z2))
+    ends = sum(sqrt((r + NORMAL) ** 2 - (r * cos(transverse)) ** 2) for r in (r1, r2))
+    ratio = (ends - (r1 + r2) * sin(transverse)) / (pi * NORMAL / cos(beta) * cos(transverse))
+    slices = np.linspace(0, width * sin(beta) / (pi * NORMAL), 4001)
+    phases = [phase - slices for phase in np.linspace(0, 1, 401)]
+    least = min(float((np.floor(at) - np.ceil(at - ratio) + 1).mean()) for at in phases)
+    found = strength(helix, width)
+    for place in found.contact:
+        assert place.couples == pytest.approx(least, abs=0.005)
+        assert place.couples * place.force * cos(transverse) == pytest.approx(TORQUE * 1e3 / r1, rel=1e-9)
+
+
+def test_factors_are_those_of_the_standard() -> None:
+    """Ybeta 1 - 15/120 and Zbeta 1/sqrt(cos 15) with an overlap of 1; half as much lean counts half as much overlap."""
+    lean = ToothLean(radians(15), 0.24, 1.3)
+    assert lean.Ybeta == pytest.approx(0.875)
+    assert lean.Zbeta == pytest.approx(1 / sqrt(cos(radians(15))))
+    assert ToothLean(radians(45), 0.6, 2.0).Ybeta == 0.75
+    half = ToothLean(radians(15), 0.24, 0.5)
+    assert half.Ybeta == pytest.approx(0.9375)
+    assert half.Zeps(1.6) ** 2 == pytest.approx(((4 - 1.6) / 3 + 1 / 1.6) / 2)
+    assert half.single(1.2) == pytest.approx(1.1)
+    assert half.single(0.9) == 1.0
+
+
+def test_roots_are_those_of_the_spur_wheel_with_the_teeth_across() -> None:
+    """By hand: 20 teeth at 15 degrees stand for 22.1, nearly z over the cube of the cosine."""
+    found = strength(15, 40).wheels[0]
+    base = asin(sin(radians(15)) * cos(radians(20)))
+    z = Z1 / (cos(base) ** 2 * cos(radians(15)))
+    assert z == pytest.approx(Z1 / cos(radians(15)) ** 3, rel=0.02)
+    contact_ratio = strength(15, 40).contact
+    assert contact_ratio
+    assert found.iso is not None
+    wheel = RackWheel(z, 0.0, z / 2 + 1)
+    force = TORQUE * 1e3 / (Z1 * NORMAL / cos(radians(15)) / 2)
+    low, high = (root_stress(wheel, radians(20), force, 40, NORMAL, radius) for radius in (z / 2, z / 2 + 1))
+    assert low.stress < found.iso.stress / found.iso.Ybeta < high.stress
+    assert (found.iso.chord, found.iso.radius) == pytest.approx((high.chord, high.radius))
+    assert found.iso.Ybeta == pytest.approx(1 - min(40 * sin(radians(15)) / (pi * NORMAL), 1) * 15 / 120)
+
+
+def test_leaning_teeth_bear_more() -> None:
+    """With the same normal module and width: more lines of contact, larger wheels."""
+    straight, leaning = strength(0, 40), strength(20, 40)
+    worst = [max(each.pressure for each in pair.contact) for pair in (straight, leaning)]
+    assert worst[1] < worst[0]
+    assert leaning.wheels[0].tip_stress < straight.wheels[0].tip_stress
+    assert any("lean" in note for note in leaning.notes)
+
+
+def test_other_forms_that_lean_are_left_out_by_name() -> None:
+    with pytest.raises((KeyError, geartrain.GearTrainError)):
+        strength(15, 40, "{form: cycloidal}")

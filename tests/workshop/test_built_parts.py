@@ -1,0 +1,331 @@
+"""Plates, arbors, pipes and pillars: measured on the solids by another library, and against printed numbers."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from itertools import combinations, pairwise
+from math import dist, hypot
+from typing import Any
+
+import numpy as np
+import pytest
+from sampling import first_few
+from shipped import train as load
+
+from geartrain import GearTrain, GearTrainError
+from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.scene.parts.arbor_columns import AxisBearing, ColumnProblem, FramePlaces
+from geartrain.scene.parts.processes import PROCESSES, process_named
+from geartrain.scene.parts.stack_discs import StackDisc
+from geartrain.scene.parts.turned_parts import Band, revolved
+from geartrain.workshop import export_files, notices
+
+manifold3d = pytest.importorskip("manifold3d")
+
+
+def workpiece(name: str, **making: Any) -> SolidModel:
+    train = load(name)
+    return SolidModel(train, ManufacturingSizes(**making), train.states[0] if train.states else None)
+
+
+def body(solid: Any) -> Any:
+    mesh = manifold3d.Mesh64(
+        vert_properties=np.ascontiguousarray(solid.vertices, dtype=np.float64),
+        tri_verts=np.ascontiguousarray(solid.faces, dtype=np.uint64),
+    )
+    found = manifold3d.Manifold(mesh)
+    assert found.status() == manifold3d.Error.NoError
+    return found
+
+
+def overlaps(work: SolidModel) -> Iterator[tuple[str, str, float]]:
+    """Solids that share more than a millionth of the smaller one."""
+    bodies = [(part.name, body(part.placed)) for part in work.parts]
+    for (one, first), (other, second) in combinations(bodies, 2):
+        a, b = first.bounding_box(), second.bounding_box()
+        if all(a[k] < b[k + 3] and b[k] < a[k + 3] for k in range(3)):
+            shared = (first ^ second).volume()
+            if shared > 1e-6 * min(first.volume(), second.volume()):
+                yield one, other, shared
+
+
+def test_a_process_that_is_not_known_is_refused() -> None:
+    with pytest.raises(GearTrainError, match="no process 'lazer'"):
+        ManufacturingSizes(process="lazer")
+
+
+# ------------------------------------------------------------------------------------------------------------ the whole
+
+CLEAR = [
+    "longcase-clock-cycloidal",
+    "watch-going-train",
+    "planetary-24-18-60",
+    "planets-in-place",
+    "moon-triangular",
+    "al-biruni-box-of-the-moon",
+    "isfahan-astrolabe-1221",
+    "ravigneaux-set",
+    "norton-planetary",
+    "byzantine-sundial-calendar",
+    "nrel-grc-750",
+]
+
+
+@pytest.mark.parametrize("name", first_few(5, CLEAR))
+def test_no_two_solids_overlap_where_nothing_is_said_to_be_in_the_way(name: str) -> None:
+    work = workpiece(name)
+    assert work.frame is not None
+    assert [*work.frame.plan.notices, *work.frame.problems()] == []
+    assert list(overlaps(work)) == []
+
+
+@pytest.mark.parametrize("process", PROCESSES)
+def test_arbors_reach_both_plates_and_pivots_stand_in_their_holes_with_the_fit_that_is_stated(process: str) -> None:
+    """On the solids: no triangle of an arbor is nearer to its plates than the fits say, and shoulders shake."""
+    work = workpiece("watch-going-train", process=process)
+    fit = process_named(process).running / 2
+    parts = {part.name: part for part in work.parts}
+    plates = [parts[f"plate {side} plate"] for side in ("back", "front")]
+    for axis in ("third", "escape"):  # the fourth goes on to its hand
+        arbor = parts[f"{axis} arbor"]
+        heights = arbor.placed.vertices[:, 2]
+        radii = np.hypot(*arbor.solid.vertices[:, :2].T)
+        for plate in plates:
+            low, high = plate.placed.vertices[:, 2].min(), plate.placed.vertices[:, 2].max()
+            inside = (heights > low - 1e-9) & (heights < high + 1e-9)
+            pivot = radii[inside].max()
+            assert inside.any(), "it reaches the plate"
+            gap = body(arbor.placed).min_gap(body(plate.placed), 1.0)
+            assert gap == pytest.approx(min(fit, 0.1), abs=2e-3), "all round, but for chords; a shoulder shakes by 0.1"
+            assert pivot == pytest.approx(0.55 * radii.max(), abs=0.01)
+        low, high = (
+            max(p.placed.vertices[:, 2].min() for p in plates),
+            min(p.placed.vertices[:, 2].max() for p in plates),
+        )
+        thick = heights[radii > 0.9 * radii.max()]
+        assert low - high == pytest.approx(np.ptp(thick) + 0.2, abs=1e-9), "0.2 mm of end shake"
+
+
+def test_seven_nested_pipes_have_their_clearance_and_share_no_volume() -> None:
+    """2 mm inside, 0.05 mm between, walls of 0.5 mm: 2, 3.05, 4.10, ... 8.30, six gaps of 0.025."""
+    solids, inner = [], 0.0
+    for k in range(7):
+        outer = 2.0 if not k else inner + 1.0
+        solids.append(body(Pipe(outer / 2, inner / 2).solid()))
+        inner = outer + 0.05
+    assert outer == pytest.approx(8.30)
+    for first, second in pairwise(solids):
+        assert (first ^ second).volume() == 0.0
+        assert first.min_gap(second, 1.0) == pytest.approx(0.025, abs=3e-3), "but for chords of 96 sides"
+
+
+class Pipe:
+    def __init__(self, outer: float, inner: float) -> None:
+        self.bands = [Band(0.0, 10.0, outer, inner)]
+
+    def solid(self) -> Any:
+        from geartrain.scene.parts.turned_parts import profile
+
+        return revolved(profile(self.bands))
+
+
+def test_coaxial_arbors_are_pipes_with_a_running_clearance() -> None:
+    work = workpiece("longcase-clock-cycloidal")
+    parts = {part.name: body(part.placed) for part in work.parts}
+    assert parts["centre arbor"].min_gap(parts["hour pipe"], 1.0) == pytest.approx(0.04, abs=2e-3)
+
+
+def test_a_clock_stands_as_clockmakers_build_it() -> None:
+    """The hour pipe runs on the centre arbor, outside it, before the front plate; the going train has no studs."""
+    work = workpiece("longcase-clock-cycloidal")
+    heights = {part.name: part.placed.vertices[:, 2] for part in work.parts}
+    dial = heights["hour pipe"].min()  # its hands stand below
+    assert heights["centre arbor"].min() <= dial < heights["h72"].min() < heights["plates front plate"].min()
+    assert not [name for name in heights if name.endswith("stud")]
+
+
+@pytest.mark.parametrize("name", ["pennestri-2002", "voulgaris-2024-a", "longcase-clock-loaded"])
+def test_coaxial_arbors_are_laid_out_so_that_one_runs_in_the_other(name: str) -> None:
+    frame = workpiece(name).frame
+    assert frame is not None
+    assert [column.tangled for column in frame.plan.all_columns if column.tangled] == []
+
+
+# -------------------------------------------------------------------------------------------------------- front plate
+
+
+def column(front: float) -> Any:
+    """The third arbor (wheels in levels 1 and 2), 34 mm from an hour wheel of tip radius 37.716 in level 5."""
+    own = [
+        StackDisc(name, "third", "third", (0, 0), h, h + 2.5, 9.0, root=3.14) for name, h in (("t56", 3.5), ("t8", 7))
+    ]
+    hour = StackDisc("h72", "hour", "centre", (34.0, 0.0), 17.5, 20.0, 37.716)
+    problem = ColumnProblem("third", (0, 0), own, [hour], {}, (-5, 30), "plates", process_named(None), 3.0)
+    return problem.columns(FramePlaces((-1.0, -1.0), (front, front)))
+
+
+def test_an_arbor_that_would_pass_a_wheel_is_told_with_its_depth_and_a_nearer_plate_frees_it() -> None:
+    through, *studs = column(21.0)
+    assert [(disc.name, round(room, 3)) for disc, room in through.hit] == [("h72", -5.216)]
+    assert any(not each.hit for each in studs), "a stud in the back plate ends before it"
+    near, *_ = column(12.0)
+    assert near.bearing is AxisBearing.THROUGH
+    assert near.hit == ()
+
+
+LOCKED = """
+links: {frame: {}, a: {wheels: {a1: 40, a2: 41}}, b: {wheels: {b1: 20, b2: 21}}, c: {wheels: {c1: 60, c2: 61}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
+gears: [{pair: [a1, b1]}, {pair: [b2, c1]}]
+inputs: {a: 1}
+"""
+
+
+def test_pillars_keep_clear_of_wheels_and_pivots_and_hold_all_axes() -> None:
+    shapely = pytest.importorskip("shapely")
+    for name in ("longcase-clock-cycloidal", "gosper-2005", "watch-going-train"):
+        work = workpiece(name)
+        frame = work.frame
+        assert frame is not None
+        low, high = frame.plan.places.back[0], frame.plan.places.front[1]
+        for at in frame.pillars:
+            for wheel in work.scene.wheels:
+                if low < wheel.centre[2] < high:
+                    tip = wheel.tip if wheel.circuits else wheel.radius  # what meshes nothing is cut as a disc
+                    away = hypot(at[0] - wheel.centre[0], at[1] - wheel.centre[1])
+                    assert away - tip - 4 >= 0.999
+            for axis in frame.plan.stack.axes.values():
+                assert hypot(at[0] - axis.point[0], at[1] - axis.point[1]) - 4 >= 4
+    ring = shapely.Polygon(workpiece("watch-going-train").frame.pillars).convex_hull  # type: ignore[union-attr]
+    assert all(ring.contains(shapely.Point(*axis.point[:2])) for axis in work.layout.axes.values())
+
+
+@pytest.mark.parametrize("name", ["nrel-grc-750", "planetary-24-18-60", "wolfrom-175"])
+def test_no_hole_of_a_plate_runs_into_another_and_posts_keep_clear_of_axes(name: str) -> None:
+    """An axis 52.5 mm from that of a ring, whose rim is as far out: a post of the ring stood in its hole."""
+    frame = workpiece(name).frame
+    assert frame is not None
+    assert frame.posts
+    for plate in frame.plates():
+        for one, other in combinations(plate.holes, 2):
+            assert dist(one.at, other.at) > (one.diameter + other.diameter) / 2, (plate.name, one, other)
+
+
+# ------------------------------------------------------------------------------------------------------ list, README
+
+
+def test_the_list_of_parts_has_all_of_them_and_masses_of_their_volumes() -> None:
+    work = workpiece("planetary-24-18-60")
+    files = {each.path: each.make().decode() for each in export_files(work, ["svg"])}
+    rows = list(csv.DictReader(io.StringIO(files["parts.csv"])))
+    named = {name: row for row in rows for name in row["part"].split(", ")}
+    assert set(named) == {part.name for part in work.parts}
+    assert sum(int(row["count"]) for row in rows) == len(work.parts)
+    density = {"brass": 8.47, "steel": 7.85}
+    for part in work.parts:
+        row = named[part.name]
+        mass = body(part.placed).volume() * density[row["material"]] / 1000
+        assert float(row["mass_g"]) == pytest.approx(mass, rel=4e-3), part.name
+    guide = files["README.md"]
+    assert "## Putting it together" in guide
+    assert "1. Fix " in guide
+    assert all(f"{part.name}" in guide for part in work.parts)
+
+
+def test_a_readme_follows_no_script_from_a_title() -> None:
+    train = GearTrain.declare(
+        {**_read(LOCKED), "title": "[worn](JavaScript:alert(1)) <b>&#106;</b> [source](trains/a.yaml)"}
+    )
+    files = {each.path: each for each in export_files(SolidModel(train, ManufacturingSizes()), ["svg"])}
+    guide = files["README.md"].make().decode()
+    assert r"[worn]\(JavaScript:alert(1)) &lt;b>&amp;#106;&lt;/b> [source](trains/a.yaml)" in guide
+
+
+def test_what_cannot_be_built_is_named_with_what_is_in_the_way() -> None:
+    said = " ".join(each.what for each in notices(workpiece("price-1974"), ["svg"]))
+    assert "axis 'A' has no bearings" in said
+    said = " ".join(each.what for each in notices(workpiece("zf-8hp70"), ["svg"]))
+    assert "arbors 'S12' and 'R3S4' cannot run in each other" in said
+
+
+def test_without_a_bore_there_are_wheels_alone() -> None:
+    work = SolidModel(GearTrain.declare(_read(LOCKED)), ManufacturingSizes(bore=0))
+    assert {part.kind for part in work.parts} == {"wheel"}
+    assert all(blank.bore == 0 for blank in work.blanks.wheels.values())
+
+
+def _read(text: str) -> Any:
+    import yaml
+
+    return yaml.safe_load(text)
+
+
+def test_plates_of_a_thicker_material_keep_wheels_apart() -> None:
+    work = workpiece("watch-going-train", thickness=6.0)
+    assert list(overlaps(work)) == []
+    assert {part.height for part in work.parts if part.contours} == {6.0}
+
+
+# ------------------------------------------------------------------------------- axes that a carrier bears side by side
+
+
+def test_two_axes_a_millimetre_apart_stand_on_one_stud_with_a_step() -> None:
+    """The Moon's k1 and k2, 1.1 mm apart on e3: the foot holds all of the thinner end, which begins where it ends."""
+    model = workpiece("freeth-2008")
+    parts = {part.name: part for part in model.parts}
+    foot, end, seat = parts["K2 stud"], parts["K1 stud"], parts["e3"]
+    assert foot.turned is not None
+    assert end.turned is not None
+    apart = float(np.hypot(*(foot.place - end.place)[:2]))
+    assert apart == pytest.approx(1.1, abs=1e-9)
+    thick, thin = (max(band.radius for band in each.turned.bands[-1:]) for each in (foot, end) if each.turned)
+    assert thin + apart <= thick
+    heights = {
+        name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for name, part in parts.items()
+    }
+    assert heights["K2 stud"][1] == pytest.approx(heights["e3"][1]), "held in the wheel"
+    assert heights["K1 stud"][1] == pytest.approx(heights["K2 stud"][0]), "one goes on where the other ends"
+    assert seat.body == foot.body == end.body
+    # from above e3, k2, k1, as found in the fragments, and nothing between that the pin could meet
+    assert heights["k1"][1] < heights["k2"][0] < heights["k2"][1] < heights["e3"][0]
+    between = {name for name, (low, high) in heights.items() if heights["k1"][1] <= low and high <= heights["k2"][0]}
+    assert between == set()
+
+
+def test_the_carrier_of_a_wolfrom_set_stands_between_its_planets_and_the_disc_of_a_ring() -> None:
+    model = workpiece("wolfrom-175")
+    heights = {part.name: float(part.placed.vertices[:, 2].mean()) for part in model.parts}
+    discs = sorted((heights["r70 disc"], heights["r72 disc"]))
+    assert discs[0] < min(heights["p28"], heights["p30"])
+    assert max(heights["p28"], heights["p30"]) < discs[1]
+    assert discs[0] < heights["arm carrier plate"] < discs[1]
+
+
+def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
+    """The way of 'o1' to the plates is through the rim of 'p1': its arbor runs in a bridge beyond all wheels."""
+    work = workpiece("freeth-2006")
+    parts = {part.name: part for part in work.parts}
+    arbor, bridge = parts["o arbor"], parts["frame bridge"]
+    heights = {
+        name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for name, part in parts.items()
+    }
+    assert heights["p1"][1] < heights["o arbor"][0], "it ends before the wheel that was in its way"
+    assert heights["o arbor"][0] < heights["frame bridge"][0] < heights["frame bridge"][1] < heights["o arbor"][1]
+    assert arbor.turned is not None
+    holes = {
+        (round(float(c.points[:, 0].mean()), 6), round(float(c.points[:, 1].mean()), 6)): c for c in bridge.contours[1:]
+    }
+    stack = work.frame.plan.stack if work.frame is not None else None
+    assert stack is not None
+    own = stack.flat(tuple(arbor.place)) - np.array(stack.flat(tuple(bridge.place)))
+    (hole,) = [each for at, each in holes.items() if hypot(*(own - np.array(at))) < 1e-5]
+    assert np.ptp(hole.points[:, 0]) - arbor.turned.bands[0].radius * 2 == pytest.approx(0.08, abs=1e-6)
+    collars = [parts[f"o {side} collar"] for side in ("lower", "upper")]
+    assert heights[collars[0].name][1] < heights["frame bridge"][0], "one below"
+    assert heights["frame bridge"][1] < heights[collars[1].name][0], "one above"
+    pillars = [part for name, part in parts.items() if name.startswith("bridge pillar")]
+    assert len(pillars) >= 3
+    assert all(heights[part.name][1] == pytest.approx(heights["frame bridge"][1]) for part in pillars)
+    assert "frame bridge" not in {part.name for part in workpiece("freeth-2008").parts}

@@ -1,0 +1,459 @@
+"""Conjugate teeth cut by hand: displaced flanks along the path of contact, against outlines drawn and turned."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import cos, pi, radians, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+from studies.cut_pair_law import CutPairLaw
+
+import geartrain
+from geartrain.teeth import Cycloidal, Involute, Lantern
+from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact
+from geartrain.teeth.conjugate.off_design import outlines
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+from geartrain.teeth.contact.outline_contact import TwoFlankContact, solve
+from geartrain.teeth.contact.outline_curve import OutlineCurve
+from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
+from geartrain.workshop.cutting.cut_pair import CutGearPair
+from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.displaced_pair import DisplacedPair
+from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.cutting.file_strokes import FileableCutPair, file_to_fit
+from geartrain.workshop.monte_carlo.random_streams import RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
+
+INVOLUTE = Involute(form="involute", backlash="0.2")
+PAIRS = {
+    "involute": INVOLUTE.pair(WheelPair(24, 36)),
+    "involute ring": INVOLUTE.pair(WheelPair(30, 75, True)),
+    "cycloidal": Cycloidal(form="cycloidal", backlash="0.1").pair(WheelPair(8, 24)),
+    "lantern": Lantern(form="lantern", backlash="0.1").pair(WheelPair(24, 8)),
+}
+BOTH = pytest.mark.parametrize(("name", "driver"), [(name, driver) for name in PAIRS for driver in (1, 2)])
+RNG = np.random.default_rng(20)
+
+
+def even(contact: DisplacedContact) -> tuple[DisplacedWheel, DisplacedWheel]:
+    first, second = (DisplacedWheel.even(wheel.z) for wheel in contact.wheels)
+    return first, second
+
+
+def as_drawn(outline: GearOutline, wheel: DisplacedWheel) -> GearOutline:
+    """The wheel as an outline: its teeth are numbered the way it turns, and angles are ahead."""
+    order = (-np.arange(outline.z)) % outline.z
+    drawn = replace(outline, turns=tuple((-wheel.place[order]).tolist()))
+    e, towards = float(wheel.e), float(wheel.towards)
+    return drawn.displaced(-e * sin(towards), e * cos(towards)) if e else drawn
+
+
+def drawn_contact(name: str, driver: int, pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lag and play of the drawn outlines, in driven pitches."""
+    design = PAIRS[name]
+    first, second = outlines(design) if driver == 1 else outlines(design)[::-1]
+    distance = abs(design.path.pitch.R1 + design.path.pitch.R2) + pair.shift
+    return off_ratio(pair.contact, solve(as_drawn(first, pair.first), as_drawn(second, pair.second), distance, S), S)
+
+
+def off_ratio(at: DisplacedContact, found: TwoFlankContact, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    pitch = at.pitches[1]
+    return (float(at.ratio) * S + at.stands - found.front.angle) / pitch, found.play / pitch
+
+
+def by_law(pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    rows = np.zeros(len(S), int)
+    lag, lead = pair.first_lag(rows, S)[0], pair.first_lag(rows, S, back=True)[0]
+    return lag / pair.contact.pitches[1], (lag + lead + pair.contact.play) / pair.contact.pitches[1]
+
+
+def angles(pair: DisplacedPair, number: int = 60) -> np.ndarray:
+    return RNG.uniform(0, pair.count * pair.contact.pitches[0], number)
+
+
+@BOTH
+def test_wheels_without_errors_keep_their_ratio_and_their_play(name: str, driver: int) -> None:
+    at = displaced_contact(PAIRS[name], driver)
+    pair = DisplacedPair(at, *even(at))
+    lag, play = by_law(pair, angles(pair))
+    assert lag == pytest.approx(0.0, abs=1e-13)
+    assert play == pytest.approx(at.play / at.pitches[1], abs=1e-13)
+    assert pair.play() == pytest.approx(at.play, abs=1e-13)
+
+
+@BOTH
+def test_teeth_out_of_place_turn_the_driven_wheel_as_their_outlines_do(name: str, driver: int) -> None:
+    # exact at any size: a conjugate tooth turned about its axle is the same tooth, and corners obey the law of cosines
+    at = displaced_contact(PAIRS[name], driver)
+    wheels = (replace(each, place=RNG.normal(0, 0.005 * 2 * pi / each.z, each.z)) for each in even(at))
+    pair = DisplacedPair(at, *wheels)
+    S = angles(pair)
+    for found, drawn in zip(by_law(pair, S), drawn_contact(name, driver, pair, S), strict=True):
+        assert np.ptp(drawn) > 0.005
+        assert found == pytest.approx(drawn, abs=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("name", "driver"), [("involute", 1), ("involute ring", 2), ("cycloidal", 1), ("cycloidal", 2), ("lantern", 1)]
+)
+@pytest.mark.parametrize("which", [0, 1, "axles"])
+def test_an_eccentric_wheel_and_axles_apart_are_right_to_first_order(name: str, driver: int, which: int | str) -> None:
+    at = displaced_contact(PAIRS[name], driver)
+    off = []
+    for e in (0.02, 0.005):
+        wheels = list(even(at))
+        if isinstance(which, int):
+            wheels[which] = replace(wheels[which], e=np.array(e), towards=np.array(0.7))
+        pair = DisplacedPair(at, *wheels, 0.0 if isinstance(which, int) else e)
+        S = np.random.default_rng(3).uniform(0, pair.count * at.pitches[0], 24)
+        (lag, play), (drawn, drawn_play) = by_law(pair, S), drawn_contact(name, driver, pair, S)
+        off.append((np.median(np.abs(lag - drawn)), np.median(np.abs(play - drawn_play))))
+        # of an error of some 0.02/6 pitches
+        assert np.abs(lag - drawn).max() < 0.002 * e / 0.02
+    for large, small in zip(*off, strict=True):
+        # four times less, sixteen times nearer; the ends of the path make it less even
+        assert small < large / 6 or large < 1e-12
+
+
+def test_an_eccentric_involute_wheel_errs_by_e_over_the_base_radius() -> None:
+    # the line of action stands still: the error is e sin(S - towards + psi) / rb2, whichever tooth drives
+    at = displaced_contact(PAIRS["involute"], 1)
+    first, second = even(at)
+    e, towards, psi = 0.01, 0.4, radians(20)
+    S = np.linspace(0, 2 * pi, 200)
+    lag, _ = by_law(DisplacedPair(at, replace(first, e=np.array(e), towards=np.array(towards)), second), S)
+    rb2 = 18 * cos(psi)
+    assert -lag * at.pitches[1] == pytest.approx(e * np.sin(S - towards + psi) / rb2, abs=1e-15)
+    # an eccentric driven wheel errs by the other sign, by its own base circle
+    lag, _ = by_law(DisplacedPair(at, first, replace(second, e=np.array(e), towards=np.array(towards))), S)
+    turned = S * 24 / 36 + at.stands - towards
+    assert -lag * at.pitches[1] == pytest.approx(-e * np.sin(turned - psi) / rb2, abs=1e-15)
+
+
+def test_axles_farther_apart_give_an_external_pair_play_and_take_it_from_a_ring() -> None:
+    for name, sign in (("involute", 1), ("involute ring", -1)):
+        at = displaced_contact(PAIRS[name], 1)
+        driven = at.wheels[1].z / 2
+        pair = DisplacedPair(at, *even(at), 0.01)
+        # 2 tan psi of the distance, over the pitch radius
+        assert pair.play() - at.play == pytest.approx(sign * 2 * 0.01 * np.tan(radians(20)) / driven, rel=1e-9)
+
+
+@pytest.mark.parametrize("driver", [1, 2])
+def test_flanks_that_lean_touch_as_their_outlines_do(driver: int) -> None:
+    at = displaced_contact(PAIRS["involute"], driver)
+    drawn = outlines(PAIRS["involute"])[:: 1 if driver == 1 else -1]
+    for gear in (0, 1):
+        off = []
+        for lean in (0.01, 0.0025):
+            wheels, turned = list(even(at)), list(drawn)
+            flank = np.full(wheels[gear].z, lean)
+            wheels[gear] = replace(wheels[gear], leading=flank, trailing=flank)
+            pair = DisplacedPair(at, *wheels)
+            tooth, R = drawn[gear].teeth[0], drawn[gear].z / 2
+            sides = [tilted(side, R, lean, way) for side, way in ((tooth.ahead, 1), (tooth.behind, -1))]
+            turned[gear] = replace(drawn[gear], teeth=(ToothFlanks(*sides),))
+            S = np.random.default_rng(3).uniform(0, at.pitches[0], 40)
+            found, true = by_law(pair, S), off_ratio(at, solve(turned[0], turned[1], 30.0, S), S)
+            assert np.ptp(true[0]) > lean / 10
+            off.append([np.median(np.abs(one - other)) for one, other in zip(found, true, strict=True)])
+        assert all(small < large / 6 for large, small in zip(*off, strict=True))
+
+
+def tilted(side: tuple[OutlineCurve, ...], R: float, lean: float, way: int) -> tuple[OutlineCurve, ...]:
+    """A side of a tooth turned about its point on the pitch circle: above it material goes."""
+    points = np.concatenate([curve.at(np.linspace(curve.start, curve.end, 4001)) for curve in side])
+    pivot = points[np.abs(np.hypot(*points.T) - R).argmin()]
+    turn = np.array([[cos(lean * way), sin(lean * way)], [-sin(lean * way), cos(lean * way)]])
+    return tuple(curve.mapped(lambda p: (p - pivot) @ turn + pivot) for curve in side)
+
+
+# ------------------------------------------------------------------------------------------------------------- bevels
+
+
+def on_sphere(pair: object, gear: int, moved: np.ndarray) -> GearOutline:
+    """A bevel wheel on the unit sphere, tooth by tooth, its teeth turned as one by a small rotation off its axle."""
+    path = pair.path  # type: ignore[attr-defined]
+    pitch, (approach, recess) = path.pitch, path.arcs
+    R = -pitch.R1 if gear == 1 else pitch.R2
+    axis, out = np.array([0.0, sin(R), cos(R)]), np.sign(R) * np.array([0.0, -cos(R), sin(R)])
+    flank = path.flank1 if gear == 1 else path.flank2
+    half = pair.halves[gear - 1] / (pitch.reach if gear == 1 else pitch.reach2)  # type: ignore[attr-defined]
+    z = pitch.z1 if gear == 1 else pitch.z2
+
+    def body(X: np.ndarray) -> np.ndarray:
+        p = flank(X)
+        return np.stack([p[:, 0], p @ out, p @ axis], axis=1)
+
+    way = 1 if gear == 1 else -1
+    side = tuple(OutlineCurve(body, *ends) for ends in ((-approach, -1e-300), (0.0, recess)))
+    tooth = ToothFlanks.symmetric(side, -way * half)
+    tooth = tooth if gear == 1 else ToothFlanks(tooth.behind, tooth.ahead)
+    tooth = tooth.turned(way * half)
+    teeth = tuple(tooth.turned(k * 2 * pi / z).mapped(lambda p: p @ moved.T).turned(-k * 2 * pi / z) for k in range(z))
+    return GearOutline(teeth, z)
+
+
+def tipped(e: float, towards: float) -> np.ndarray:
+    """The rotation that moves a cone's axis by e towards an angle ahead of the first tooth."""
+    to = np.array([-sin(towards), cos(towards), 0.0])
+    axis = np.cross([0.0, 0.0, 1.0], to)
+    K = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    found: np.ndarray = np.eye(3) + sin(e) * K + (1 - cos(e)) * K @ K
+    return found
+
+
+@pytest.mark.parametrize("gear", [1, 2])
+def test_bevel_wheels_off_their_axles_err_as_spheres_have_it(gear: int) -> None:
+    design = INVOLUTE.pair(WheelPair(14, 23, shaft_angle=pi / 2))
+    at = displaced_contact(design, 1)
+    off = []
+    for e in (2e-3, 5e-4):
+        wheels = list(even(at))
+        wheels[gear - 1] = replace(wheels[gear - 1], e=np.array(e), towards=np.array(0.7))
+        pair = DisplacedPair(at, *wheels)
+        S = np.random.default_rng(3).uniform(0, 7 * at.pitches[0], 30)
+        outline = [on_sphere(design, each, tipped(e if each == gear else 0.0, 0.7)) for each in (1, 2)]
+        lag, _ = off_ratio(at, solve(*outline, pi / 2, S), S)
+        off.append(np.median(np.abs(by_law(pair, S)[0] - lag)))
+        assert np.ptp(lag) > 0.2 * e
+    assert off[1] < off[0] / 6
+
+
+# -------------------------------------------------------------------------------------------------- batches and filing
+
+
+def spread(at: DisplacedContact, trials: int, sigma: float = 0.01) -> DisplacedPair:
+    wheels = [
+        replace(
+            wheel,
+            place=RNG.normal(0, sigma * 2 * pi / wheel.z, (trials, wheel.z)),
+            e=np.abs(RNG.normal(0, 0.01, trials)),
+            towards=RNG.uniform(0, 2 * pi, trials),
+        )
+        for wheel in even(at)
+    ]
+    return DisplacedPair(at, *wheels)
+
+
+@BOTH
+def test_the_least_play_of_a_batch_is_that_of_each_pair_angle_by_angle(name: str, driver: int) -> None:
+    at = displaced_contact(PAIRS[name], driver)
+    pair = spread(at, 3)
+    S = np.arange(8 * pair.count) * at.pitches[0] / 8
+    for trial, play in enumerate(pair.play()):
+        rows = np.full(len(S), trial)
+        scanned = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.play
+        assert play == pytest.approx(scanned.min(), abs=2e-3 * at.pitches[1])
+    assert pair.tight_place().play == pytest.approx(pair.play(), abs=1e-14)
+
+
+ERRORS = {
+    "place": ("place",),
+    "tips": ("tip",),
+    "leaning": ("leading", "trailing"),
+    "lowered": ("leading_low", "trailing_low"),
+    "eccentric": ("e", "towards"),
+}
+
+
+@BOTH
+@pytest.mark.parametrize("errors", ERRORS.values(), ids=ERRORS)
+def test_each_error_is_in_the_least_play_as_it_is_angle_by_angle(
+    name: str, driver: int, errors: tuple[str, ...]
+) -> None:
+    """Wheel by wheel or couple by couple: two ways to the same sum, at the angles at which play is looked for."""
+    at, rng = displaced_contact(PAIRS[name], driver), np.random.default_rng(8)
+    wheels = []
+    for wheel in even(at):
+        size = {"place": 0.005 * at.pitches[0], "tip": 0.2, "e": 0.03, "towards": 3.0}
+        shape = {"e": (2,), "towards": (2,)}
+        drawn = {each: rng.normal(0, size.get(each, 0.01), shape.get(each, (2, wheel.z))) for each in errors}
+        wheels.append(replace(wheel, **{each: -np.abs(v) if each == "tip" else v for each, v in drawn.items()}))
+    pair, pitch = DisplacedPair(at, *wheels), at.pitches[0]
+    within = np.mod([0, pitch / 4, pitch / 2, 3 * pitch / 4, at.start, at.end, -at.start, -at.end], pitch)
+    S = (np.arange(pair.count)[:, None] * pitch + within).ravel()
+    for trial, play in enumerate(pair.play()):
+        rows = np.full(len(S), trial)
+        apart = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.play
+        assert play == pytest.approx(apart.min(), abs=1e-12)
+
+
+@BOTH
+def test_a_pair_that_jams_is_filed_until_it_passes(name: str, driver: int) -> None:
+    at = displaced_contact(PAIRS[name], driver)
+    pair = spread(at, 12, 0.015)
+    jams = pair.play() < 0
+    assert jams.any()
+    work = file_to_fit(pair, 0.01, 0.4)
+    assert (work.filed == jams).all()
+    assert (work.pair.play() >= 0).all()
+    assert (work.teeth[jams] >= 1).all()
+    assert (work.strokes >= work.teeth).all()
+
+
+def test_strokes_are_those_of_a_plain_loop_that_files_one_at_a_time() -> None:
+    at = displaced_contact(PAIRS["involute"], 1)
+    first, second = even(at)
+    late = first.place.copy()
+    late[5] = -0.1 * at.pitches[0]  # one tooth of the driver is a tenth of a pitch ahead
+    pair = DisplacedPair(at, replace(first, place=late[None]), second)
+    stroke, strokes, low = 0.01, 0, np.zeros((1, 24))
+    while pair.play()[0] < 0:
+        strokes += 1
+        low[0, 5] += stroke
+        pair = replace(pair, first=replace(pair.first, leading_low=low))
+    found = file_to_fit(DisplacedPair(at, replace(first, place=late[None]), second), stroke, 1.0)
+    assert (found.strokes[0], found.teeth[0]) == (strokes, 1)
+    # what stood out, less the play, times the base radius of the driver
+    assert strokes == np.ceil((0.1 * at.pitches[0] - 1.5 * at.play) * 12 * cos(radians(20)) / stroke)
+
+
+PAIR = """
+name: pair
+links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 37}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+inputs: {a: 1}
+outputs: {b: {}}
+tooth_form: {form: FORM, backlash: 0.2}
+cutting: {placement: {normal: 1 %}}
+fitting: {filing: {stroke: 1 %}}
+"""
+
+
+@pytest.mark.parametrize("form", ["involute", "cycloidal"])
+def test_a_train_is_cut_filed_and_composed(form: str, tmp_path: Path) -> None:
+    (tmp_path / "pair.yaml").write_text(PAIR.replace("FORM", form))
+    plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
+    found = run_trials(plan, 300)
+    pair, train = found.filings
+    assert pair.filed.count == train.filed.count > 0
+    assert pair.jams.count == found.train.events["jam"].count == 0
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    turns = np.linspace(0, 3, 40)
+    errors = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
+    cut = drawn.pair(0)
+    lag, _ = cut.first_lag(np.arange(40), np.mod(turns * 2 * pi, cut.count * 2 * pi / 24))
+    # an external pair turns backwards: a lag is a positive error
+    assert errors == pytest.approx(lag, abs=1e-10)
+    # to first order sigma on each wheel, and a mean lag of none: the spread of an error of one couple
+    sigma = 0.01 * 2 * pi / 37 * 2**0.5
+    assert 0.6 * sigma < found.pointers[0].deviation.value < 1.05 * sigma
+
+
+def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting(tmp_path: Path) -> None:
+    text = PAIR.replace("FORM, backlash: 0.2", "cycloidal, backlash: 0.2, centre_distance: 30.55")
+    (tmp_path / "pair.yaml").write_text(text)
+    train = geartrain.load(tmp_path / "pair.yaml")
+    plan = find_trial_plan(train, read_error_overrides(["placement=0.0001 %"]))
+    law, pitch, S = train.meshes[0].law, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
+    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).first_lag(np.zeros(50, int), S)[0]
+    # to first order in 0.05 modules, the ripple of the outlines' own law
+    assert np.ptp(law.error(S)) > 0.001 * pitch
+    assert -lag == pytest.approx(law.error(S), abs=1e-3 * pitch)
+    assert abs(run_trials(plan, 200).pointers[0].mean.value) < 1e-4 * pitch
+
+
+def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the_other() -> None:
+    wheel = CutWheel.even(16, 10.0, 0.5).widened(RNG.uniform(-0.05, 0.05, 16)).placed(RNG.uniform(-0.02, 0.02, 16))
+    leading, trailing = RNG.uniform(0, 0.05, (2, 16))
+    filed = wheel.filed(leading, trailing)
+
+    def lines(each: CutWheel) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Of both flanks the distance from the axle and the direction of the normal, ahead counted up."""
+        tip = each.r * np.exp(-1j * each.theta)
+        ways = (each.half_angle + each.leading, 1j), (each.half_angle + each.trailing, -1j)
+        normals = [tip / abs(tip) * side * np.exp(-side * lean) for lean, side in ways]
+        return [((tip / normal).real, np.angle(normal)) for normal in normals]
+
+    for (far, way), (then, turned), low in zip(lines(wheel), lines(filed), (leading, trailing), strict=True):
+        assert turned == pytest.approx(way, abs=1e-14)
+        assert far - then == pytest.approx(low, abs=1e-13)
+
+
+@pytest.mark.parametrize("wheel", [0, 1])
+@pytest.mark.parametrize("side", [0, 1])
+def test_the_triangular_flank_that_stands_out_is_the_one_that_is_filed(wheel: int, side: int) -> None:
+    """One tooth a third of a pitch ahead jams by its leading flank, one as far behind by its trailing flank."""
+    form = "{form: triangular, half_angle: 30 deg, window: 0.3}"
+    text = PAIR.replace("{form: FORM, backlash: 0.2}", form).partition("cutting")[0]
+    sizes = geartrain.load(text).meshes[0].law.sizes
+    wheels = [CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)]
+    place = np.zeros((2, wheels[wheel].z))  # two trials: the second is without errors
+    place[0, 7] = (-1, 1)[side] * 0.35 * wheels[wheel].pitch
+    wheels = [each.placed(place if at == wheel else np.zeros((2, each.z))) for at, each in enumerate(wheels)]
+    work = file_to_fit(FileableCutPair(CutGearPair(sizes, *wheels)), 0.002 * sizes.R1, 1.0)
+    assert work.strokes[0] > 0 == work.strokes[1]
+    assert [np.argwhere(low).tolist() for low in work.low] == [[[0, side, 7]] if at == wheel else [] for at in (0, 1)]
+
+
+def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
+    """Tooth by tooth, and in mesh: what the driven wheel leads by on its back is what it lags by in the mirror."""
+    at = displaced_contact(PAIRS["involute"], 1)
+    names = ("place", "leading", "trailing", "leading_low", "trailing_low")
+    first, second = (
+        replace(
+            each,
+            **{name: RNG.normal(0, 0.002, each.z) for name in names},
+            e=np.array(0.05),
+            towards=np.array(RNG.uniform(0, 6)),
+        )
+        for each in even(at)
+    )
+    assert first.mirrored(5).tips == pytest.approx(first.tips[(5 - np.arange(first.z)) % first.z], abs=1e-15)
+    pair, mirror = DisplacedPair(at, first, second), DisplacedPair(at, first.mirrored(), second.mirrored(1))
+    S, rows = angles(pair), np.zeros(60, int)
+    assert mirror.first_lag(rows, -S)[0] == pytest.approx(pair.first_lag(rows, S, back=True)[0], abs=1e-15)
+
+
+def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
+    # 15 % of such pairs jam, as docs/cut-by-hand.md prints
+    text = PAIR.replace("p: 24", "p: 64").replace("w: 37", "w: 38").replace("normal: 1 %", "normal: 5.16 %")
+    form = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    (tmp_path / "pair.yaml").write_text(text.replace("{form: FORM, backlash: 0.2}", form))
+    plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
+    bare = replace(plan, pairs=tuple(replace(pair, stroke=0.0) for pair in plan.pairs))
+    before, after = run_trials(bare, 40), run_trials(plan, 40)
+    assert before.train.events["jam"].count == after.filings[-1].filed.count > 0
+    assert after.train.events["jam"].count == 0
+    # wheel by wheel, by the law of one pair
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
+    pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
+    law = CutPairLaw.of(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
+    assert law.events.play >= 0
+
+
+def test_settings_and_wheels_of_other_forms() -> None:
+    settings = read_error_overrides(["placement=0.2 %", "eccentricity=1 %", "aperture=1 %", "tip=1 %", "centre=1 %"])
+    for name in ("planetary-24-18-60-involute", "lantern-mill", "longcase-clock-cycloidal"):
+        plan = find_trial_plan(geartrain.load(name), settings)
+        found = run_trials(plan, 16)
+        assert np.isfinite(found.errors).all()
+        assert np.ptp(found.errors) > 0
+    plan = find_trial_plan(geartrain.load("bevel-differential-involute"), settings, state="straight")
+    assert np.isfinite(run_trials(plan, 16).errors).all()
+
+
+@BOTH
+def test_tips_meet_tips_where_the_lags_of_neighbours_say_so_couple_by_couple(name: str, driver: int) -> None:
+    at, trials, random = displaced_contact(PAIRS[name], driver), 60, np.random.default_rng(1)
+    for spread in (0.02, 0.05):
+        wheels = (
+            replace(each, place=random.normal(0, spread * 2 * pi / each.z, (trials, each.z))) for each in even(at)
+        )
+        pair = DisplacedPair(at, *wheels)
+        found, rows = pair.verdicts(), np.arange(trials)
+        for verdict, x, step in ((found.clash, at.start - at.entering.most, 1),
+                                 (found.standstill, at.end + at.leaving.most, -1)):  # fmt: skip
+            over = np.zeros(trials, bool)
+            for n in range(pair.count):
+                # the driver where the tips of couple n meet, just within their reach
+                S = n * at.pitches[0] + pair.first.place[:, n % pair.first.z] + x + step * 1e-9 * at.pitches[0]
+                own, mate = (pair.lag(rows, S, np.full(trials, k)) for k in (n, n - step))
+                over |= mate > own
+            assert verdict.tolist() == over.tolist()

@@ -1,0 +1,471 @@
+"""Flat parts, graphs and tables, read back by other libraries than those that write them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import pairwise
+from math import atan2, cos, hypot, pi, radians, sin
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from shipped import train as load
+
+from geartrain import GearTrain, GearTrainError
+from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.scene.solids.bearing_plates import around
+from geartrain.workshop import export_files, notices, train_file, wheel_file
+from geartrain.workshop.export.cut_sheets import file_names
+
+shapely = pytest.importorskip("shapely")
+
+PAIR = """
+name: pair
+links: {{frame: {{}}, a: {{wheels: {{p: {z1}}}}}, b: {{wheels: {{w: {z2}}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, w]}}]
+tooth_form: {form}
+inputs: {{a: 1}}
+outputs: {{b: }}
+"""
+INVOLUTE = "{form: involute, backlash: 0.05}"
+TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+
+
+def declared(text: str) -> GearTrain:
+    import yaml
+
+    return GearTrain.declare(yaml.safe_load(text))
+
+
+def workpiece(z1: int = 24, z2: int = 36, form: str = INVOLUTE, **making: float) -> SolidModel:
+    return SolidModel(declared(PAIR.format(z1=z1, z2=z2, form=form)), ManufacturingSizes(**making))
+
+
+# ---------------------------------------------------------------------------------------------------- reading back
+
+
+def from_svg(data: bytes) -> dict[str, list[np.ndarray]]:
+    """Polygons by id, y turned back up, from svgelements, which knows nothing of how they were made."""
+    elements = pytest.importorskip("svgelements")
+    found: dict[str, list[np.ndarray]] = {}
+    image = elements.SVG.parse(io.StringIO(data.decode()), reify=False)
+    scale = 96 / 25.4  # its pixels a mm
+    for element in image.elements():
+        if isinstance(element, elements.Path | elements.Circle):
+            name = element.values.get("id") or element.values.get("group", {}).get("id") or element.id or ""
+            for part in elements.Path(element).as_subpaths():
+                path = elements.Path(part)
+                points: list[complex] = []
+                for segment in path:
+                    if isinstance(segment, elements.Line | elements.Close):
+                        points.append(complex(*segment.end))
+                    elif isinstance(segment, elements.Arc):
+                        spokes = complex(*segment.start) - complex(*segment.center)
+                        turn = np.exp(1j * segment.sweep * np.arange(1, 65) / 64)
+                        assert segment.rx == pytest.approx(segment.ry)
+                        points += (complex(*segment.center) + spokes * turn).tolist()
+                ring = [
+                    z
+                    for z, following in zip(points, [*points[1:], points[0]], strict=True)
+                    if abs(z - following) > 1e-6  # mm: what files are rounded to
+                ]
+                found.setdefault(str(name), []).append(np.array([(z.real, -z.imag) for z in ring]))
+    assert image.width == pytest.approx(image.viewbox.width * scale)
+    return found
+
+
+def from_dxf(data: bytes) -> dict[str, list[np.ndarray]]:
+    """Polygons by layer, from dxfgrabber, arcs of polylines unrolled here."""
+    dxfgrabber = pytest.importorskip("dxfgrabber")
+    document = dxfgrabber.read(io.StringIO(data.decode()))
+    assert document.header["$INSUNITS"] == 4, "millimetres"
+    found: dict[str, list[np.ndarray]] = {}
+    for entity in document.modelspace():
+        if entity.dxftype == "CIRCLE":
+            turn = np.linspace(0, 2 * pi, 256, endpoint=False)
+            x, y = entity.center[:2]
+            ring = np.stack([x + entity.radius * np.cos(turn), y + entity.radius * np.sin(turn)], axis=1)
+            found.setdefault(entity.layer, []).append(ring)
+        elif entity.dxftype == "LWPOLYLINE":
+            assert entity.is_closed
+            found.setdefault(entity.layer, []).append(unrolled([p[:2] for p in entity.points], entity.bulge))
+        else:
+            found.setdefault(entity.layer, [])
+    return found
+
+
+def unrolled(points: list[tuple[float, float]], bulges: list[float]) -> np.ndarray:
+    """A bulge b is an arc whose height is b times half its chord, to the right of it where b is positive."""
+    out: list[complex] = []
+    ring = [complex(*p) for p in points]
+    for start, end, bulge in zip(ring, [*ring[1:], ring[0]], bulges, strict=True):
+        out.append(start)
+        if bulge:
+            sweep = 4 * np.arctan(bulge)
+            centre = start + (end - start) / 2 * (1 + 1j / np.tan(sweep / 2))
+            out += [centre + (start - centre) * np.exp(1j * sweep * k / 64) for k in range(1, 64)]
+    return np.array([(z.real, z.imag) for z in out])
+
+
+def polygon(rings: list[np.ndarray]):  # type: ignore[no-untyped-def]
+    outer, *holes = sorted(rings, key=lambda ring: -np.hypot(*ring.T).max())
+    found = shapely.Polygon(outer, holes)
+    assert found.is_valid
+    return found
+
+
+def teeth_of(ring: np.ndarray, radius: float) -> int:
+    """Half the number of times a closed line crosses a circle."""
+    outside = np.hypot(*ring.T) > radius
+    return int((outside != np.roll(outside, 1)).sum()) // 2
+
+
+# ---------------------------------------------------------------------------------------------------------- flat parts
+
+
+@pytest.mark.parametrize("form", [INVOLUTE, TRIANGULAR, "{form: ideal}", "{form: cycloidal, backlash: 0.05}"])
+def test_wheels_read_back_have_their_teeth_their_bore_and_the_same_area_in_svg_and_dxf(form: str) -> None:
+    pytest.importorskip("ezdxf")
+    work = workpiece(form=form, module=2, bore=5)
+    for wheel, z in (("p", 24), ("w", 36)):
+        svg, dxf = from_svg(wheel_file(work, wheel, ".svg")), from_dxf(wheel_file(work, wheel, ".dxf"))
+        drawn, cut = polygon(svg["CUT"]), polygon(dxf["CUT"])
+        assert teeth_of(np.array(cut.exterior.coords), z) == z, "they cross the pitch circle of module 2"
+        assert drawn.area == pytest.approx(cut.area, rel=2e-5)
+        assert drawn.symmetric_difference(cut).area < 1e-4 * cut.area
+        (bore,) = cut.interiors
+        assert shapely.Polygon(bore).area == pytest.approx(pi * 2.5**2, rel=1e-3)
+        pitch = shapely.Polygon(dxf["PITCH"][0])
+        assert pitch.area == pytest.approx(pi * z**2, rel=1e-3)
+        assert "ENGRAVE" in dxf
+
+
+@pytest.mark.parametrize(("z1", "z2", "form"), [(24, 36, INVOLUTE), (64, 38, TRIANGULAR), (17, 43, "{form: ideal}")])
+def test_exported_wheels_mesh_over_a_pitch_at_the_distance_of_the_layout(z1: int, z2: int, form: str) -> None:
+    """Turned in the ratio of their teeth, with room between: they never overlap, and closer they would."""
+    work = workpiece(z1, z2, form, module=1)
+    places = work.layout.wheels
+    distance = hypot(*(a - b for a, b in zip(places["p"].centre[:2], places["w"].centre[:2], strict=True)))
+    assert distance == pytest.approx((z1 + z2) / 2)
+    first, second = (polygon(from_svg(wheel_file(work, each, ".svg"))["CUT"]) for each in ("p", "w"))
+    rotate, translate = shapely.affinity.rotate, shapely.affinity.translate
+
+    def overlap(turn: float, ahead: float, away: float = distance) -> float:
+        # a space of the second faces a tooth of the first on the line of centres
+        own = rotate(first, turn, (0, 0), use_radians=True)
+        other = rotate(second, pi + pi / z2 - turn * z1 / z2 + ahead, (0, 0), use_radians=True)
+        return float(own.intersection(translate(other, away, 0)).area)
+
+    for k in range(8):
+        turn = 2 * pi / z1 * k / 8
+        # real teeth lag or lead by less than a fifth of a pitch; in that play there is room
+        free = min(overlap(turn, 2 * pi / z2 * lag) for lag in np.linspace(-0.2, 0.2, 21))
+        assert free < 2e-3, "no room in the play"
+        assert overlap(turn, pi / z2) > 0.05, "half a pitch off, teeth stand in teeth"
+        assert min(overlap(turn, 2 * pi / z2 * lag, 0.97 * distance) for lag in (-0.1, 0.0, 0.1)) > 0.05, "too near"
+
+
+def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
+    work = workpiece(64, 38, TRIANGULAR, module=1, bore=0)
+    (outline,) = from_svg(wheel_file(work, "w", ".svg"))["CUT"]
+    r = np.hypot(*outline.T)
+    tips, valleys = outline[r > r.mean()], outline[r < r.mean()]
+    assert (len(tips), len(valleys)) == (38, 38)
+    turn = np.sort(np.arctan2(tips[:, 1], tips[:, 0]))
+    assert np.allclose(np.diff(turn), 2 * pi / 38, atol=1e-6)
+    tip = tips[np.argmin(abs(np.arctan2(tips[:, 1], tips[:, 0])))]
+    assert abs(atan2(tip[1], tip[0])) < 1e-6, "the first tooth on the x axis"
+    near = valleys[np.argsort(np.hypot(*(valleys - tip).T))[:2]]
+    for x, y in near - tip:
+        assert abs(atan2(y, -x)) == pytest.approx(radians(30), abs=1e-5)
+
+
+def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
+    work = SolidModel(load("planetary-24-18-60-involute"), ManufacturingSizes())
+    ring = polygon(from_svg(wheel_file(work, "ring", ".svg"))["CUT"])
+    hole, *posts = sorted(ring.interiors, key=lambda each: -shapely.Polygon(each).area)
+    module = work.layout.wheels["ring"].module
+    assert len(posts) == 3, "posts hold it to a plate"
+    assert teeth_of(np.array(hole.coords), 30 * module) == 60
+    assert ring.exterior.distance(hole) > module
+
+
+def test_wheels_of_one_shape_share_a_sheet_that_says_how_often() -> None:
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    sheets = [each for each in export_files(work, ["svg"]) if each.path.startswith("wheels/")]
+    flat = [name for name, (_, wheel) in work.train.declaration.wheels.items() if wheel.kind == "spur"]
+    listed = [name for each in sheets for name in re.split(", ", each.title.split(":")[0].split(", 2 times")[0])]
+    names = [name for name in listed if not name.endswith("times")]
+    assert sorted(names) == sorted(flat)
+    assert len(sheets) < len(flat)
+
+
+@pytest.mark.parametrize(
+    ("train", "wheel", "word"),
+    [
+        ("worm", "w2", "worm"),
+        ("bevel-differential", "c41", "bevel"),
+        pytest.param("lantern-mill", "pit72", "contrate", marks=pytest.mark.slow),
+    ],
+)
+def test_what_has_no_flat_outline_is_refused_by_name_and_the_rest_is_written(train: str, wheel: str, word: str) -> None:
+    work = SolidModel(load(train), ManufacturingSizes(), load(train).states[0] if load(train).states else None)
+    assert any(f"'{wheel}'" in each.what and word in each.what for each in notices(work, ["svg"]))
+    with pytest.raises(GearTrainError, match=word):
+        wheel_file(work, wheel, ".svg")
+    assert any(each.path == "README.md" and wheel in each.make().decode() for each in export_files(work, ["svg"]))
+
+
+def test_both_plates_have_a_hole_at_every_axis_and_four_for_pillars_and_stand_round_them() -> None:
+    work = workpiece(module=2, bore=4)
+    plates = [each for each in export_files(work, ["svg"]) if each.path.startswith("plates/")]
+    assert [each.path for each in plates] == ["plates/frame-back-plate.svg", "plates/frame-front-plate.svg"]
+    for plate in plates:
+        drawn = polygon(from_svg(plate.make())["CUT"])
+        holes = [shapely.Polygon(ring) for ring in drawn.interiors]
+        axes = sorted(axis.point[:2] for axis in work.layout.axes.values())
+        nearest = [min(holes, key=lambda hole: hypot(hole.centroid.x - x, hole.centroid.y - y)) for x, y in axes]
+        centres = [(hole.centroid.x, hole.centroid.y) for hole in nearest]
+        assert len(holes) == 6
+        assert np.allclose(centres, axes, atol=1e-4)
+        assert hypot(*np.subtract(*centres)) == pytest.approx(60, abs=1e-4), "24 and 36 teeth of module 2: 60 mm"
+        pivot = 0.55 * 4 + 0.08
+        assert [hole.area for hole in nearest] == pytest.approx([pi * pivot**2 / 4] * 2, rel=1e-3)
+        assert all(ring.distance(drawn.exterior) > 2.9 for ring in drawn.interiors)
+
+
+def test_slots_are_as_long_as_the_pin_wanders() -> None:
+    """A pin at 9.6 mm about an axis 1.1 mm off comes as near as 8.5 mm, and as far as 10.7; it is 2 mm thick."""
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes(bore=2))
+    (wheel,) = [each for each in export_files(work, ["svg"]) if each.path.endswith("wheels/k2.svg")]
+    drawn = polygon(from_svg(wheel.make())["CUT"])
+    holes = [shapely.Polygon(ring) for ring in drawn.interiors]
+    slot = max(holes, key=lambda hole: hole.centroid.distance(shapely.Point(0, 0)))
+    ends = [shapely.Point(0, 0).distance(slot), shapely.Point(0, 0).hausdorff_distance(slot)]
+    assert ends == pytest.approx((8.5 - 1.1, 10.7 + 1.1), abs=2e-3)
+    assert slot.area == pytest.approx(np.pi * 1.1**2 + 2.2 * 2.2, rel=1e-3)
+    assert not [each for each in export_files(work, ["svg"]) if "plates/slot" in each.path], "no disc of its own"
+
+
+@given(st.lists(st.tuples(st.integers(-30, 30), st.integers(-30, 30)), min_size=1, max_size=9), st.integers(1, 9))
+def test_the_line_around_points_is_their_hull_made_thicker(points: list[tuple[int, int]], radius: int) -> None:
+    contour = around([(float(x), float(y)) for x, y in points], radius)
+    drawn = shapely.Polygon(unrolled([tuple(p) for p in contour.points], contour.bulges.tolist()))
+    true = shapely.MultiPoint(points).convex_hull.buffer(radius, quad_segs=64)
+    assert drawn.is_valid
+    assert drawn.symmetric_difference(true).area < 5e-3 * true.area
+
+
+def test_a_wheel_that_two_pairs_would_cut_otherwise_is_named() -> None:
+    text = """
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 30}}}}, c: {{wheels: {{x: 40}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{id: one, pair: [p, w], tooth_form: {first}}}, {{id: two, pair: [w, x], tooth_form: {second}}}]
+inputs: {{a: 1}}
+"""
+    for second, told in (("{form: involute, backlash: 0.2}", True), ("{form: cycloidal}", True), (INVOLUTE, False)):
+        work = SolidModel(declared(text.format(first=INVOLUTE, second=second)), ManufacturingSizes())
+        said = [each for each in notices(work, ["svg"]) if "its pairs 'one' and 'two'" in each.what]
+        assert len(said) == told
+        assert all(each.why and each.fix for each in said)
+
+
+@pytest.mark.parametrize("name", ["CON", "aux", "com1.x", "NUL.svg", "../x", "..", "a/b\\c:d", "/etc/passwd", "."])
+def test_no_name_leads_out_of_the_folder_or_is_one_that_windows_keeps(name: str) -> None:
+    (found,) = file_names([name])
+    assert not re.match(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)", found)
+    assert re.fullmatch(r"[\w+][\w.+-]*", found)
+
+
+@given(st.lists(st.text(max_size=12), max_size=12))
+def test_names_of_parts_become_names_of_files_that_differ(names: list[str]) -> None:
+    found = file_names(names)
+    assert len({name.lower() for name in found}) == len(names)
+    assert all(re.fullmatch(r"\w[\w.+-]*", name) or re.fullmatch(r"[\w+][\w.+-]*", name) for name in found)
+
+
+# ------------------------------------------------------------------------------------------------------ graphs, tables
+
+
+def test_graphml_is_read_back_by_networkx_with_every_link_and_pair() -> None:
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    graph = nx.parse_graphml(train_file(work, "graphml").decode(), force_multigraph=True)
+    declaration = work.train.declaration
+    assert set(graph) == set(declaration.links)
+    kinds = [data["kind"] for _, _, data in graph.edges(data=True)]
+    assert kinds.count("gear") == len(declaration.gears)
+    assert kinds.count("revolute") == len(declaration.revolutes)
+
+
+def test_dot_is_read_back_with_every_edge() -> None:
+    work = SolidModel(load("planetary"), ManufacturingSizes(), "ring fixed")
+    text = train_file(work, "dot").decode()
+    edges = re.findall(r'^  "([^"]*)" -- "([^"]*)" \[label="([^"]*)"', text, re.M)
+    declaration = work.train.declaration
+    joints = {(frozenset(joint.pair), joint.axis) for joint in declaration.revolutes}
+    owners = {wheel: link for link, part in declaration.links.items() for wheel in part.wheels}
+    pairs = {(frozenset(owners[wheel] for wheel in gear.pair), gear.name) for gear in declaration.gears}
+    assert len(edges) == len(declaration.revolutes) + len(declaration.gears)
+    assert {(frozenset((a, b)), label) for a, b, label in edges} == joints | pairs
+
+
+def tables(work: SolidModel) -> dict[str, list[dict[str, str]]]:
+    files = {each.path: each.make().decode() for each in export_files(work, ["csv"])}
+    return {
+        path[7:-4]: list(csv.DictReader(io.StringIO(text))) for path, text in files.items() if path.endswith(".csv")
+    }
+
+
+def test_tables_hold_exact_values_and_the_same_in_decimal() -> None:
+    """Against the textbook's arithmetic of a planetary whose ring is held."""
+    found = tables(SolidModel(load("planetary-24-18-60"), ManufacturingSizes()))
+    speeds = {row["link"]: Fraction(row["speed"]) for row in found["links"]}
+    # ring held: carrier = z_s / (z_s + z_r), planet from (w_p - w_c) z_p = -(w_s - w_c) z_s
+    carrier = Fraction(24, 24 + 60)
+    assert speeds["carrier"] == carrier
+    assert speeds["planet"] == carrier - Fraction(24, 18) * (1 - carrier)
+    for row in (*found["links"], *found["outputs"]):
+        assert float(row["speed_decimal"]) == pytest.approx(float(Fraction(row["speed"])), rel=1e-14)
+    assert {row["wheel"]: int(row["teeth"]) for row in found["wheels"]} == {"ring": 60, "s": 24, "p": 18}
+    for row in found["circuits"]:
+        a, b = int(row["a"]), int(row["b"])
+        assert Fraction(row["ratio"]) == Fraction(-b, a)
+
+
+@pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "bevel-differential", "zf-8hp70"])
+def test_every_row_of_a_declaration_is_in_its_tables(name: str) -> None:
+    train = load(name).unfolded
+    found = tables(SolidModel(train, ManufacturingSizes()))
+    assert {row["wheel"] for row in found["wheels"]} == set(train.declaration.wheels)
+    assert [row["pair"] for row in found["pairs"]] == [gear.name for gear in train.declaration.gears]
+    assert {row["link"] for row in found["links"]} == set(train.declaration.links)
+    assert len(found["couplings"]) == len(train.declaration.couplings)
+    assert {row["state"] for row in found["links"]} == (set(train.states) or {""})
+    assert all(row["holds"] == "yes" for row in found["outputs"])
+
+
+# ----------------------------------------------------------------------------------------------------------------- REXS
+
+# what REXS 1.4 says of the attributes used: unit, and key of the value
+ATTRIBUTES = {
+    "number_of_teeth": (None, "integer"),
+    "normal_module": ("mm", "floating_point"),
+    "axial_module": ("mm", "floating_point"),
+    "normal_pressure_angle": ("deg", "floating_point"),
+    "helix_angle_reference_diameter": ("deg", "floating_point"),
+    "pitch_angle": ("deg", "floating_point"),
+    "face_width": ("mm", "floating_point"),
+    "center_distance": ("mm", "floating_point"),
+    "u_coordinate_on_shaft": ("mm", "floating_point"),
+    "u_axis_vector": ("mm", "floating_point_array"),
+    "support_vector": ("mm", "floating_point_array"),
+    "w_axis_vector": ("mm", "floating_point_array"),
+    "reference_component_for_position": (None, "reference_component"),
+    "defines_speed": (None, "boolean"),
+    "rotational_speed": ("1 / min", "floating_point"),
+}
+COMPONENTS = {
+    *("gear_unit", "gear_casing", "shaft", "cylindrical_gear", "ring_gear", "bevel_gear", "worm_gear"),
+    *("cylindrical_stage", "bevel_stage", "worm_stage"),
+}
+
+
+def rexs(name: str) -> dict[str, object]:
+    train = load(name)
+    work = SolidModel(train, ManufacturingSizes(), train.states[0] if train.states else None)
+    return dict(json.loads(train_file(work, "rexs"))["model"])
+
+
+def attributes(model: dict) -> Iterator[dict]:  # type: ignore[type-arg]
+    for component in model["components"]:
+        yield from component["attributes"]
+    for case in model.get("load_spectrum", {"load_cases": []})["load_cases"]:
+        for component in case["components"]:
+            yield from component["attributes"]
+
+
+@pytest.mark.parametrize("name", ["planetary", "nrel-grc-750", "bevel-differential", "worm", "freeth-2021"])
+def test_rexs_has_the_parts_units_and_relations_that_its_version_1_4_allows(name: str) -> None:
+    model = rexs(name)
+    assert model["version"] == "1.4"
+    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+\d\d:\d\d", str(model["date"]))
+    components = {each["id"]: each for each in model["components"]}  # type: ignore[attr-defined]
+    assert len(components) == len(model["components"])  # type: ignore[arg-type]
+    assert {each["type"] for each in components.values()} <= COMPONENTS
+    for each in attributes(model):
+        unit, key = ATTRIBUTES[each["id"]]
+        assert each.get("unit") == unit
+        assert set(each) == {"id", key} | ({"unit"} if unit else set())
+    for relation in model["relations"]:  # type: ignore[attr-defined]
+        assert all(components[ref["id"]]["type"] == ref["hint"] for ref in relation["refs"])
+        roles = {ref["role"] for ref in relation["refs"]}
+        assert roles == {"assembly": {"assembly", "part"}, "stage": {"stage", "gear_1", "gear_2"}}[relation["type"]]
+
+
+def test_rexs_carries_teeth_distances_and_speeds_of_a_turbine_gearbox() -> None:
+    model = rexs("nrel-grc-750")
+    components = {each["name"]: each for each in model["components"]}  # type: ignore[attr-defined]
+    declaration = load("nrel-grc-750").declaration
+    for wheel, (_, kind) in declaration.wheels.items():
+        values = {each["id"]: each for each in components[wheel]["attributes"]}
+        assert values["number_of_teeth"]["integer"] == kind.count
+        assert components[wheel]["type"] == ("ring_gear" if kind.internal else "cylindrical_gear")
+    for first, second in pairwise(["s21", "p39"]):
+        stage = next(gear.name for gear in declaration.gears if set(gear.pair) == {first, second})
+        (distance,) = (each["floating_point"] for each in components[stage]["attributes"])
+        module = next(e["floating_point"] for e in components[first]["attributes"] if e["id"] == "normal_module")
+        assert distance == pytest.approx(module * (21 + 39) / 2)
+    running = model["load_spectrum"]["load_cases"][0]["components"]  # type: ignore[index]
+    speeds = {each["name"]: each["attributes"][0]["floating_point"] for each in running}
+    assert speeds["low"] / speeds["rotor"] == pytest.approx(1 + 99 / 21), "Willis: 1 + ring over sun"
+
+
+def test_helpers_of_this_file_measure_what_they_say() -> None:
+    square = unrolled([(0, 0), (2, 0), (2, 2), (0, 2)], [0, 1, 0, 0])
+    assert shapely.Polygon(square).area == pytest.approx(4 + pi / 2, rel=1e-2), "a half circle bulges out"
+    star = np.array([((1 + k % 2) * cos(pi * k / 5), (1 + k % 2) * sin(pi * k / 5)) for k in range(10)])
+    assert teeth_of(star, 1.5) == 5
+
+
+def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
+    """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels stand on them."""
+    data = {
+        "links": {
+            "frame": {},
+            "a": {"wheels": {"p": {"teeth": 20, "module": "2 mm"}}},
+            "b": {"wheels": {"q": {"teeth": 30}}},
+        },
+        "axes": {
+            "A": {"direction": ["1", "0", "0"], "position": ["0 mm", "0 mm", "0 mm"]},
+            "B": {"direction": ["1", "0", "0"], "position": ["7 mm", "30 mm", "40 mm"]},
+        },
+        "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+        "gears": [{"id": "G", "pair": ["p", "q"]}],
+        "inputs": {"a": 1},
+    }
+    work = SolidModel(GearTrain.declare(data), ManufacturingSizes())
+    (stage,) = (
+        part
+        for part in json.loads(train_file(work, "rexs"))["model"]["components"]
+        if part["type"] == "cylindrical_stage"
+    )
+    (distance,) = (each["floating_point"] for each in stage["attributes"] if each["id"] == "center_distance")
+    assert distance == pytest.approx(50, rel=1e-12)
+    assert tables(work)["pairs"][0]["distance_mm"] == "50"
+
+
+@pytest.mark.parametrize("sizes", ["module: 1 m", "module: 0.01 mm", "module: 1 mm, thickness: 2 m"])
+def test_wheels_declared_beyond_what_is_made_are_refused_by_their_place(sizes: str) -> None:
+    text = PAIR.format(z1=24, z2=36, form=INVOLUTE).replace("p: 24", f"p: {{teeth: 24, {sizes}}}")
+    work = SolidModel(declared(text), ManufacturingSizes())
+    with pytest.raises(GearTrainError, match="cannot be made") as found:
+        export_files(work, ["svg"])
+    assert all(each.place and each.why and each.fix for each in found.value.problems)

@@ -1,0 +1,442 @@
+"""Trials of trains cut by hand: against laws wheel by wheel, closed forms, an integral, and printed figures."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+from math import comb, log2, pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from sorge import Pair, least_play
+from studies.cut_pair_law import CutPairLaw
+from test_hand_cut_batch import chance_that_none_rises
+
+from geartrain import GearTrain, load
+from geartrain.numerics import Execution, IntervalEstimate, Journal, open_executor
+from geartrain.numerics.confidence_intervals import deviation_of, mean_of, percentile_of, wilson
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.workshop import (
+    TrialPlan,
+    TrialResults,
+    find_sobol_indices,
+    find_trial_plan,
+    read_error_overrides,
+    run_course,
+    run_trials,
+)
+from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
+from geartrain.workshop.monte_carlo.clearance_study import run_clearances
+from geartrain.workshop.monte_carlo.random_streams import RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers
+from geartrain.workshop.monte_carlo.trial_run import journal_key, trial_tasks
+
+
+def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> GearTrain:
+    """Pairs one after the other: the driven wheel of each sits on the arbor of the next driver."""
+    links: dict[str, Any] = {"frame": {}, "l0": {"wheels": {}}}
+    gears, joints = [], [{"pair": ["frame", "l0"], "axis": "A0"}]
+    for at, (z1, z2) in enumerate(counts):
+        links[f"l{at}"]["wheels"][f"p{at}"] = z1
+        links[f"l{at + 1}"] = {"wheels": {f"w{at}": z2}}
+        joints.append({"pair": ["frame", f"l{at + 1}"], "axis": f"A{at + 1}"})
+        gears.append({"id": f"g{at}", "pair": [f"p{at}", f"w{at}"]})
+    data = {
+        "name": "chain",
+        "links": links,
+        "revolutes": joints,
+        "gears": gears,
+        "inputs": {"l0": 1},
+        "outputs": {"end": {"of": f"l{len(counts)}"}},
+        "tooth_form": {"form": "triangular", "half_angle": "30 deg", "clearance": clearance},
+    }
+    return GearTrain.declare(data | more)
+
+
+def planned(train: GearTrain, *settings: str) -> TrialPlan:
+    return find_trial_plan(train, read_error_overrides(settings))
+
+
+EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %", "centre=2 %")
+
+# ------------------------------------------------------------------------------------------------------ printed figures
+
+
+@pytest.mark.parametrize("trials", [pytest.param(1024), pytest.param(100_000, marks=pytest.mark.slow)])
+def test_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
+    seen = []
+    for sigma in ("4.13 %", "5.16 %", "6.61 %"):
+        found = run_trials(planned(chain((64, 38)), f"placement={sigma}"), trials)
+        jam = found.train.events["jam"]
+        seen.append(jam.value)
+        assert jam.of == trials
+        assert jam.interval[0] <= found.pairs[0].bound
+        assert found.pairs[0].play == pytest.approx(0.368, abs=5e-4)
+    assert seen[0] < (0.01 if trials >= 10**5 else 0.02)
+    assert seen[1] == pytest.approx(0.16, abs=0.03 if trials >= 10**5 else 0.04)
+    assert seen[2] == pytest.approx(0.80, abs=0.05)
+
+
+def test_the_probability_of_a_jam_is_its_integral() -> None:
+    """An even driver, 38 driven teeth out of place by up to 0.1 of a pitch: neighbours alone can jam."""
+    plan = planned(chain((64, 38), clearance=1.01), "w0.placement=uniform 10 %")
+    play = least_play(Pair.of(plan.pairs[0].sizes, np))
+    coarse, fine = (chance_that_none_rises(38, play / (0.2 * 2 * pi / 38), nodes) for nodes in (400, 800))
+    true = 1 - (fine + (fine - coarse) / 3)
+    low, high = run_trials(plan, 4096).train.events["jam"].interval
+    margin = (high - low) / 2
+    assert low - margin < true < high + margin
+
+
+# ----------------------------------------------------------------------------------------------------------- one by one
+
+
+def test_every_trial_follows_the_law_of_its_own_wheels() -> None:
+    """All kinds of error, every trial asked at its own angle."""
+    plan = planned(chain((23, 16)), *EVERY)
+    drawn = draw_trial_wheels(plan, RandomStreams(3, 0), 40)
+    turns = np.random.default_rng(1).uniform(0, 16, 40)
+    found = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
+    pair, checked = drawn.pair(0), 0
+    for at in range(40):
+        if not drawn.good[0][at] or not drawn.good[1][at]:
+            continue
+        law = CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
+        lag = float(law.error(2 * pi * turns[at])) - plan.pairs[0].even
+        assert abs(found[at]) == pytest.approx(abs(lag), abs=1e-10)
+        checked += 1
+    assert checked > 30
+
+
+def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> None:
+    """An idler: driven in one pair, driving in the next, its teeth the same."""
+    train = chain((20, 31), (31, 24))
+    data = train.declaration.model_dump(mode="json", exclude_unset=True)
+    data["gears"][1]["pair"] = ["w0", "w1"]
+    del data["links"]["l1"]["wheels"]["p1"]
+    plan = planned(GearTrain.declare(data), "placement=2 %", "tip=3 %")
+    assert [wheel.name for wheel in plan.wheels] == ["p0", "w0", "w1"]
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 30)
+    first, second = drawn.pair(0), drawn.pair(1)
+    assert (first.second.place == second.first.place).all()
+    marks, play = judge_trial_pairs(drawn)
+    for at, pair in enumerate((first, second)):
+        verdicts = batch_verdicts(pair.sizes, pair.first, pair.second)
+        assert (((marks[:, at] & JAM) > 0) == verdicts.jams).all()
+        assert play[:, at] == pytest.approx(verdicts.play / pair.sizes.p2, abs=1e-12)
+
+
+def test_a_chain_is_one_law_after_the_other() -> None:
+    """The second driver turns as far as the first pair turns it, from where even teeth start; trial by trial."""
+    plan = planned(chain((24, 17), (19, 30)), *EVERY[:4])
+    drawn = draw_trial_wheels(plan, RandomStreams(5, 0), 25)
+    turns = np.random.default_rng(2).uniform(0, 100, 25)
+    found = trial_pointers(drawn, np.arange(25)).errors(turns)[0]
+    one, two = drawn.pair(0), drawn.pair(1)
+    even = 19 / 30 * plan.pairs[0].even + plan.pairs[1].even
+    lag = float(TriangularTransmission(one.sizes).angle(0.0))
+    for at in np.flatnonzero(drawn.good[0] & drawn.good[1] & drawn.good[2] & drawn.good[3]):
+        laws = [CutPairLaw.of(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)]
+        start = 2 * pi * float(turns[at])
+        middle = float(laws[0].angle(start)) - lag
+        end = float(laws[1].angle(middle)) + 19 / 30 * lag
+        assert found[at] == pytest.approx(end - 24 / 17 * 19 / 30 * start - even, abs=1e-9)
+
+
+def test_teeth_that_turn_against_their_numbering_are_seen_from_behind() -> None:
+    """A planet's wheel that turns one way against its arm and is measured so keeps its teeth in the other pair."""
+    wheel = CutWheel.even(9, 1.0, 0.5).placed(0.01 * np.arange(9.0))
+    back = wheel.mirrored()
+    assert back.place[1] == -wheel.place[8]
+    plan = find_trial_plan(load("freeth-2021-cut"), outputs=("moon",))
+    train = load("freeth-2021-cut").motion().train
+    signs: dict[str, set[int]] = {}
+    for pair in plan.pairs:
+        circuit = next(each for each in train.circuits if each.id == pair.name)
+        for number, mirrored in zip((pair.first, pair.second), pair.mirrored, strict=True):
+            name = plan.wheels[number].name
+            link = circuit.i if name == circuit.wheels[0] else circuit.j
+            speed = train.relative(link, circuit.carrier)
+            signs.setdefault(name, set()).add((-1 if speed < 0 else 1) * (-1 if mirrored else 1))
+    assert all(len(each) == 1 for each in signs.values())
+
+
+# --------------------------------------------------------------------------------------------------------- closed forms
+
+
+def even_teeth(plan: TrialPlan) -> tuple[TriangularTransmission, np.ndarray]:
+    """The law of even teeth, and angles over a pitch."""
+    law = TriangularTransmission(plan.pairs[0].sizes)
+    return law, (np.arange(2000) + 0.5) / 2000 * law.period
+
+
+def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
+    """One couple touches: a late driver's tooth lets the driven wheel lag by tau times as much, a late driven one not.
+
+    So the variance is that of even teeth, and the mean of tau squared times that of the one wheel, and of the other.
+    """
+    plan = planned(chain((64, 38)), "placement=0.6 %")
+    law, S = even_teeth(plan)
+    sigma1, sigma2 = 0.006 * 2 * pi / 64, 0.006 * 2 * pi / 38
+    ripple = law.error_moments()[1]
+    true = ripple**2 + float(np.mean(law.speed(S) ** 2)) * sigma1**2 + sigma2**2
+    pointer = run_trials(plan, 4096).pointers[0]
+    # near a change of couples the lesser of two is taken: some hundredths of the variance
+    assert pointer.deviation.value**2 == pytest.approx(true, rel=0.1)
+    fine = planned(chain((64, 38)), "placement=0.06 %")
+    small = draw_trial_wheels(fine, RandomStreams(1, 0))
+    turns = np.random.default_rng(4).uniform(0, 19, 256)
+    errors = trial_pointers(small, np.arange(256)).errors(turns)[0]
+    even = np.asarray(law.error(2 * pi * turns)) - law.error_moments()[0]
+    part = np.abs(errors) - np.abs(even)
+    assert part.std() < 3 * sigma2
+
+
+def test_the_first_order_is_right_to_the_second_away_from_changes_of_couples() -> None:
+    plan = planned(chain((64, 38)), "placement=1 %")
+    law, _ = even_teeth(plan)
+    pitch = law.period
+    # the middle of the longest stretch without corners
+    corners = [c % pitch for c in law.corners()]
+    corners = [*sorted(corners), min(corners) + pitch]
+    a, b = max(pairwise(corners), key=lambda pair: pair[1] - pair[0])
+    S = (a + b) / 2
+    left = []
+    for scale in (0.02, 0.04):
+        drawn = draw_trial_wheels(plan.scaled(scale), RandomStreams(2, 0), 200)
+        errors = trial_pointers(drawn, np.arange(200)).laws["g0"].error(np.full(200, S))
+        one, two = drawn.pair(0).first.place, drawn.pair(0).second.place
+        sizes = plan.pairs[0].sizes
+        even = CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
+        couples = CutPairLaw.of(sizes, *even).driving(np.array([S]))
+        first = -(float(law.speed(S)) * one[:, couples[0][0]] - two[:, couples[1][0]])
+        left.append(np.abs(errors - float(law.error(S)) - first).mean())
+    assert 1.8 < log2(left[1] / left[0]) < 2.2
+
+
+def test_a_fixed_error_of_the_distance_is_another_clearance() -> None:
+    plan = planned(chain((40, 27)), "placement=3 %", "centre=value 10 %")
+    bare = planned(chain((40, 27)), "placement=3 %")
+    pair = bare.pairs[0]
+    factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.deepest_distance
+    _, play = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
+    _, true = judge_trial_pairs(draw_trial_wheels(bare.cleared(factor), RandomStreams(1, 0), 50))
+    # one is reckoned from tables, the other couple by couple
+    assert play == pytest.approx(true, abs=2e-4)
+
+
+def test_errors_are_read_in_the_units_of_their_wheel() -> None:
+    data = chain((30, 20)).declaration.model_dump(mode="json", exclude_unset=True)
+    data["links"]["l0"]["wheels"]["p0"] = {
+        "teeth": 30,
+        "module": "0.5 mm",
+        "cutting": {
+            "placement": {"normal": "0.6 deg"},
+            "eccentricity": {"value": "0.1 mm"},
+            "eccentric_at": "90 deg",
+            "aperture": {"uniform": "3 deg"},
+        },
+    }
+    measured = [f"{at / 100:g} deg" for at in range(20)]
+    data["links"]["l1"]["wheels"]["w0"] = {"teeth": 20, "cutting": {"measured": {"placement": measured}}}
+    plan = find_trial_plan(GearTrain.declare(data))
+    first, second = plan.wheels
+    assert first.errors["placement"].size == pytest.approx(0.6 / 12)
+    assert first.errors["aperture"].size == pytest.approx(3 / 60)
+    # the pitch circle, 7.5 mm, lies in the middle of teeth whose flanks stand at 30 degrees to the radius
+    outer = 7.5 / (1 - first.depth / 2)
+    assert first.errors["eccentricity"].size * first.depth * outer == pytest.approx(0.1)
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3).pair(0)
+    # ahead is early: a tooth's arrays count how late it is
+    assert drawn.second.place == pytest.approx(-np.radians(np.arange(20) / 100))
+    # seen as the wheel turns forward, ahead is counted up: the middle lies 0.1 mm a quarter of a turn from the first
+    tips = drawn.first.r * np.exp(-1j * drawn.first.theta)
+    middle = np.mean(tips, axis=1) * outer / drawn.sizes.R1
+    assert middle.imag == pytest.approx(0.1, abs=0.05)
+    assert second.tables
+
+
+# -------------------------------------------------------------------------------------------------- the same every time
+
+
+class CutError(Exception):
+    """Stands for a kill."""
+
+
+def blocks_until(stop: int) -> Any:
+    def tell(done: int, total: int) -> None:
+        if done >= stop:
+            raise CutError
+
+    return tell
+
+
+def same(one: Any, other: Any) -> bool:
+    names = ("marks", "turns", "errors")
+    arrays = all(getattr(one, name).tobytes() == getattr(other, name).tobytes() for name in names)
+    return arrays and one.first == other.first and one.sums == other.sums
+
+
+@cache
+def nine_hundred() -> tuple[TrialPlan, TrialResults]:
+    """Trials in one go, against which all ways of sharing them out are held."""
+    plan = planned(chain((12, 10), (9, 8)), "placement=2 %", "tip=2 %")
+    return plan, run_trials(plan, 900, 7)
+
+
+@pytest.mark.parametrize(
+    "workers", [lambda: ThreadPoolExecutor(2), pytest.param(lambda: open_executor(2), marks=pytest.mark.slow)]
+)
+def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: Any, tmp_path: Path) -> None:
+    plan, true = nine_hundred()
+    asked = journal_key(plan, 7, 900)
+    path = tmp_path / "journal"
+    for stop in (1, 3):
+        with Journal(path, asked) as journal, pytest.raises(CutError):
+            run_trials(plan, 900, 7, Execution(None, journal, blocks_until(stop)))
+    with Journal(path, asked) as journal:
+        assert 0 < len(journal) < 16
+    with workers() as executor:
+        with Journal(path, asked) as journal:
+            assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
+            assert len(journal) == 16
+        assert same(run_trials(plan, 900, 7, Execution(executor)), true)
+
+
+def test_fewer_trials_are_the_first_of_many_and_another_seed_draws_others() -> None:
+    plan, true = nine_hundred()
+    fewer = run_trials(plan, 300, 7)
+    assert (fewer.errors == true.errors[:300]).all()
+    assert not (run_trials(plan, 300, 8).errors == fewer.errors).any()
+
+
+@pytest.mark.parametrize(("trials", "cases"), [(1, 1), (31, 1), (33, 3), (400, 1), (400, 20), (1000, 1), (9999, 1)])
+def test_tasks_are_every_trial_once_none_across_blocks_and_enough_for_eight_workers(trials: int, cases: int) -> None:
+    tasks = trial_tasks(trials, cases)
+    assert [at for first, count in tasks for at in range(first, first + count)] == list(range(trials))
+    assert all(first // 256 == (first + count - 1) // 256 for first, count in tasks)
+    shares = [sum(count for _, count in tasks[worker::8]) for worker in range(8)]
+    if trials >= 400 and cases == 1:
+        assert max(shares) <= 1.3 * trials / 8
+
+
+def test_greater_errors_are_the_same_errors_and_other_clearances_meet_the_same_wheels() -> None:
+    plan, higher = (planned(chain((20, 15)), "placement=2 %", f"tip={tip} %", "eccentricity=4 %") for tip in (2, 4))
+    one, twice = (draw_trial_wheels(each, RandomStreams(1, 0), 5).wheels[0] for each in (plan, higher))
+    assert np.allclose(twice.place, one.place, atol=2e-3)
+    placed = [
+        draw_trial_wheels(each, RandomStreams(1, 0), 5)
+        for each in (planned(chain((20, 15)), f"placement={s} %") for s in (1, 2))
+    ]
+    assert placed[1].wheels[0].place == pytest.approx(2 * placed[0].wheels[0].place)
+    assert (
+        draw_trial_wheels(plan.cleared(1.03), RandomStreams(1, 0), 5).wheels[1].place
+        == draw_trial_wheels(plan, RandomStreams(1, 0), 5).wheels[1].place
+    ).all()
+
+
+# ------------------------------------------------------------------------------------------------------------ intervals
+
+
+@pytest.mark.parametrize(("count", "of"), [(3, 40), (0, 25), (17, 17), (500, 1000)])
+def test_wilsons_interval_ends_where_the_deviation_is_z(count: int, of: int) -> None:
+    low, high = wilson(count, of)
+    z = 1.959963984540054
+    for p in (low, high):
+        if 0 < p < 1:
+            assert (count / of - p) ** 2 == pytest.approx(z**2 * p * (1 - p) / of, rel=1e-9)
+    assert low <= count / of <= high
+
+
+def test_wilsons_interval_holds_about_as_often_as_it_says() -> None:
+    for p in (0.02, 0.1, 0.5):
+        held = [wilson(k, 200)[0] <= p <= wilson(k, 200)[1] for k in range(201)]
+        cover = sum(comb(200, k) * p**k * (1 - p) ** (200 - k) for k in range(201) if held[k])
+        assert 0.93 < cover < 0.98
+
+
+def test_intervals_of_means_deviations_and_percentiles_hold_as_often_as_they_say() -> None:
+    """Of an exponential distribution: mean 1, deviation 1, median log 2."""
+    rng, held = np.random.default_rng(9), np.zeros(3)
+    for _ in range(400):
+        values = rng.exponential(size=400)
+        ends = (mean_of(values), deviation_of(values), percentile_of(np.sort(values), 50))
+        held += [each.low <= true <= each.high for each, true in zip(ends, (1, 1, np.log(2)), strict=True)]
+    assert (held / 400 > (0.92, 0.88, 0.92)).all()
+    assert (held / 400 < 0.99).all()
+
+
+# -------------------------------------------------------------------------------------------------------------- studies
+
+
+def test_total_indices_are_the_shares_of_the_closed_form() -> None:
+    """Each wheel's total share is its part of the variance; where the input stands takes part in all of it."""
+    plan = planned(chain((64, 38)), "p0.placement=0.5 %", "w0.placement=0.9 %")
+    law, S = even_teeth(plan)
+    parts = np.array([float(np.mean(law.speed(S) ** 2)) * (0.005 * 2 * pi / 64) ** 2, (0.009 * 2 * pi / 38) ** 2])
+    whole = parts.sum() + law.error_moments()[1] ** 2
+    found = {each.name: each for each in find_sobol_indices(plan, 0, "wheel", 1024).indices}
+    assert found["p0"].total.value == pytest.approx(parts[0] / whole, abs=0.07)
+    assert found["w0"].total.value == pytest.approx(parts[1] / whole, abs=0.09)
+    assert found["position"].total.value > 0.85
+    assert all(each.first.value <= each.total.value + 0.1 for each in found.values())
+    kinds = {each.name for each in find_sobol_indices(plan, 0, "kind", 64).indices}
+    assert kinds == {"placement", "position"}
+
+
+def test_variance_shares_sum_to_one_and_follow_the_sensitivities() -> None:
+    """Of two pairs, the share of each is its variance times the square of what stands behind it."""
+    plan = planned(chain((48, 40), (32, 60)), "placement=0.5 %")
+    found = run_trials(plan, 2048)
+    shares = found.pointers[0].shares
+    assert sum(shares.values()) == pytest.approx(1)
+    alone = []
+    for pair, factor in zip(plan.pairs, (32 / 60, 1.0), strict=True):
+        law = TriangularTransmission(pair.sizes)
+        S = (np.arange(2000) + 0.5) / 2000 * law.period
+        sigma = [0.005 * 2 * pi / z for z in (pair.sizes.z1, pair.sizes.z2)]
+        own = law.error_moments()[1] ** 2 + float(np.mean(law.speed(S) ** 2)) * sigma[0] ** 2 + sigma[1] ** 2
+        alone.append(factor**2 * own)
+    assert shares["g0"] == pytest.approx(alone[0] / sum(alone), abs=0.06)
+    off, size = found.pointers[0].first
+    assert 0 < off < size
+
+
+def test_more_clearance_jams_less_and_every_clearance_meets_the_same_wheels() -> None:
+    plan = planned(chain((64, 38)), "placement=3 %")
+    found = run_clearances(plan, [1.008, 1.012, 1.016, 1.02], 256)
+    jams = [each.events["jam"].count for each in found]
+    assert jams == sorted(jams, reverse=True)
+    assert jams[0] > jams[-1]
+    assert found[-1].events["jam"].count == run_trials(plan, 256).train.events["jam"].count
+
+
+def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
+    plan = planned(chain((20, 15)), "placement=2 %")
+    course = run_course(plan, 0, 40, trials=60)
+    bands = course.bands()
+    assert (np.diff(bands, axis=0) >= 0).all()
+    assert course.turns[-1] == pytest.approx(15 / 20)
+    alone = trial_pointers(draw_trial_wheels(plan, RandomStreams(1, 1 << 20), 60), np.full(40, 7)).errors(course.turns)[
+        0
+    ]
+    assert course.errors[7] == pytest.approx(alone, abs=1e-12)
+    assert course.greatest[7] == pytest.approx(np.abs(alone).max())
+
+
+def test_a_cycle_of_teeth_is_no_longer_than_it_is() -> None:
+    """Positions are drawn from all that the train can do before it repeats."""
+    plan = planned(chain((20, 15), (14, 21)), "placement=1 %")
+    # all teeth stand as at the start when both arbors of every pair have made whole turns
+    speeds = (Fraction(1), Fraction(20, 15), Fraction(20, 15) * Fraction(14, 21))
+    turns = next(n for n in range(1, 100) if all((n * speed).denominator == 1 for speed in speeds))
+    assert plan.span == turns
+
+
+def test_what_is_not_known_is_told_as_nothing() -> None:
+    assert IntervalEstimate(1.0, float("-inf"), 2.0).to_dict() == [1.0, None, 2.0]

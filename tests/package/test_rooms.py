@@ -143,6 +143,8 @@ def exists(name: str) -> bool:
     """Whether a dotted name is a module, or an attribute of one, or an attribute of that."""
     parts = name.split(".")
     known = max(at for at in range(1, len(parts) + 1) if ".".join(parts[:at]) in modules())
+    if known == len(parts):  # not imported, for a module of an extra cannot be where that is missing
+        return True
     thing: object = importlib.import_module(".".join(parts[:known]))
     for part in parts[known:]:
         if not hasattr(thing, part):

@@ -137,7 +137,7 @@ class Trial:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        for name in ("geartrain", "tests", "trains", "evidence", "docs", "README.md", "pyproject.toml", "CHANGELOG.md"):
+        for name in ("geartrain", "tests", "trains", "docs", "README.md", "pyproject.toml", "CHANGELOG.md"):
             part = ROOT / name
             if part.is_dir():
                 shutil.copytree(part, folder / name, ignore=shutil.ignore_patterns("__pycache__", "node_modules"))

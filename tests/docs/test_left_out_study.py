@@ -145,6 +145,7 @@ def test_a_pointer_of_each_speed_needs_an_arbor() -> None:
     assert fewest_new_arbors(replace(problem, dials=(dials[0], near))) == 1
 
 
+@pytest.mark.slow
 def test_a_kept_run_is_added_to() -> None:
     kept = left_out(["watch-going-train"], limit=0.0)
     rows = [replace(row, reached=None, told=None) for row in kept.rows if len(row.lost) == 1]

@@ -57,11 +57,12 @@ def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem
     return replace(problem, dials=tuple(replace(dial, place=None) for dial in problem.dials), additions=limits)
 
 
+@pytest.mark.parametrize("seeds", [range(700, 730), pytest.param(range(730, 760), marks=pytest.mark.slow)])
 @pytest.mark.parametrize("part", range(4))
-def test_a_candidate_breaks_no_rule_just_where_plain_growth_finds_it(part: int) -> None:
+def test_a_candidate_breaks_no_rule_just_where_plain_growth_finds_it(part: int, seeds: range) -> None:
     kept = broken = 0
     rules = set[str]()
-    for seed in range(700, 760):
+    for seed in seeds:
         problem = random_problem(seed, idlers=True)
         right = {tree for found in explanations(problem) for tree in found.mechanisms}
         for found in explanations(loosened(problem, part)):
@@ -70,8 +71,8 @@ def test_a_candidate_breaks_no_rule_just_where_plain_growth_finds_it(part: int) 
                 assert (not rank) == (tree in right), (seed, tree, rank)
                 kept, broken = kept + (not rank), broken + bool(rank)
                 rules |= {one.rule for one in rank}
-    assert kept > 50
-    assert broken > 100
+    assert kept > 25
+    assert broken > 50
     assert (
         rules
         >= [{"seen", "apart", "idler"}, {"count"}, {"speed", "wheel", "arbor"}, {"place", "teeth", "beside"}][part]

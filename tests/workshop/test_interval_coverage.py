@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrain
-from geartrain.numerics import IntervalEstimate
-from geartrain.numerics.confidence_intervals import PERCENTILES, deviation_of, percentile_of, wilson
+from geartrain.numerics.confidence_intervals import PERCENTILES, IntervalEstimate, deviation_of, percentile_of, wilson
 from geartrain.workshop import TrialPlan, find_trial_plan, run_trials
 
 REPEATS, TRIALS = 400, 256
@@ -89,6 +88,7 @@ def shares_outside(held: Counter[str]) -> dict[str, float]:
     return {name: count / REPEATS for name, count in held.items() if not 0.93 <= count / REPEATS <= 0.97}
 
 
+@pytest.mark.slow
 def test_intervals_of_jams_cover_their_probabilities_in_93_to_97_percent_of_400_repeats() -> None:
     # some pair of the chain jams in 70 %: 1 - 0.95 * 0.7 * (1 - rest)^2
     rest = 1 - sqrt(0.3 / (0.95 * 0.7))
@@ -102,6 +102,7 @@ def test_intervals_of_jams_cover_their_probabilities_in_93_to_97_percent_of_400_
     assert shares_outside(held) == {}
 
 
+@pytest.mark.slow
 def test_intervals_of_pointers_cover_the_truth_in_93_to_97_percent_of_400_repeats() -> None:
     plan, held = plan_of({}, list(POINTERS)), Counter[str]()
     for seed in range(REPEATS):

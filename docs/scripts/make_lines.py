@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from geartrain import shipped
 from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,7 +32,7 @@ def main() -> None:
 
 def _rows() -> Iterator[str]:
     whole = [0, 0]
-    for path in sorted((ROOT / "trains").glob("*/*.yaml"), key=lambda each: each.stem):
+    for path in (path for _, path in sorted(shipped().items())):
         text = path.read_text(encoding="utf-8")
         counts = [len(each(text).splitlines()) for each in (with_long_forms, with_short_forms)]
         whole = [total + count for total, count in zip(whole, counts, strict=True)]

@@ -1,4 +1,4 @@
-"""Numbers, arrays, files and independent work: nothing in this room knows what a gear is.
+"""Numbers, arrays, files and independent work, without any knowledge of gears.
 
 In: numbers and tasks. Out: exact solutions of sparse systems, roots, piecewise functions, quantities with units,
 results of tasks in their order. Most of it is for the rooms above; a user meets quantities and figures in declarations,
@@ -7,18 +7,17 @@ labelled arrays and long floats in answers, and runs long questions with an exec
 Exact numbers
     exact, decimal_text, factored_ratios  integers and Fractions of any length, and their text
     elimination                           sparse linear forms over the rationals
-    integer_columns, integer_lattice      columns of integers of any length; integer rows in a rational span
+    integer_lattice                       integer rows in a rational span
     rational_angles                       angles as parts of a turn
     calendar_dates                        dates and Julian days in the Julian and the Gregorian calendar
-    weighted_alternatives                 alternatives with weights: totals, marginals, draws
 Floats
     long_float, error_free                floats with an exponent of their own; sums and products with their error
     rounding_bounds, bounded_polynomials  a priori bounds on rounding; polynomials in float64 with such bounds
     sparse_least_squares                  least squares with a few entries a row
     roots, simultaneous_roots             bracketed roots, one by one and many at once
-    global_minimum, range_extremes        the minimum of a function with kinks; extremes of runs of a row
+    range_extremes                        extremes of runs of a row
     chebyshev, polynomial_pieces          functions as series and as pieces of polynomials
-    batch_means, information              intervals of means of correlated values; information in bits
+    confidence_intervals                  confidence intervals of means and probabilities
     vectors, polylines                    vectors in space, exact where they are; lines of points
     kernels, compilation                  functions in plain Python that can be compiled; the time in which they are
 Graphs
@@ -43,6 +42,8 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.numerics.confidence_intervals import IntervalEstimate as IntervalEstimate
+    from geartrain.numerics.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
     from geartrain.numerics.labelled_array import LabelledArray as LabelledArray
     from geartrain.numerics.long_float import LongFloat as LongFloat
     from geartrain.numerics.quantity import Figure as Figure
@@ -52,13 +53,25 @@ if TYPE_CHECKING:
     from geartrain.numerics.work.task_runner import Execution as Execution
     from geartrain.numerics.work.task_runner import run as run
 
-__all__ = ["Execution", "Figure", "Journal", "LabelledArray", "LongFloat", "Quantity", "open_executor", "run"]
+__all__ = [
+    "Execution",
+    "Figure",
+    "IntervalEstimate",
+    "Journal",
+    "LabelledArray",
+    "LongFloat",
+    "ProbabilityEstimate",
+    "Quantity",
+    "open_executor",
+    "run",
+]
 
 __getattr__ = lazy_names(
     __name__,
     {
         "Execution": "work.task_runner",
         "Figure": "quantity",
+        **dict.fromkeys(("IntervalEstimate", "ProbabilityEstimate"), "confidence_intervals"),
         "Journal": "work.journal",
         "LabelledArray": "labelled_array",
         "LongFloat": "long_float",

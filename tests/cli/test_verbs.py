@@ -9,7 +9,9 @@ import sys
 import pytest
 from commands import call, functions
 
-BEHIND_VERSION = {"geartrain", "geartrain.cli", "geartrain.errors", "geartrain.numerics"}
+from geartrain.wings import WINGS
+
+BEHIND_VERSION = {"geartrain", "geartrain.cli", "geartrain.errors", "geartrain.numerics", "geartrain.wings"}
 BEHIND_SOLVE = {
     *BEHIND_VERSION,
     *("geartrain.analysis", "geartrain.kinematics", "geartrain.train", "geartrain.teeth", "geartrain.numerics"),
@@ -61,14 +63,18 @@ def test_solve_brings_the_rooms_that_solve_and_no_other_verb(more: tuple[str, ..
 def test_a_verb_brings_no_page_but_its_own() -> None:
     pages = {name for name in loaded("torques", "norton-planetary") if name.startswith("geartrain.report.")}
     assert "geartrain.report.torque_report" in pages
-    assert not pages & {f"geartrain.report.{other}" for other in ("spherical_report", "tooth_numbers", "motion_report")}
+    assert not pages & {f"geartrain.report.{other}" for other in ("spherical_report", "pair_page", "motion_report")}
 
 
-def test_every_verb_is_one_file_called_like_it() -> None:
+def test_every_command_has_a_module_of_its_own_with_its_name_or_in_the_folder_of_its_capability() -> None:
+    homes = set()
     for name, function in functions():
-        path = f"geartrain.cli.{name.replace(' ', '.')}"
-        in_one_file = name.startswith(("bench ", "mesh "))  # benchmarks are alike, and so are forms of teeth
-        assert in_one_file or function.__module__ == path, name
+        if name.startswith("mesh "):  # forms of teeth are alike
+            continue
+        _, package, *inner = function.__module__.split(".")
+        assert inner == name.split() if package == "cli" else package in WINGS and inner[-1].endswith("verb"), name
+        homes.add(function.__module__)
+    assert len(homes) == sum(not name.startswith("mesh ") for name, _ in functions())
 
 
 def test_help_lists_every_verb_with_what_it_does() -> None:

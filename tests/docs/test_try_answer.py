@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 import shipped
 import yaml
+from places import train_files
 
 ROOT = Path(__file__).parent.parent.parent
 HEAVY = ("numpy", "scipy", "matplotlib", "pandas", "sympy", "shapely")
@@ -42,7 +43,7 @@ def answers(folder: Path, texts: list[str]) -> list[dict[str, Any]]:
 
 @cache
 def texts() -> dict[str, str]:
-    return {path.stem: path.read_text(encoding="utf-8") for path in sorted((ROOT / "trains").glob("*/*.yaml"))}
+    return {path.stem: path.read_text(encoding="utf-8") for path in train_files()}
 
 
 @pytest.fixture(scope="module")

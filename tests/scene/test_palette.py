@@ -139,7 +139,7 @@ def sources() -> list[Path]:
     plots = [
         *docs.glob("scripts/make_*.py"),
         *docs.glob("scripts/studies/*.py"),
-        *(ROOT / "geartrain" / "drawing").rglob("*.py"),
+        *(path for path in (ROOT / "geartrain" / "drawing").rglob("*.py") if path.stem != "flat_files"),  # cut by laser
     ]
     return [*viewer.rglob("*.js"), *viewer.rglob("*.css"), *plots]
 

@@ -21,6 +21,8 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import yaml
 
+from geartrain import shipped
+
 ROOT = Path(__file__).resolve().parents[3]
 SOURCES = Path(__file__).resolve().parent / "try"
 KEPT = ROOT / "build" / "try"
@@ -53,7 +55,7 @@ def make() -> dict[str, Path]:
 def _make(folder: Path) -> None:
     _bundle(folder)
     _pack(folder / "packages.zip")
-    trains = {path.stem: _example(path) for path in sorted((ROOT / "trains").glob("*/*.yaml"))}
+    trains = {name: _example(path) for name, path in shipped().items()}
     (folder / "examples.json").write_text(json.dumps(trains), encoding="utf-8")
     fetched = [folder / "packages.zip", *(folder / "pyodide").glob("*.wasm"), *(folder / "pyodide").glob("*.zip")]
     sizes = {"total": sum(path.stat().st_size for path in fetched)}

@@ -96,6 +96,7 @@ def test_a_stopped_run_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_of_what_is_not_finished_less_is_asked() -> None:
     full = {tuple(row.lost): row for row in left_out(["watch-going-train"]).rows}
     found = left_out(["watch-going-train"], limit=0.0)

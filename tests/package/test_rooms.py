@@ -14,6 +14,7 @@ from typing import NamedTuple
 import networkx
 from places import ROOT, TESTS
 
+from geartrain.errors import MissingExtraError
 from geartrain.wings import WINGS
 
 PACKAGE = ROOT / "geartrain"
@@ -143,9 +144,10 @@ def exists(name: str) -> bool:
     """Whether a dotted name is a module, or an attribute of one, or an attribute of that."""
     parts = name.split(".")
     known = max(at for at in range(1, len(parts) + 1) if ".".join(parts[:at]) in modules())
-    if known == len(parts):  # not imported, for a module of an extra cannot be where that is missing
-        return True
-    thing: object = importlib.import_module(".".join(parts[:known]))
+    try:
+        thing: object = importlib.import_module(".".join(parts[:known]))
+    except MissingExtraError:  # the module is there, and the library that it imports is not installed
+        return known == len(parts)
     for part in parts[known:]:
         if not hasattr(thing, part):
             return False

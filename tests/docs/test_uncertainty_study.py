@@ -80,6 +80,7 @@ def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_play_and_only_ther
 # --------------------------------------------------------------------------------------------------------------- ways
 
 
+@pytest.mark.slow
 def test_counts_in_a_batch_are_solved_trains(records: UncertaintyRecords) -> None:
     asked = Counted("freeth-2008", 40)
     singles = asked.singly(8)

@@ -578,6 +578,7 @@ def of_drawing(module: str) -> bool:
     return Path(module).parent.name == "drawing"
 
 
+@pytest.mark.slow
 def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
     """Steps are entries into functions of the plan's modules, among them one for each comparison of a spot."""
     counts: list[int] = []

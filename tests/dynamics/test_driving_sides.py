@@ -390,6 +390,7 @@ def test_what_is_set_away_is_the_lag_of_the_teeth() -> None:
 UNLOADED = "extends: pennestri-2002-teeth\nname: unloaded\nloads: null\n"
 
 
+@pytest.mark.slow
 def test_where_power_leaves_it_open_both_ways_are_given(train_file: Callable[[str], Path]) -> None:
     found = json.loads(call("report", str(train_file(UNLOADED)), "--json").stdout)
     (found,) = found if isinstance(found, list) else (found,)

@@ -83,6 +83,7 @@ def _run(motion: Motion, turns: float, samples: int) -> MotionRun:
     return run
 
 
+@pytest.mark.slow
 def test_a_run_too_long_to_be_searched_says_how_far_it_may_be_off() -> None:
     motion = load("freeth-2021-teeth").motion(outputs=["moon"])
     (tally,) = _run(motion, 5_000, 2_000).tallies

@@ -32,7 +32,6 @@ def tables() -> dict[str, Tabular]:
 
 @pytest.mark.needs("pandas")
 @pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "search", "strength", "array"])
-@pytest.mark.needs("pandas")
 def test_frames_and_records_hold_the_columns(name: str) -> None:
     table = tables()[name]
     frame, records = table.to_frame(), table.to_records()
@@ -44,7 +43,6 @@ def test_frames_and_records_hold_the_columns(name: str) -> None:
     assert table._repr_html_().startswith("<")
 
 
-@pytest.mark.needs("pandas")
 @pytest.mark.needs("pandas")
 def test_an_answer_is_exact_beside_its_floats() -> None:
     frame = geartrain.load("planetary-24-18-60").solve().to_frame().set_index("link")
@@ -89,7 +87,6 @@ def test_a_run_in_time_has_a_row_a_sample() -> None:
 
 
 @pytest.mark.needs("pandas")
-@pytest.mark.needs("pandas")
 def test_counts_in_doubt_have_a_row_a_count() -> None:
     from geartrain.search import infer_counts
 
@@ -104,7 +101,6 @@ def test_counts_in_doubt_have_a_row_a_count() -> None:
 
 
 @pytest.mark.needs("pandas")
-@pytest.mark.needs("pandas")
 def test_a_run_of_a_motion_has_a_row_an_output() -> None:
     from geartrain.dynamics import MotionRun
 
@@ -117,7 +113,6 @@ def test_a_run_of_a_motion_has_a_row_an_output() -> None:
     assert row["slowest"] < 1 < row["fastest"]
 
 
-@pytest.mark.needs("pandas")
 @pytest.mark.needs("pandas")
 def test_best_sizes_have_a_row_a_design() -> None:
     from geartrain.workshop import ToothSizes, find_tooth_sizes

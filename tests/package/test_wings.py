@@ -91,6 +91,7 @@ def test_every_command_of_the_core_runs_without(wings: tuple[str, ...], tmp_path
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 def test_tests_of_the_core_pass_without_all_wings(tmp_path: Path) -> None:
     environment = stripped(tmp_path, WINGS)
     shutil.copytree(ROOT / "tests", tmp_path / "tests", ignore=shutil.ignore_patterns("__pycache__"))

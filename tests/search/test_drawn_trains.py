@@ -7,6 +7,7 @@ from random import Random
 
 import pytest
 from concrete_trees import Node, concrete, explanations, random_problem, with_rings
+from sampling import first_few
 
 from geartrain.search.reconstruct.evidence_question import evidence_question
 from geartrain.search.reconstruct.reconstruction_search import draw_candidates, find_reconstructions
@@ -17,7 +18,7 @@ DRAWS = 60
 """For each train, on average."""
 
 
-@pytest.mark.parametrize("rings", [False, True])
+@pytest.mark.parametrize("rings", first_few(1, [True, False]))
 def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
     chance, tried = Random(1), 0
     for seed in range(300, 340):
@@ -40,6 +41,7 @@ def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
     assert tried > (3 if rings else 20)
 
 
+@pytest.mark.slow
 def test_trains_of_different_weights_are_drawn_by_them() -> None:
     problem = evidence_question(read_evidence("isfahan-without-pivot"), 3).problem
     found = find_reconstructions(problem, listed=10_000)

@@ -27,7 +27,13 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 from geartrain.train.declaration_files import read_evidence
 
-LONG = {"b byzantine", "random 1016", "medium 7004"}  # each some seconds
+LONG = {  # each some seconds
+    "b byzantine",
+    "random 1016",
+    "medium 7004",
+    "back with doubts, Metonic+Saros",
+    "back with doubts and c d e (sure), Metonic+Saros+Moon",
+}
 QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
 
 

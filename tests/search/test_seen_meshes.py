@@ -37,7 +37,9 @@ def ringed(seed: int) -> ReconstructionProblem:
     return with_rings(random_problem(seed, wheels=1), seed)
 
 
-@pytest.mark.parametrize(("kind", "least"), [(plain, 40), (with_idlers, 40), (ringed, 10)])
+@pytest.mark.parametrize(
+    ("kind", "least"), [(plain, 40), pytest.param(with_idlers, 40, marks=pytest.mark.slow), (ringed, 10)]
+)
 def test_questions_of_which_meshes_were_seen_have_the_answers_of_plain_growth(
     kind: Callable[[int], ReconstructionProblem], least: int
 ) -> None:

@@ -311,6 +311,7 @@ tooth_form: {{{each}, backlash: 0.05}}
     assert notes == [[advice], []]
 
 
+@pytest.mark.slow
 def test_what_check_says_stands_in_the_verdict_with_its_rule() -> None:
     """Seven planets stand in two layers where no tips meet; what the declaration says is told all the same."""
     model = declared("""

@@ -32,6 +32,7 @@ settings.load_profile("laws")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--long", action="store_true", help="also run the tests marked long")
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
     parser.addoption("--rest", action="store_true", help="leave out what passed in the last run without --rest")
     parser.addoption("--trains", type=int, default=1000, help="how many random trains each law is held on (1000)")
@@ -42,6 +43,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: more than a few seconds; runs with --slow only")
+    config.addinivalue_line("markers", "long: minutes; runs with --long only, not in .ci/run")
     config.addinivalue_line("markers", "needs(*modules): skipped where one of these cannot be imported")
     if config.getoption("--slow"):
         settings.load_profile("hunt")
@@ -89,12 +91,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     slow, rest = config.getoption("--slow"), config.getoption("--rest")
     passed = set(config.cache.get(PASSED, ())) if rest and config.cache else set()
     left = [item for item in items if item.nodeid in passed or ("slow" in item.keywords and not slow)]
+    left += [item for item in items if "long" in item.keywords and not config.getoption("--long")]
     if left:
         config.hook.pytest_deselected(items=left)
         out = {item.nodeid for item in left}
         items[:] = [item for item in items if item.nodeid not in out]
     for item in items:
-        if "slow" in item.keywords:
+        if "slow" in item.keywords or "long" in item.keywords:
             item.add_marker(pytest.mark.timeout(3600))
 
 

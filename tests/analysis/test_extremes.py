@@ -34,7 +34,7 @@ from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 
 
 def parameters(case: Case) -> object:
-    marks = [pytest.mark.slow] if case.slow else []
+    marks = [pytest.mark.long] if case.slow else []
     return pytest.param(case, id=f"{case.name}: {case.extreme}", marks=marks)
 
 

@@ -112,7 +112,7 @@ def test_a_train_is_drawn_in_every_kind_that_fits(name: str) -> None:
     draw_all(name)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ALL)
 def test_every_shipped_train_is_drawn_in_every_kind_that_fits(name: str) -> None:
     draw_all(name)

@@ -67,7 +67,7 @@ def test_words_can_be_read_after_some_turns(name: str) -> None:
     check(name, "dials", Fraction(31, 7))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", ALL)
 def test_words_can_be_read_in_all_shipped_trains(name: str, kind: str) -> None:

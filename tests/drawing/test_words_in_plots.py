@@ -114,7 +114,7 @@ def test_a_sweep_says_what_is_swept(tmp_path: Path) -> None:
     assert "triangular teeth, 60 and 30, wheel 1 drives: friction varied" in words
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("arguments", SLOW, ids=lambda words: " ".join(map(str, words)))
 def test_words_of_a_plot_of_much_can_be_read(arguments: list[object], tmp_path: Path) -> None:
     check(arguments, tmp_path)

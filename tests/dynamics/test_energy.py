@@ -123,7 +123,7 @@ def test_no_shipped_train_creates_energy(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", catalogue.every_train())
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.long) for seed in (1, 2))])
 def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int) -> None:
     """Efficiencies in every way they are written, bearings, friction on its teeth and pins, and a load or two."""
     random, plain = Random(f"{name} {seed}"), catalogue.train(name).declaration

@@ -30,7 +30,7 @@ def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
         ("longcase-clock-bs978", None, 2),
         ("freeth-2021-teeth", FREETH, 0.6),
         ("pennestri-2002-teeth", ("5",), 0.5),
-        pytest.param("freeth-2021-teeth", FREETH, 20, marks=pytest.mark.slow),
+        pytest.param("freeth-2021-teeth", FREETH, 20, marks=pytest.mark.long),
     ],
 )
 def test_extremes_do_not_depend_on_the_samples(name: str, outputs: tuple[str, ...] | None, turns: float) -> None:

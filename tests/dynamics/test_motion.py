@@ -57,10 +57,10 @@ gears:
     ("lagging", "turns", "samples", "peak", "rms", "least", "most"),
     [
         (True, 20, 400_001, 5.968, 1.238, 0.634, 1.763),
-        pytest.param(True, 95, 4_000_001, 6.058, 1.2385, 0.630, 1.771, marks=pytest.mark.slow),
+        pytest.param(True, 95, 4_000_001, 6.058, 1.2385, 0.630, 1.771, marks=pytest.mark.long),
         # teeth on the line of centres: flanks brought to touch one pair after the other, `marching.Teeth.touching`
         (False, 20, 400_001, 5.980, 1.2398, 0.637, 1.768),
-        pytest.param(False, 95, 4_000_001, 6.097, 1.2385, 0.629, 1.768, marks=pytest.mark.slow),
+        pytest.param(False, 95, 4_000_001, 6.097, 1.2385, 0.629, 1.768, marks=pytest.mark.long),
     ],
 )
 def test_the_moon_runs_as_in_the_table(

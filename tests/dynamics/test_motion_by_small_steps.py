@@ -123,7 +123,7 @@ def test_the_limit_is_the_composition_to_rounding(name: str, left: float) -> Non
     assert off(name, QUARTER, PLACES, 256, "Runge-Kutta").max() < left
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", TRAINS)
 def test_the_limit_over_ten_turns_is_the_composition(name: str) -> None:
     assert off(name, 20 * pi, 41, 1000, "Runge-Kutta").max() < 1e-9

@@ -198,7 +198,7 @@ def lattice(k: int, diagonals: Iterable[tuple[int, int]] = (), seed: int = 5) ->
     return ordinary([draw.randint(17, 99) for _ in range(k * k)], [*right, *down, *crossing])
 
 
-@pytest.mark.parametrize("k", [3, 10, 40, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("k", [3, 10, 40, pytest.param(100, marks=pytest.mark.long)])
 def test_a_lattice_moves_and_one_diagonal_more_is_the_one_mesh_to_take_out(k: int) -> None:
     train = GearTrain.declare(lattice(k))
     assert train.kinematics.gridlock.moves

@@ -129,7 +129,7 @@ def check_cascade(stages: int) -> None:
     assert abs(floats[f"m{stages - stages % 2}"] - 1) <= 1e-9
 
 
-@pytest.mark.parametrize("links", [1000, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("links", [1000, pytest.param(10_000, marks=pytest.mark.long)])
 def test_every_second_carrier_of_a_planetary_cascade_returns_to_speed_one(links: int) -> None:
     check_cascade(links // 2)
 
@@ -231,7 +231,7 @@ def check_diagonal(side: int) -> None:
     assert len(loop.links) % 2 == 1
 
 
-@pytest.mark.parametrize("side", [10, 32, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("side", [10, 32, pytest.param(100, marks=pytest.mark.long)])
 def test_one_diagonal_mesh_locks_a_lattice_with_an_odd_loop_as_witness(side: int) -> None:
     check_diagonal(side)
 
@@ -251,7 +251,7 @@ def thirds(meshes: int) -> GearTrain:
     return GearTrain.declare(data)
 
 
-@pytest.mark.parametrize("meshes", [600, 700, 2000, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("meshes", [600, 700, 2000, pytest.param(10_000, marks=pytest.mark.long)])
 def test_a_chain_of_thirds_is_exact_at_any_length(meshes: int) -> None:
     answer = thirds(meshes).solve()
     assert answer[f"g{meshes}"] == Fraction((-1) ** meshes, 3**meshes)

@@ -22,7 +22,7 @@ QUESTIONS = json.loads((Path(__file__).parent / "carried_counts.json").read_text
 
 def _parameter(question: dict[str, Any]) -> Any:
     name = "-".join(map(str, [*question["dials"], *question["added"], len(question["counts"]) - 1]))
-    return pytest.param(question, id=name, marks=[pytest.mark.slow] if question.get("slow") else [])
+    return pytest.param(question, id=name, marks=[pytest.mark.long] if question.get("slow") else [])
 
 
 @pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])

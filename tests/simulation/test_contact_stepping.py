@@ -299,7 +299,7 @@ def test_a_slack_pin_leaves_its_slot_at_the_rate_at_which_the_drag_no_longer_slo
     assert least <= slack_pin(share * PARTS, 4000).counts[0, GAP] <= most
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("offset", "parts", "share", "gap"), [
     (2, PARTS, 0.999, 0.0),
     (2, PARTS, 1.001, 2.249994e-6),

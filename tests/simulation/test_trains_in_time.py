@@ -182,7 +182,7 @@ def test_turned_slowly_for_ten_turns_it_is_within_half_a_thousandth_of_a_degree(
     assert run.torque == pytest.approx(3.8835e-3, abs=2e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("rate", "scale", "apart", "ahead", "torque"),
     [
@@ -399,7 +399,7 @@ links: {moon: {inertia: 1e-8 kg m2}, d: {inertia: 3e-5 kg m2}}
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "turns", "steps"),
     [

@@ -15,7 +15,7 @@ from sorge import APPROACH, RECESS, Pair, drawn, mp
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 from geartrain.teeth.triangular.tooth_couple import ToothCouple
 
-MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.slow)]
+MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.long)]
 STEEP = radians(84)
 
 

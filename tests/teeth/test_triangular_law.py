@@ -92,8 +92,8 @@ def test_more_digits_of_the_source(z1, z2, excess, speeds, efficiency, peak_to_p
 CASES = [
     pytest.param(1e3, 15),
     pytest.param(1e6, 8),
-    pytest.param(1e3, 1500, marks=pytest.mark.slow),
-    pytest.param(1e6, 500, marks=pytest.mark.slow),
+    pytest.param(1e3, 1500, marks=pytest.mark.long),
+    pytest.param(1e6, 500, marks=pytest.mark.long),
 ]
 
 
@@ -114,7 +114,7 @@ def test_transmission_error_at_50_digits(kind: str, most: float, number: int) ->
         assert abs(law.error_range()[1] - high) * left < 1e-12 * pair.p2, sizes
 
 
-@pytest.mark.parametrize("number", [pytest.param(5), pytest.param(150, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(5), pytest.param(150, marks=pytest.mark.long)])
 @pytest.mark.parametrize("kind", ["runs", "standstill"])
 def test_mean_efficiencies_are_their_integrals(kind: str, number: int) -> None:
     """Eq. (34) at constant driver torque, and at constant load torque, over the driver's angle in contact."""
@@ -140,7 +140,7 @@ def moments(pair: Pair) -> tuple[float, float]:
     return float(-mean), float(mp.sqrt(over_the_path(lambda lag: (lag - mean) ** 2) / pair.p1))
 
 
-@pytest.mark.parametrize("number", [pytest.param(8), pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(8), pytest.param(200, marks=pytest.mark.long)])
 def test_moments_of_the_error_are_their_integrals(number: int) -> None:
     """Where no flank in contact leans beyond 75 deg."""
     for sizes, law, _ in laws(33, number, 1e3, friction=0.0):

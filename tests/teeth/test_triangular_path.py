@@ -84,8 +84,8 @@ def aligned(path: list[Segment], intervals: tuple[DriveInterval, ...]) -> list[S
 CASES = [
     pytest.param(1e3, 40, 1e-12),
     pytest.param(1e6, 12, 1e-10),
-    pytest.param(1e3, 4000, 1e-12, marks=pytest.mark.slow),
-    pytest.param(1e6, 1000, 1e-10, marks=pytest.mark.slow),
+    pytest.param(1e3, 4000, 1e-12, marks=pytest.mark.long),
+    pytest.param(1e6, 1000, 1e-10, marks=pytest.mark.long),
 ]
 
 
@@ -123,7 +123,7 @@ def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: flo
 # -------------------------------------------------------------------------------------------------- every couple
 
 
-@pytest.mark.parametrize("number", [pytest.param(90), pytest.param(8000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(90), pytest.param(8000, marks=pytest.mark.long)])
 @pytest.mark.parametrize("teeth", ["few", "any"])
 def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None:
     """Found among the ends and the bottom of each piece; told by a scan of every couple."""
@@ -179,7 +179,7 @@ def lenses(pair: Pair, t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.nda
     return inside, margin
 
 
-@pytest.mark.parametrize("number", [pytest.param(80), pytest.param(3000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(80), pytest.param(3000, marks=pytest.mark.long)])
 def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
     """Random positions of both wheels. Free of overlap: between the back flanks and the front flanks.
 
@@ -217,7 +217,7 @@ def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
     assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 450, kinds
 
 
-@pytest.mark.parametrize("number", [pytest.param(60), pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(60), pytest.param(2000, marks=pytest.mark.long)])
 def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
     """Few deep teeth, whose flanks reach beyond the meeting of the tip circles."""
     random, positions = Random(14), np.random.default_rng(14)
@@ -240,7 +240,7 @@ def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
 # ------------------------------------------------------------------------------------------------------------ verdicts
 
 
-@pytest.mark.parametrize("number", [pytest.param(90), pytest.param(6000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(90), pytest.param(6000, marks=pytest.mark.long)])
 def test_verdicts_are_those_of_a_scan(number: int) -> None:
     random = Random(15)
     kinds: dict[str, int] = {}
@@ -256,7 +256,7 @@ def test_verdicts_are_those_of_a_scan(number: int) -> None:
     assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 5, kinds
 
 
-@pytest.mark.parametrize("number", [pytest.param(40), pytest.param(3000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(40), pytest.param(3000, marks=pytest.mark.long)])
 def test_the_play_is_that_of_a_scan(number: int) -> None:
     random = Random(16)
     while number:
@@ -386,7 +386,7 @@ def agree(sizes: TriangularSizes, steps: int = 40) -> bool:
     )
 
 
-@pytest.mark.parametrize("number", [pytest.param(15), pytest.param(150, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(15), pytest.param(150, marks=pytest.mark.long)])
 def test_equally_deep_teeth_of_ancient_shape_run_just_within_their_window(number: int) -> None:
     random = Random(20)
     for _ in range(number):
@@ -433,7 +433,7 @@ def test_a_pair_that_clashes_before_it_runs_has_a_window() -> None:
     assert find_window(sizes)
 
 
-@pytest.mark.parametrize("number", [pytest.param(6), pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(6), pytest.param(200, marks=pytest.mark.long)])
 def test_play_grows_with_clearance(number: int) -> None:
     """So that one clearance parts the pairs that jam from those that do not."""
     random = Random(21)

@@ -343,7 +343,7 @@ def test_no_two_wheels_that_are_cut_with_play_overlap_at_either_end_of_it() -> N
     assert wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("play", [0.0, 0.08])
 def test_no_two_wheels_overlap_at_many_positions(play: float) -> None:
     _, wrong = overlapping(TRAINS, play, 12)

@@ -47,7 +47,7 @@ HALF = CuttingErrorModel(
 PLACES = CuttingErrorModel(ErrorDistribution(0.04))
 
 
-@pytest.mark.parametrize("number", [pytest.param(5), pytest.param(60, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(5), pytest.param(60, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     ("cutting", "ring"),
     [
@@ -161,7 +161,7 @@ def test_the_nominal_play_of_the_table() -> None:
         assert round(nominal_backlash(equally_deep(z1, z2, excess)), 3) == play
 
 
-@pytest.mark.parametrize("trials", [pytest.param(4000), pytest.param(100_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("trials", [pytest.param(4000), pytest.param(100_000, marks=pytest.mark.long)])
 def test_flanks_of_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
     sizes, rng = equally_deep(64, 38, 0.02), np.random.default_rng(5)
     seen = []
@@ -211,7 +211,7 @@ def chance_that_none_rises(z: int, most: float, nodes: int) -> float:
     return float(np.trace(power))
 
 
-@pytest.mark.parametrize("trials", [pytest.param(20_000), pytest.param(400_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("trials", [pytest.param(20_000), pytest.param(400_000, marks=pytest.mark.long)])
 def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
     """An even driver of 64 teeth; 38 driven teeth out of place by less than any but neighbours would notice.
 

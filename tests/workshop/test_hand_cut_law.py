@@ -240,7 +240,7 @@ def drawn(rng: np.random.Generator, ring: Literal[0, 1, 2] = 0) -> tuple[Triangu
 
 
 @pytest.mark.parametrize("ring", [0, 1, 2])
-@pytest.mark.parametrize("number", [pytest.param(20), pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(20), pytest.param(1000, marks=pytest.mark.long)])
 def test_cut_wheels_touch_where_their_outlines_do(number: int, ring: Literal[0, 1, 2]) -> None:
     """First touch, by halving the driven angle, and jams, at ten positions of each of many pairs of wheels.
 
@@ -310,7 +310,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
         assert -y[0] == pytest.approx(q, abs=3e-9 * sizes.p2)
 
 
-@pytest.mark.parametrize("number", [pytest.param(3), pytest.param(60, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(3), pytest.param(60, marks=pytest.mark.long)])
 def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: int) -> None:
     """Marched on, the driven wheel dragging, it is soon caught between the tooth that came in and the one before."""
     rng = np.random.default_rng(5)

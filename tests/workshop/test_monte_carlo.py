@@ -67,7 +67,7 @@ EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %",
 # ------------------------------------------------------------------------------------------------------ printed figures
 
 
-@pytest.mark.parametrize("trials", [pytest.param(1024), pytest.param(100_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("trials", [pytest.param(1024), pytest.param(100_000, marks=pytest.mark.long)])
 def test_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
     seen = []
     for sigma in ("4.13 %", "5.16 %", "6.61 %"):
@@ -290,7 +290,7 @@ def nine_hundred() -> tuple[TrialPlan, TrialResults]:
 
 
 @pytest.mark.parametrize(
-    "workers", [lambda: ThreadPoolExecutor(2), pytest.param(lambda: open_executor(2), marks=pytest.mark.slow)]
+    "workers", [lambda: ThreadPoolExecutor(2), pytest.param(lambda: open_executor(2), marks=pytest.mark.long)]
 )
 def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: Any, tmp_path: Path) -> None:
     plan, true = nine_hundred()

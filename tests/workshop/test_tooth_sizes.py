@@ -67,7 +67,7 @@ def test_the_best_radii_are_no_worse_than_a_scan_in_steps_of_a_thousandth(aim: s
     assert found.outlines.difference < 1e-4
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_the_best_radii_of_any_counts_are_no_worse_than_a_scan_of_all(seed: int) -> None:
     draw = random.Random(seed)
@@ -79,7 +79,7 @@ def test_the_best_radii_of_any_counts_are_no_worse_than_a_scan_of_all(seed: int)
         assert found.outlines.difference < 3e-3
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("teeth", [(15, 60), (48, 96), (60, 15)])
 @pytest.mark.parametrize("aim", ["loss", "error"])
 def test_three_free_sizes_are_no_worse_than_what_differential_evolution_finds(teeth: tuple[int, int], aim: str) -> None:

@@ -169,7 +169,7 @@ def _means(mesh: Any) -> tuple[str, str]:
     return first, second
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("aim", "output", "most"), [("loss", "19", 0.15743), ("error", "5", 2.6063)])
 def test_the_published_train_with_the_best_radii(aim: str, output: str, most: float) -> None:
     train = pennestri()

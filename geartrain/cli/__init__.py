@@ -1,9 +1,9 @@
-"""Command line: one module for each command. Commands import what they need when they run; only they print and exit.
+"""Command line: one module for each command. Commands import what they need when they run.
 
-Map: `verbs` finds the file of a verb, `exit_codes` ends a run; `common` has the options that verbs share, where results
-go and how trains are loaded, `option_values` reads values of options, `long_runs` progress bars and journals,
-`time_runs` the options of motion in time, `uncertainty_plots`, `ranked_trains` and `reconstruction_findings` what
-single verbs print. `mesh` and `teeth` are groups of verbs.
+Map: `verbs` imports the module of a command, `exit_codes` ends a run; `common` has the options that commands share, the
+output of results and the loading of trains, `option_values` reads values of options, `long_runs` has progress bars and
+journals, `time_runs` the options of motion in time, `theme` that of colours. `mesh` is a group of commands. Commands of
+wings are in the folders of their capabilities.
 """
 
 from __future__ import annotations

@@ -3,17 +3,16 @@
 In: a train, or a result of another room. Out: a figure of matplotlib, which `render` writes as SVG, PNG or PDF; the
 same figure gives the same bytes. `picture` draws a train as plan to scale, stick diagram, graph, speed diagram or
 dials; the other functions draw one result each: a transmission function, teeth in contact, tooth forms side by side,
-the errors of pointers, the flow of power, torque over a turn, motion in time, gears on a sphere, trials of wheels
-cut by hand, counts in doubt. Nothing is worked out here but where things stand on the page: a speed diagram has its
+the errors of pointers, the flow of power, torque over a turn, gears on a sphere. Plots of results of the wings are in
+the wings. Nothing is worked out here but where things stand on the page: a speed diagram has its
 members at places that their teeth fix (docs/theory.md, equations 18 and 19), and bands of power are as wide as powers
 (docs/torques.md, 7).
 
 Map: `train_pictures` chooses among `plan_view` (with `projection`, `oblique_side_views`, `callouts`), `stick_diagram`
 (`stick_grid`), `kinematic_graph` (`arrangement`), `lever_diagram` and `dial_faces`. Pairs are drawn by `tooth_contact`,
-`transmission_curves`, `form_comparison` and `tooth_sizes_plot`; a train in motion by `output_error_plots`,
-`torque_cycle_plot`, `time_run_plot` and `power_sankey` (`sankey`); doubt and errors by `monte_carlo_plots` (`jam_map`,
-`tornado_chart`, `pointer_error_plots`), `budget_bars`, `corner_plot` and `parameter_sweep_plot`; spheres by
-`spherical_gears`. `backend`, `style`, `theme_colours` and `labels` are shared.
+`transmission_curves`, `form_comparison` and `parameter_sweep_plot`; a train in motion by `output_error_plots`,
+`torque_cycle_plot` and `power_sankey` (`sankey`); spheres by `spherical_gears`. `flat_files` writes outlines to cut.
+`backend`, `style`, `theme_colours` and `labels` are shared.
 
 The figures need the extra `plot`: a name that is asked for without it raises `MissingExtraError`. Nothing needs a
 display or touches the state of pyplot.

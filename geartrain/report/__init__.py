@@ -8,11 +8,11 @@ those of the Willis equation (docs/theory.md, equations 4 and 5), torques and mo
 
 Map: `document` and what shows it (`text`, `html_page`, `table_strips`); data and their schema (`answers`,
 `json_schema`, `json_shapes`, `declaration_reference`); a train (`train_data`, `train_report`, `shared_page`,
-`speeds_text`, `separation_text`, `soundness`, `graph_tables`, `formula_report`, `gearbox_report`); its forces and
-motion (`torque_figures`, `torque_report`, `torque_cycle_report`, `strength_report`, `motion_figures`, `motion_report`,
-`time_report`); pairs (`gear_pairs`, `pair_page` with `triangular_pair_page` and `conjugate_pair_page`,
-`tooth_form_comparison`, `tooth_sizes_report`); counts, evidence and doubt (`tooth_numbers`, `spherical_report`,
-`posterior_report`, `monte_carlo_report`, `budget_report`, and the modules whose names begin with `reconstruction_`).
+`speeds_text`, `soundness`, `graph_tables`, `formula_report`, `gearbox_report`); its forces and motion
+(`torque_figures`, `torque_report`, `torque_cycle_report`, `motion_figures`, `motion_report`); pairs (`gear_pairs`,
+`pair_page` with `triangular_pair_page` and `conjugate_pair_page`, `tooth_form_comparison`); several trains
+(`reconstruction_comparison`), spheres (`spherical_report`), error against run time (`accuracy_report`). Reports of the
+wings are in the wings.
 """
 
 from __future__ import annotations

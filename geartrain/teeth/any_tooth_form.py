@@ -31,11 +31,6 @@ def tooth_forms() -> dict[str, type[ToothForm]]:
     return {get_args(model.model_fields["form"].annotation)[0]: model for model in models}
 
 
-def conjugate_forms() -> tuple[str, ...]:
-    """The names of `ConjugateForm`, in the order of that union."""
-    return tuple(name for name, model in tooth_forms().items() if model in get_args(ConjugateForm))
-
-
 __all__ = [
     "CircularArc",
     "Cycloidal",

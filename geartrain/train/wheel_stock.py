@@ -22,12 +22,6 @@ def face_width(train: Train, wheel: Wheel) -> Quantity | None:
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 
-def wheel_material(train: Train, wheel: Wheel) -> Material | None:
-    """What it is made of."""
-    name = wheel.material or train.material
-    return None if name is None else material_named(train, name)
-
-
 def material_named(train: Train, name: str) -> Material:
     """Of the train's own materials, else of the table."""
     return train.materials.get(name) or material_table()[name]

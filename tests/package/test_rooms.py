@@ -88,6 +88,26 @@ def test_every_room_says_what_it_is() -> None:
     assert silent == []
 
 
+def mapped(docstring: str) -> set[str]:
+    """Modules that the map of a package names: the first column of a list, or what stands in backticks after "Map:"."""
+    rows = re.findall(r"^ {0,4}([a-z_]+(?:, [a-z_]+)*) {2,}\S", docstring, re.MULTILINE)
+    _, _, prose = docstring.partition("\nMap: ")
+    return {name for row in rows for name in row.split(", ")} | set(re.findall(r"`([a-z_]+)`", prose.split("\n\n")[0]))
+
+
+def test_the_map_of_a_package_names_what_is_in_it() -> None:
+    wrong = {}
+    for name, path in modules().items():
+        if path.name == "__init__.py":
+            inside = {part.stem for part in (ROOT / path).parent.iterdir()}
+            public = set(getattr(importlib.import_module(name), "__all__", ()))
+            wrong[name] = mapped(syntax(path).docstring or "") - inside - public
+    assert {name: missing for name, missing in wrong.items() if missing} == {}
+    assert mapped("Sums.\n\nparts, other   what is there\n\nMap: `one` and `two`.\n\n`three`") == {
+        *("parts", "other", "one", "two"),
+    }
+
+
 def test_a_folder_holds_two_modules_or_more_and_depth_is_bounded() -> None:
     folders = {path.parent for path in PACKAGE.rglob("*.py")}
     assert [str(folder) for folder in folders if len(list(folder.glob("*.py"))) < 2] == []

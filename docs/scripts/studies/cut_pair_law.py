@@ -23,13 +23,15 @@ from numpy.typing import ArrayLike
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Floats, Ints
-from geartrain.numerics.simultaneous_roots import roots_by_chandrupatla
 from geartrain.teeth.transmission import behind
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.workshop.cutting.cut_pair import ROUNDING, CutGearPair, CutToothPairs
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 Cells = tuple[Ints, Floats, Floats]
+Value = Callable[[Ints, Floats], Floats]
+
+MOST_STEPS = 100  # of a search for roots: halving alone needs some 55 where the root is not near 0
 
 RECEDES, APPROACHES, LEFT = 0, 1, 2
 """What the couple that decides does: contact in recess, in approach, or none since it has left."""
@@ -671,3 +673,47 @@ class CutPairLaw:
         """Least and greatest speed ratio of the cycle; it is monotone on each stretch of ordinary teeth."""
         speeds = self.stretches.end_speeds()
         return float(speeds.min()), float(speeds.max())
+
+
+def roots_by_chandrupatla(value: Value, low: Floats, high: Floats) -> Floats:
+    """Chandrupatla's method: where each of m functions changes its sign between `low` and `high`, (m,) each.
+
+    value   of functions (indices) at arguments: value(which, x), of one shape
+
+    T. R. Chandrupatla, Advances in Engineering Software 28 (1997) 145-149. Ends to rounding.
+    """
+    a, b = high.copy(), low.copy()
+    every = np.arange(len(low))
+    at_a, at_b = value(every, a), value(every, b)
+    c, at_c = a.copy(), at_a.copy()
+    part, found, open_ = np.full(len(low), 0.5), low.copy(), np.ones(len(low), bool)
+    for _ in range(MOST_STEPS):
+        i = np.flatnonzero(open_)
+        if not len(i):
+            break
+        x = a[i] + part[i] * (b[i] - a[i])
+        here = value(i, x)
+        same = np.sign(here) == np.sign(at_a[i])
+        c[i], at_c[i] = np.where(same, a[i], b[i]), np.where(same, at_a[i], at_b[i])
+        b[i], at_b[i] = np.where(same, b[i], a[i]), np.where(same, at_b[i], at_a[i])
+        a[i], at_a[i] = x, here
+        best = np.where(np.abs(at_a[i]) < np.abs(at_b[i]), a[i], b[i])
+        found[i] = best
+        width = np.abs(b[i] - a[i])
+        least = 2 * np.spacing(np.abs(best)) + 1e-300  # at a root of 0, too, the width must come below something
+        part[i] = _next(a[i], b[i], c[i], at_a[i], at_b[i], at_c[i], least / np.maximum(width, least))
+        open_[i] = (width > 2 * least) & (here != 0)
+    return found
+
+
+def _next(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Floats, least: Floats) -> Floats:
+    """The share of the bracket to go next: by inverse quadratic interpolation where it is safe, else half."""
+    with np.errstate(all="ignore"):
+        xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)
+        # Chandrupatla's condition: the inverse quadratic is monotonic between the three points
+        safe = (phi * phi < xi) & ((1 - phi) ** 2 < 1 - xi)
+        share = at_a / (at_b - at_a) * at_c / (at_b - at_c)
+        share += (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)
+    share = np.where(safe & np.isfinite(share), share, 0.5)
+    # a step that no longer moves a float would be lost; nor may the two limits cross
+    return np.clip(share, np.minimum(least, 0.5), np.maximum(1 - least, 0.5))

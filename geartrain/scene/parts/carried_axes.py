@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import dist
@@ -169,9 +169,3 @@ def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc
     """A disc as one who turns with a carrier sees it: what the carrier bears stands, all else goes round."""
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)
-
-
-def carried_discs(carried: Mapping[str, CarriedAxis]) -> Iterator[StackDisc]:
-    """All of them."""
-    for each in carried.values():
-        yield from each.discs

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, sin
@@ -80,11 +79,3 @@ def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
     across = np.cross(along, reference)
     x = cos(wheel.turn) * reference + sin(wheel.turn) * across
     return np.column_stack([x, np.cross(along, x), along]), np.array(wheel.centre)
-
-
-def by_body(parts: Sequence[SolidPart]) -> Mapping[int, list[SolidPart]]:
-    """Parts in the order of their bodies."""
-    found: dict[int, list[SolidPart]] = {}
-    for part in parts:
-        found.setdefault(part.body, []).append(part)
-    return found

@@ -3,7 +3,7 @@
 priors, observations        what is assumed of each wheel, and what is known of the outputs
 inference_problem           both together for one train, and what must hold for it to turn
 inference                   the question, which method answers it, and the joint posterior of two wheels
-exact_posterior             the weighted join of `synthesis`, in whole numbers
+exact_posterior             the weighted join of `search.join`, in whole numbers
 sampled_posterior           combinations drawn and judged in blocks: likelihood, monomial_columns
 posterior_summary, posterior_result   what comes out
 variance_shares             which wheel decides an output

@@ -1,4 +1,4 @@
-"""Counts in doubt by the exact join of `synthesis`: all combinations at once, weighed by their priors.
+"""Counts in doubt by the exact join of `search.join`: all combinations at once, weighed by their priors.
 
 Nothing is listed that an output refuses, and what no later output can tell apart is one. Exact in whole numbers, or to
 rounding where agreement is a matter of degree.

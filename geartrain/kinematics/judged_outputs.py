@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal, NamedTuple, Required, TypedDict
 
-from geartrain.numerics.decimal_text import decimal, fraction_text
-from geartrain.numerics.exact import as_float
+from geartrain.numerics.exact import as_float, decimal, fraction_text
 from geartrain.numerics.long_float import LongFloat, as_plain
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
 

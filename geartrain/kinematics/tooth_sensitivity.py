@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.judged_outputs import OutputResult, Relative, as_plain_product
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.train import Train
 
 

@@ -15,12 +15,11 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
 from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
-from geartrain.kinematics.answer import Answer, SpeedAccuracy
+from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import OutputResult, Relative, SpeedValue, judge_outputs
 from geartrain.kinematics.planet_copies import check_copies, has_copies
-from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.speeds import (
     EXACT_BUDGET,
     Mobility,
@@ -31,8 +30,7 @@ from geartrain.kinematics.speeds import (
     solve,
 )
 from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
-from geartrain.kinematics.verdict import Verdict
-from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
@@ -489,7 +487,7 @@ class TrainKinematics:
 
     @cached_property
     def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:
-        from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side
+        from geartrain.kinematics.circuits.fundamental import bevels_on_one_side
 
         return tuple(bevels_on_one_side(self.declaration, self.circuits, self.is_rotation))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
 from geartrain.numerics.packing import packed
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -20,8 +20,7 @@ from typing import Any
 from geartrain.errors import DeclarationError, Loc, Problem, suggest
 from geartrain.train.declaration import Train
 from geartrain.train.inheritance import merge_parent
-from geartrain.train.short_forms import has_short_forms, written_out
-from geartrain.train.validation import declare
+from geartrain.train.validation import declare, has_short_forms, written_out
 from geartrain.train.yaml_nodes import MOST_DEPTH, MOST_VALUES, YamlNode, as_yaml, node_from_data, parse_yaml
 
 # ------------------------------------------------------------------------------------------------------------ json text

@@ -1,4 +1,4 @@
-"""What wheels are made of: a small table of materials, and those that a train declares itself."""
+"""Materials of wheels: a small shipped table, those that a train declares, and the stock of each wheel."""
 
 from __future__ import annotations
 
@@ -6,14 +6,18 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from geartrain.numerics.quantity import Density, Figure, MeasuredLength, Pressure
-from geartrain.numerics.quantity_bounds import above_zero
+from geartrain.numerics.quantity import Density, Figure, MeasuredLength, Pressure, above_zero
 from geartrain.train.fields import Declared
+
+if TYPE_CHECKING:
+    from geartrain.numerics.quantity import Quantity
+    from geartrain.train.declaration import Train
+    from geartrain.train.mechanism import Wheel
 
 _VICKERS = 9.80665e6  # Pa in one HV, which is kgf/mm2
 
@@ -112,3 +116,18 @@ def material_table() -> Mapping[str, Material]:
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
     return {row.pop("name"): Material.model_validate(row) for row in rows}
+
+
+def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
+    """Along its axis; where it is not declared it is as thick as its teeth are wide."""
+    return wheel.thickness or wheel.face_width or train.thickness or train.face_width
+
+
+def face_width(train: Train, wheel: Wheel) -> Quantity | None:
+    """Width of its teeth; where it is not declared they are as wide as the wheel is thick."""
+    return wheel.face_width or wheel.thickness or train.face_width or train.thickness
+
+
+def material_named(train: Train, name: str) -> Material:
+    """Of the train's own materials, else of the table."""
+    return train.materials.get(name) or material_table()[name]

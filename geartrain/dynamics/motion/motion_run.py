@@ -14,8 +14,7 @@ from geartrain.dynamics.motion.order_spectrum import SpectrumLine, find_spectrum
 from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
 from geartrain.dynamics.motion.superposition import ErrorEstimates, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Pictured, Tabular
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples

@@ -17,7 +17,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.superposition import Superposition
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

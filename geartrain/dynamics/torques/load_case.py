@@ -11,8 +11,7 @@ from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.member_torques import BearingTorque
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Axes, Circuit, Tree
-from geartrain.kinematics.relative_speeds import relative_speed
-from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.elimination import LinearForm, add_into
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.teeth.pin_coupling import Coupling

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
 

@@ -17,7 +17,7 @@ from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream,
 from geartrain.dynamics.torques.torque_results import Torques
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.train import StateCase, Train
 
 

@@ -10,9 +10,7 @@ from typing import Any, Literal, NamedTuple
 from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, LinkTorque, PairTorque
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.result_picture import picture_maker
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Result, Tabular, picture_maker
 
 TorqueVerdictKind = Literal[
     "determined",

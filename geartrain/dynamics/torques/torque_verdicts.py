@@ -14,7 +14,7 @@ from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.torque_balance import TorqueBalance
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.torques.virtual_work import balancing_torque, unbalanced_motions
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 
 _GREAT = 10**12  # lambda of section 6: beside a load so many times as great, constant friction hardly matters
 

@@ -10,8 +10,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from geartrain.kinematics.willis_equation import WillisEquation
-from geartrain.kinematics.willis_system import WillisSystem
+from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
 from geartrain.numerics.elimination import LinearForm, eliminate
 
 PRESCRIBED = -1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.results import Key, Result, group
 
 
 class TorqueExtreme(NamedTuple):

@@ -11,9 +11,7 @@ from typing import TYPE_CHECKING, Any
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.plain_data import Key, Result, group
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -12,7 +12,7 @@ from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.pitch_pairs import PitchPair
+    from geartrain.kinematics.buildability.pitch_distances import PitchPair
 
 PRESSURE = radians(20)
 """Pressure angle (rad) of standard teeth, where none is declared."""

@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem
-from geartrain.kinematics.circuits.axes import Axes
-from geartrain.kinematics.circuits.joint_tree import Tree
+from geartrain.kinematics.circuits.joint_tree import Axes, Tree
 from geartrain.numerics.elimination import eliminate
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 from geartrain.train import StateCase, Train

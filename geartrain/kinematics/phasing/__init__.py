@@ -8,9 +8,8 @@ from geartrain.kinematics.phasing.assembly import (
     spherical_divisibility_rule,
     spherical_phasing,
 )
-from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
-from geartrain.kinematics.phasing.mesh_phasing import LoopPhase, MeshPhasing
-from geartrain.kinematics.phasing.pitch_points import UnplacedPair
+from geartrain.kinematics.phasing.azimuths import UnplacedPair
+from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule, LoopPhase, MeshPhasing, find_divisibility_rule
 
 __all__ = [
     "DivisibilityRule",

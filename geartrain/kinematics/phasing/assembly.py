@@ -13,15 +13,21 @@ from geartrain.errors import Problem as Trouble
 from geartrain.errors import QuestionError
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import find_components
-from geartrain.kinematics.phasing.azimuths import MOUNT, mount_frame_wheels, place_pitch_points
-from geartrain.kinematics.phasing.divisibility import DivisibilityRule
-from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing
+from geartrain.kinematics.phasing.azimuths import (
+    EPS,
+    MOUNT,
+    PitchPoints,
+    contact_families,
+    mount_frame_wheels,
+    place_pitch_points,
+)
+from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule, MeshPhasing
 from geartrain.kinematics.phasing.phase_system import PhaseSystem
-from geartrain.kinematics.phasing.pitch_points import EPS, PitchPoints, contact_families
 from geartrain.train import Train
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
+
 
 _FRAME = MOUNT  # no gear on a sphere has this name
 _OFF = 1e-6  # turns: contacts declared regular stand nearer than this to where they should

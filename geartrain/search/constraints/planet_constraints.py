@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.kinematics.buildability.planet_assembly import (
+from geartrain.kinematics.buildability.equal_planets import (
     PhaseArithmetic,
     PlanetArm,
     neighbour_terms,

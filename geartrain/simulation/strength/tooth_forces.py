@@ -8,7 +8,7 @@ from math import copysign, cos, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import RangeError
-from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+from geartrain.kinematics.circuits.fundamental import shaft_angle
 from geartrain.simulation.strength.contact_results import WheelForce
 from geartrain.simulation.strength.formulas.pitch_force import bevel_force, friction_angle, helical_force
 from geartrain.simulation.strength.formulas.point_contact import CrossedWheels
@@ -16,7 +16,7 @@ from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
-from geartrain.train.wheel_stock import face_width
+from geartrain.train.materials import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

@@ -22,8 +22,8 @@ from geartrain.numerics.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Figure
+from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
 from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams

@@ -8,8 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
-from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, find_circulation
-from geartrain.dynamics.torques.power_flow import find_power_flow
+from geartrain.dynamics.torques.power_flow import PowerNode, PowerStream, find_circulation, find_power_flow
 from geartrain.dynamics.torques.train_torques import solve_driven
 from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.numerics.exact import as_float

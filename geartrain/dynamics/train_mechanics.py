@@ -193,8 +193,7 @@ class TrainMechanics:
         return self._settings[case.state]
 
     def _make_load_case(self, case: StateCase) -> LoadCase | None:
-        from geartrain.dynamics.torques.load_case import LoadCase
-        from geartrain.dynamics.torques.virtual_work import speed_forms
+        from geartrain.dynamics.torques.load_case import LoadCase, speed_forms
 
         own = self.kinematics
         solution = own.solution(case)

@@ -13,19 +13,19 @@ Floats
     long_float                            floats with an exponent of their own
     rounding_bounds, bounded_polynomials  error-free transformations and a priori bounds; polynomials with such bounds
     sparse_least_squares                  least squares with a few entries a row
-    roots, simultaneous_roots             bracketed roots, one by one and many at once
+    roots                                 bracketed roots, one by one and many at once
     chebyshev, polynomial_pieces          functions as series and as pieces of polynomials
     confidence_intervals                  confidence intervals of means and probabilities
     vectors, polylines                    vectors in space, exact where they are; lines of points
-    kernels, compilation                  functions in plain Python that can be compiled; the time in which they are
+    kernels                               functions in plain Python that numba can compile
 Graphs
     graphs, lazy_graph                    paths in a rooted forest, groups of what is joined; a graph of networkx
     block_triangular                      matching, then strongly connected components (Dulmage and Mendelsohn)
 Values with names and units, and their forms
     quantity                              values with a unit, their limits, and the number as it was written
-    arrays, labelled_array, named_arrays  arrays with names on their axes; arrays in named tuples
+    arrays, labelled_array                types of arrays, named tuples of arrays; arrays with names on their axes
     results                               results as JSON, as tables, as pictures
-    containers, packing                   mappings that cannot change; arrays as text
+    containers                            mappings that cannot change
     markdown_text                         text that Markdown takes literally
 Files, work, modules
     files                                 finished text and tables out, atomically

@@ -1,7 +1,7 @@
 """Integers and Fractions of any length: products without needless gcds, the nearest floats, and their text.
 
 Text is in decimal, in full or abridged. The limit that Python sets to the digits of an integer is neither met nor
-moved. """
+moved."""
 
 from __future__ import annotations
 

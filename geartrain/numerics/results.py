@@ -3,7 +3,7 @@
 `Result` writes each key once, as a field's name or in the `KEYS` of a class. Exact numbers become text with every
 digit, arrays and tuples lists, results objects; None stays None. `Tabular` results have columns: a pandas DataFrame,
 a numpy record array, a table of HTML. `Pictured` results name the function that draws them, which is imported when it
-is called. """
+is called."""
 
 from __future__ import annotations
 

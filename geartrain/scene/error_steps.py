@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
-from geartrain.numerics.packing import packed
+from geartrain.numerics.arrays import packed
 from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:

@@ -33,7 +33,6 @@ NOUNS = {
     "drawing",
     "manufacturing",
     "matching",
-    "packing",
     "phasing",
     "ring",
     "scaling",

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
+from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.numerics.kernels import is_fast, kernel
 from geartrain.numerics.rounding_bounds import SPLITTER, split
 from geartrain.teeth.transmission import TransmissionFunction

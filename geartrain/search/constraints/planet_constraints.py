@@ -31,7 +31,7 @@ from geartrain.search.constraints.count_conditions import (
 from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
     from geartrain.numerics.arrays import Bools, Ints
     from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
 

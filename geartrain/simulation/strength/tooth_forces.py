@@ -20,7 +20,7 @@ from geartrain.train.materials import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.dynamics.torques.torque_results import PairTorque
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Wheel

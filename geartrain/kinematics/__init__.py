@@ -13,14 +13,13 @@ willis_matrix                    the same rows as a sparse matrix
 components                       ordinary trains of one carrier, and the reduced system between them
 speeds                           propagation, exact elimination, diagnosis; mobility; floats
 formulas                         outputs as rational functions of tooth counts, and as an engineer writes them
-tooth_sensitivity                the effect of one tooth more or less
 levers                           links as points of a lever
 gridlock                         locked subgraphs, and the fewest meshes to take out
 phasing                          whether teeth meet when a train is put together
 buildability                     what of a declared train cannot be built, and what is unwise
 planet_copies                    one declared planet that stands for several
 graph                            the declared links, turning pairs and gear pairs as a networkx graph
-judged_outputs, answer           results
+judged_outputs, answer           results; the effect of one tooth more or less
 """
 
 from __future__ import annotations
@@ -40,6 +39,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
     from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
     from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
+    from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
     from geartrain.kinematics.levers import Lever as Lever
     from geartrain.kinematics.levers import find_levers as find_levers
@@ -47,7 +47,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
-    from geartrain.kinematics.tooth_sensitivity import Sensitivity as Sensitivity
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisEquation as WillisEquation
@@ -93,7 +92,7 @@ __getattr__ = lazy_names(
         "MeshRemoval": "gridlock.removal",
         "Mobility": "speeds.mobility",
         "OutputResult": "judged_outputs",
-        "Sensitivity": "tooth_sensitivity",
+        "Sensitivity": "judged_outputs",
         "TargetResult": "judged_outputs",
         "TrainKinematics": "train_kinematics",
         "Verdict": "answer",

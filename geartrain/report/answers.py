@@ -8,8 +8,7 @@ from itertools import islice
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.judged_outputs import OutputResult, magnitude
-from geartrain.kinematics.tooth_sensitivity import Sensitivity
+from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, magnitude
 from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.report.speeds_text import why_floats
 from geartrain.train import Train

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from geartrain.kinematics.buildability import BuildFinding
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.gridlock.removal import Gridlock
+    from geartrain.kinematics.judged_outputs import Sensitivity
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
-    from geartrain.kinematics.tooth_sensitivity import Sensitivity
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_figures import TorqueFigures

@@ -7,7 +7,7 @@ out here; `geartrain.GearTrain` does that.
 declaration                      the whole model, and what follows from it alone: friction in force, epoch
 mechanism                        links, wheels, axes, pairs; doubtful tooth counts, efficiencies, bearing friction
 outputs, states                  outputs, dials and targets; clutches, cases, and what drives a train in time
-manufacturing, materials, reconstruction   errors of cutting, materials and blanks; what may be added
+manufacturing, wheel_stock, reconstruction   materials and errors of cutting; blanks; what may be added
 fields, validation, references   strict fields, short forms and problems, names and units that conflict
 yaml_nodes, declaration_style    YAML with line numbers; the style in which declarations are written
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and other values of a declaration
@@ -17,8 +17,7 @@ periods, trade_words             the table of periods of the sky; words of maker
 from __future__ import annotations
 
 from geartrain.train.declaration import Epoch, FrictionInForce, Train
-from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import ArborSizes, Material, material_table
+from geartrain.train.manufacturing import ArborSizes, Material, PairMounting, WheelManufacture, material_table
 from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import (
     Dial,

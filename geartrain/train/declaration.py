@@ -30,8 +30,7 @@ from geartrain.train.fields import (
     also,
     short_for,
 )
-from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import FaceWidth, Material
+from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Source, Thickness, Wheel
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date

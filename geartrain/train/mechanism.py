@@ -58,8 +58,7 @@ from geartrain.train.fields import (
     short_for,
     side,
 )
-from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import ArborSizes, FaceWidth
+from geartrain.train.manufacturing import ArborSizes, FaceWidth, PairMounting, WheelManufacture
 
 # ----------------------------------------------------------------------------------------------------- bearing friction
 

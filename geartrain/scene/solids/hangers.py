@@ -16,7 +16,7 @@ from geartrain.scene.built_elements import SceneHanger
 from geartrain.scene.parts.ring_posts import TENON
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.solid_part import SolidPart
-from geartrain.train.materials import material_named
+from geartrain.train.wheel_stock import material_named
 
 if TYPE_CHECKING:
     from geartrain.scene.parts.barrels import Barrel

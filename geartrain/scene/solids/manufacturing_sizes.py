@@ -18,7 +18,7 @@ from geartrain.scene.layout.wheel_sizes import WIDE
 from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import DEDENDUM, PLAY
 from geartrain.train import GearPair, Train
-from geartrain.train.materials import wheel_thickness
+from geartrain.train.wheel_stock import wheel_thickness
 
 _SAME_LEVEL = 1e-3  # mm
 _STOCK = (

@@ -16,7 +16,7 @@ from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
 from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
-from geartrain.train.materials import face_width
+from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

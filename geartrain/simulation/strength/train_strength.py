@@ -31,7 +31,7 @@ from geartrain.simulation.strength.virtual_spurs import VirtualSpurs
 from geartrain.teeth.disc_mesh import DiscMesh
 from geartrain.teeth.pin_coupling import PinsInHoles
 from geartrain.train import Train
-from geartrain.train.materials import face_width, material_named
+from geartrain.train.wheel_stock import face_width, material_named
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.files import csv_text
-from geartrain.train.materials import material_named
+from geartrain.train.wheel_stock import material_named
 
 if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel

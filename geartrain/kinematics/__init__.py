@@ -7,8 +7,8 @@ expected of them. `TrainKinematics` has all of it for one train, each part found
 The equation of the room is Willis': a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
 
 train_kinematics                 everything below for one train; remarks on a sound declaration
-circuits                         joint tree with its axes, rigid bodies, fundamental circuits
-willis_system                    the rows of the system, for all that solve it; relative speeds
+circuits                         joint tree with its axes and rigid bodies; fundamental circuits
+willis_equation, willis_system   the rows of the system, for all that solve it; relative speeds
 willis_matrix                    the same rows as a sparse matrix
 components                       ordinary trains of one carrier, and the reduced system between them
 speeds                           propagation, exact elimination, diagnosis; mobility; floats
@@ -48,8 +48,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
+    from geartrain.kinematics.willis_equation import WillisEquation as WillisEquation
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
-    from geartrain.kinematics.willis_system import WillisEquation as WillisEquation
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
 
 __all__ = [

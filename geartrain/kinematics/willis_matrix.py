@@ -16,7 +16,7 @@ from scipy.sparse import csc_array
 
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_system import WillisEquation
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.elimination import PRIME, eliminate, residues
 from geartrain.numerics.exact import as_float
 

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple, overload
+from typing import TYPE_CHECKING, overload
 
 from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.train import StateCase
 
@@ -55,31 +56,6 @@ def relative_speed(
     if own is None or other is None:
         return None
     return own - other * axis_sense(of, base, signs) if other else own  # mostly seen from what stands still
-
-
-class WillisEquation(NamedTuple):
-    """One row of a Willis system: the sum of coefficient times speed over `terms` equals `right`.
-
-    Attributes
-    ----------
-    label : str
-        The pair's id, or what is prescribed: `input sun`.
-    kind : str
-        frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower, pins_in_holes, parallel.
-    terms : tuple of (str, int)
-        Links with their coefficients, none of them 0.
-    right : Fraction
-        The right-hand side [the train's unit].
-
-    See Also
-    --------
-    WillisSystem : holds all rows of a train
-    """
-
-    label: str
-    kind: str
-    terms: tuple[tuple[str, int], ...]
-    right: Fraction = Fraction(0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -45,8 +45,8 @@ from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.numerics.work import cores, executors
 from geartrain.numerics.work import task_runner as running
-from geartrain.numerics.work.executors import ProcessPool
 from geartrain.numerics.work.journal import first_difference
+from geartrain.numerics.work.processes import ProcessPool
 from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool
 
 

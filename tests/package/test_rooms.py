@@ -33,6 +33,7 @@ NOUNS = {
     "drawing",
     "manufacturing",
     "matching",
+    "packing",
     "phasing",
     "ring",
     "scaling",

@@ -17,7 +17,8 @@ from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
+from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
 from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table

@@ -30,7 +30,7 @@ from geartrain.kinematics.planet_copies import has_copies, with_copies
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
-    from geartrain.kinematics.circuits.rigid_bodies import Rigid
+    from geartrain.kinematics.circuits.joint_tree import Rigid
     from geartrain.train import StateCase, Train
 
 

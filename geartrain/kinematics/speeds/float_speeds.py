@@ -27,8 +27,9 @@ from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.kinematics.willis_matrix import independent_rows
-from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
+from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.numerics.containers import FrozenFields, LazyMapping
 from geartrain.numerics.elimination import TooDenseError, eliminate
 from geartrain.numerics.exact import as_float

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.kinematics.willis_system import WillisEquation
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.rounding_bounds import two_product, two_sum
 
 if TYPE_CHECKING:

@@ -1,0 +1,153 @@
+"""Worker processes on this machine.
+
+They are spawned, not forked: a fork copies the locks that other threads of this process hold (numpy's, a progress
+bar's), and a worker that waits for one of those waits for ever. Spawning is also the one way that is the same on all
+systems. It costs each worker its imports, once.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import BrokenExecutor, Future, InvalidStateError, ProcessPoolExecutor
+from contextlib import contextmanager, suppress
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from threading import Thread
+from typing import Any
+
+from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
+
+_MOST = 61 if sys.platform == "win32" else 10_000  # as many processes as Windows can wait for
+
+
+class ProcessPool(WorkerPool):
+    """Up to `workers` processes, started as they are needed and replaced when one dies; `waits` as in `WorkerPool`.
+
+    They end with this process, whatever ends it: each holds one end of a pipe, the leash, and leaves when the other end
+    is gone.
+    """
+
+    def __init__(self, workers: int, waits: bool = False) -> None:
+        self.waits = waits
+        self._workers = min(workers, _MOST)
+        self._context = get_context("spawn")
+        self._leash, self._hand = self._context.Pipe(duplex=False)
+        self._pool: ProcessPoolExecutor | None = None
+        self._open: dict[Future[Any], Future[Any]] = {}  # the pool's, ours
+        self._shut = False
+
+    @property
+    def width(self) -> int:
+        """How many tasks run at once."""
+        return self._workers
+
+    def carries(self, work: Callable[[Any], Any]) -> bool:
+        """True if it can be pickled: outlines of teeth that are local functions cannot."""
+        try:
+            pickle.dumps(work)
+        except (AttributeError, TypeError, pickle.PicklingError):
+            return False
+        return True
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """As `Executor.submit`; after a worker died, in a fresh pool."""
+        if self._shut:
+            raise RuntimeError("cannot schedule new futures after shutdown")
+        try:
+            theirs = self._handed(fn, *args, **kwargs)
+        except BrokenExecutor:
+            self._abandon()
+            theirs = self._handed(fn, *args, **kwargs)
+        ours = follow(theirs, _translate)
+        self._open[theirs] = ours
+        theirs.add_done_callback(self._closed)
+        return ours
+
+    def _closed(self, theirs: Future[Any]) -> None:
+        self._open.pop(theirs, None)
+
+    def _handed(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        # a pool is made outside: it starts the tracker of multiprocessing, which lets signals through again
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(self._workers, self._context, _begin, (self._leash,))
+        with _deaf():
+            theirs = self._pool.submit(fn, *args, **kwargs)
+        _bear_cancellation(theirs)
+        return theirs
+
+    def _abandon(self) -> None:
+        """The pool is broken and goes. Its futures fail here: one that was handed over just then would stay open."""
+        pool, self._pool = self._pool, None
+        if pool is not None:
+            pool.shutdown(wait=False, cancel_futures=True)
+        for future in list(self._open.values()):
+            with suppress(InvalidStateError):
+                future.set_exception(WorkerDiedError("a worker process died"))
+        self._open.clear()
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """As `Executor.shutdown`; with `wait` nothing is left of the workers."""
+        if self._pool is not None:
+            self._pool.shutdown(wait, cancel_futures=cancel_futures)
+        self._shut = True
+        if wait:
+            self._hand.close()
+            self._leash.close()
+
+    def dismiss(self) -> None:
+        """End the workers, with what they still run."""
+        if self._open:
+            self._hand.close()
+        self.shutdown(cancel_futures=True)
+
+
+def _bear_cancellation(future: Future[Any]) -> None:
+    """Let a future that was cancelled fail in silence.
+
+    When workers end just after a future was cancelled, the thread of the pool still has it on its list of those that
+    fail; before Python 3.12 it dies of that one with a traceback, and leaves the others open.
+    """
+    fail = future.set_exception
+
+    def set_exception(error: BaseException | None) -> None:
+        with suppress(InvalidStateError):
+            fail(error)
+
+    future.set_exception = set_exception  # type: ignore[method-assign, assignment]
+
+
+def _translate(error: BaseException) -> BaseException:
+    return WorkerDiedError("a worker process died") if isinstance(error, BrokenExecutor) else error
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Start processes that never hear Ctrl-C, not even before `_begin`: it is this one's to say what is kept.
+
+    A process inherits the signals its parent holds back. One that comes meanwhile is delivered afterwards.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _begin(leash: Connection) -> None:
+    """What a worker does first."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_hold, args=(leash,), daemon=True).start()
+
+
+def _hold(leash: Connection) -> None:
+    """Leave when the other end of the leash is gone."""
+    with suppress(OSError, EOFError):
+        leash.poll(None)
+    os._exit(1)

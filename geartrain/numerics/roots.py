@@ -10,8 +10,6 @@ from collections.abc import Callable, Iterator
 from math import isfinite, ulp
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
@@ -33,6 +31,8 @@ def roots_by_false_position(
     Anderson's and Bjorck's variant, from the values at both ends; where one is stuck, halving. A bracket without a
     change of sign gives its end with the lesser value.
     """
+    import numpy as np  # scalar roots do without
+
     found = np.where(np.abs(at_low) < np.abs(at_high), low, high)
     which = np.flatnonzero(np.sign(at_low) * np.sign(at_high) < 0)
     a, b, f, g = low[which], high[which], at_low[which], at_high[which]

@@ -107,7 +107,6 @@ def flows(train: RandomTrain, outputs: list[str]) -> dict[frozenset[str], set[st
     found: dict[frozenset[str], set[str]] = {frozenset(names): set() for names, _ in meetings}
     for output in outputs:
         spin = skeleton.spin(skeleton.frame, output)
-        assert spin is not None
         speed = _along(spin, rates)
         forces = Space(len(held))
         for joint in range(skeleton.count):

@@ -86,7 +86,6 @@ def _run(motion: Motion, turns: float, samples: int) -> MotionRun:
 def test_a_run_too_long_to_be_searched_says_how_far_it_may_be_off() -> None:
     motion = load("freeth-2021-teeth").motion(outputs=["moon"])
     (tally,) = _run(motion, 5_000, 2_000).tallies
-    assert tally.error_within is not None
     assert tally.error_within > 0
     assert tally.speed_within is None or tally.speed_within > 0
     # what is told is attained, and what may be more does not pass the sum of all ranges

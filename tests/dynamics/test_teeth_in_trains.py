@@ -25,7 +25,6 @@ def test_a_form_of_the_train_holds_for_every_pair_without_one() -> None:
     assert mesh.verdict.kind == "runs"
     assert mesh.fault is None
     assert mesh.friction == 0.1
-    assert mesh.window is not None
     assert 1 + mesh.window.jam == pytest.approx(1.01031, abs=6e-6)
     assert 1 + mesh.window.run == pytest.approx(1.0390, abs=6e-5)
 
@@ -87,7 +86,6 @@ def test_a_friction_that_is_none_is_refused(friction: str) -> None:
 def test_friction_that_locks_is_a_fault_with_its_limit() -> None:
     text = PAIR.format(rest=TEETH.replace("0.1", "9").replace("{a: 1}", "{b: 1}"))
     (mesh,) = load(text).meshes
-    assert mesh.fault is not None
     assert "locks" in mesh.fault.what
 
 

@@ -309,7 +309,6 @@ def test_a_pool_that_stays_broken_is_said() -> None:
 
 def test_leaving_ends_what_still_runs(tmp_path: Path) -> None:
     with open_executor(2) as executor:
-        assert executor is not None
         future = executor.submit(gated, (str(tmp_path), 0, 0))
         until(lambda: begun(tmp_path), "a task at the gate")
     assert future.done()
@@ -321,7 +320,6 @@ def test_leaving_ends_what_still_runs(tmp_path: Path) -> None:
 def test_tasks_cancelled_just_before_a_worker_dies_upset_nothing(tmp_path: Path) -> None:
     """The pool's own thread would end with a traceback, which pytest reports, and leave futures open."""
     with open_executor(2) as executor:
-        assert executor is not None
         futures = [executor.submit(gated, (str(tmp_path), n, 0)) for n in range(9)]
         until(lambda: begun(tmp_path), "a task at the gate")
         assert [future.cancel() for future in futures[5:]] == [True] * 4

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from geartrain import GearTrain, GearTrainError, load
+from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.search.reconstruct.evidence_question import EvidenceQuestion, evidence_question
 from geartrain.search.reconstruct.reconstruction_problem import PriorFactors
-from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
+from geartrain.train.declaration_files import read_declaration, read_evidence, shipped_evidence
 
 SOUND = """\
 links:

@@ -11,9 +11,9 @@ import yaml
 from shipped import every_train
 from studies.train_families import chain
 
-from geartrain import GearTrain, GearTrainError, load
+from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.train import yaml_nodes
-from geartrain.train.declaration_files import parse_json, read_declaration, shipped
+from geartrain.train.declaration_files import parse_json, read_declaration
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": {"teeth": 60, "internal": True}}}},

@@ -15,7 +15,7 @@ import pytest
 from commands import LOCKED, RIGHT, call
 
 from geartrain import GearTrain, load
-from geartrain.analysis import MethodAccuracy, TrainAccuracy, accuracy, find_accuracy
+from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
 
 SPEEDS, LAWS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
 
@@ -36,8 +36,8 @@ def row_of(found: TrainAccuracy, stage: str, method: str) -> MethodAccuracy:
 def _once() -> Iterator[None]:
     """Each method runs once, for its time is not judged."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(accuracy, "_ENOUGH", 0.0)
-        patch.setattr(accuracy, "_LONG", 0.0)
+        patch.setattr("geartrain.analysis.accuracy._ENOUGH", 0.0)
+        patch.setattr("geartrain.analysis.accuracy._LONG", 0.0)
         yield
 
 
@@ -125,7 +125,7 @@ def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(tr
 
 def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
     code = (
-        "import sys, geartrain; from geartrain.analysis.accuracy import find_accuracy; "
+        "import sys, geartrain; from geartrain.analysis import find_accuracy; "
         "find_accuracy(geartrain.load('pennestri-2002')); "
         "heavy = ('geartrain.teeth.triangular.triangular_transmission', 'geartrain.dynamics.motion'); "
         "print([name for name in sys.modules if name.startswith(heavy)])"

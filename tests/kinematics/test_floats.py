@@ -306,7 +306,7 @@ def test_a_ratio_of_1e18_is_refused_in_floats_and_exact_otherwise() -> None:
 
 
 def test_a_dense_train_of_which_no_digit_is_known_in_floats_is_solved_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.kinematics.train_kinematics.EXACT_BUDGET", -1)
+    monkeypatch.setattr("geartrain.kinematics.train_kinematics.EXACT_BUDGET", -(10**6))
     train = GearTrain.declare(amplifiers([(10**9 - 1, 10**9, 10**9 + 1, 10**9)], "x1"))
     answer = train.solve()
     assert answer.method == "exact"

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from models import PAIR, refusal
+from commands import call
+from models import PAIR, refusal, torque_figures
 
 from geartrain import load
-from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.errors import GearTrainError
-from geartrain.report.declaration_reference import schema
 from geartrain.train import Train
 
 
@@ -113,7 +113,7 @@ def test_a_spring_runs_down_and_a_hand_yields() -> None:
 def test_a_rate_of_the_drive_gives_watts_as_the_rate_does() -> None:
     text = "extends: moon-triangular\nloads: {moon: -1 N mm}\n"
     trains = [load(text + said) for said in ("rate: 2 turn/s", "drive: {rate: 2 turn/s}", "")]
-    found = [watts_per_unit(train.declaration, train.declaration.case(None)) for train in trains]
+    found = [torque_figures(train).watts_per_unit for train in trains]
     assert found == [found[0], found[0], None]
 
 
@@ -194,7 +194,7 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
 
 
 def test_editors_are_told_of_every_key() -> None:
-    parts = schema()["$defs"]
+    parts = json.loads(call("schema").stdout)["$defs"]
     assert {"drag", "inertia", "mass", "bearing"} <= set(parts["Link"]["anyOf"][1]["properties"])
     assert {"sliding", "static", "deviation"} == set(parts["CoulombFriction"]["anyOf"][1]["properties"])
     assert {"rate", "torque", "weight", "drum", "spring", "hand"} == set(parts["Drive"]["properties"])

@@ -327,11 +327,12 @@ def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
     assert data["drives"]["forward"]["left_out"][0]["where"] == ["carrier"]
 
 
-def test_the_captions_of_pictures_name_what_is_left_out() -> None:
-    from geartrain.report.torque_report import summary_text
-
-    found = load(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", "")).torques()
-    assert summary_text(found).endswith("left out: friction of pins (P), swing within a turn (P)")
+@pytest.mark.needs("matplotlib")
+def test_the_captions_of_pictures_name_what_is_left_out(tmp_path: Path) -> None:
+    path, picture = tmp_path / "pin.yaml", tmp_path / "pin.svg"
+    path.write_text(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", ""), encoding="utf-8")
+    call("torques", path, "--plot", picture)
+    assert "left out: friction of pins (P), swing within a turn (P)" in picture.read_text(encoding="utf-8")
 
 
 def test_the_means_of_teeth_are_worked_out_once_whatever_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:

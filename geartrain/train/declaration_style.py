@@ -43,10 +43,8 @@ def with_short_forms(text: str) -> str:
 
     Examples
     --------
-    >>> print(with_short_forms("links: {}\ngears:\n  - {pair: [p, w]}\n"), end="")
-    links: {}
-    gears:
-      - p ~ w
+    >>> print(with_short_forms("gears:\\n  - {pair: [p, w]}"), end="")
+    gears: [p ~ w]
     """
     return _rewritten(text, {"revolutes": _short_joints, "gears": _short_pairs})
 
@@ -66,10 +64,8 @@ def with_long_forms(text: str) -> str:
 
     Examples
     --------
-    >>> print(with_long_forms("links: {}\ngears:\n  - p ~ w\n"), end="")
-    links: {}
-    gears:
-      - {pair: [p, w]}
+    >>> print(*with_long_forms("gears:\\n  - p ~ w").splitlines(), sep=" /")
+    gears: /  - {pair: [p, w]}
     """
     return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
 

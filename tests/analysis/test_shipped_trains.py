@@ -35,12 +35,6 @@ def test_floats_agree_with_exact_speeds_within_their_estimate(name: str) -> None
             assert abs(Fraction(floats[link]) - Fraction(speed)) <= Fraction(float(floats.estimate[link][0]))
 
 
-def test_the_cosmos_of_2021_has_sixty_nine_wheels() -> None:
-    wheels = load("freeth-2021").declaration.wheels
-    assert len(wheels) == 69
-    assert sum(wheel.status == "surviving" for _, wheel in wheels.values()) == 30
-
-
 class Plain(yaml.SafeLoader):
     """Scalars as an editor's YAML 1.2 sees them, dates and sexagesimals left as text."""
 

@@ -432,16 +432,6 @@ def test_the_command_prints_keys_and_verdicts(tmp_path: Path) -> None:
     assert call("torques", "worm").exit_code == 0
 
 
-def test_a_gearbox_has_its_published_efficiencies() -> None:
-    # ZF 8HP70 with a basic efficiency of 0.98 for each set, 0.9899 a mesh: cases of the same name above
-    train = load("zf-8hp70")
-    for state in train.states:
-        (source,) = train.declaration.case(state).inputs
-        found = train.driven("OUT", source, state)
-        assert found.verdict
-        assert found.efficiency == 1
-
-
 def test_an_efficiency_of_means_over_teeth_is_a_float_and_a_declared_one_a_fraction() -> None:
     teeth = load("planetary-24-18-60-involute")
     for friction in (0.02, 0.1):

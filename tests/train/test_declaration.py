@@ -20,12 +20,6 @@ from geartrain.train import declare, period_table
 # short forms and ids --------------------------------------------------------------------------------------------------
 
 
-def test_a_planetary_of_24_18_60_turns_its_carrier_at_two_sevenths() -> None:
-    answer = planetary().solve()
-    assert answer["carrier"] == Fraction(2, 7)
-    assert answer["planet"] == Fraction(2, 7) - Fraction(60, 18) * Fraction(2, 7)
-
-
 def test_the_same_train_is_read_from_text_file_mapping_and_name(tmp_path: Path) -> None:
     text = PLANETARY.format(rest="inputs: {sun: 1}")
     path = tmp_path / "p.yaml"

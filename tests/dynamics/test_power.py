@@ -439,7 +439,7 @@ def test_collisions_stand_beside_sliding() -> None:
     data = torque_figures(train).to_dict()["losses"]
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
     assert {loss["name"] for loss in data} == {"a~b", "c~d"}
-    assert table[-1][4] == f"{1e3 * sum(loss['impact'] for loss in data):.4g} mW"
+    assert table[-1][4] == f"{1e6 * sum(loss['impact'] for loss in data):.4g} µW"
 
 
 def test_a_train_that_loses_nothing_in_no_loop_has_no_more_to_say() -> None:

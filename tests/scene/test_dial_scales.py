@@ -13,8 +13,7 @@ import shipped
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.scene.dial_marks import Engraving, engrave
-from geartrain.scene.dial_scale import DialScale, roman, scale_of
+from geartrain.scene.dial_scale import DialScale, Engraving, engrave, roman, scale_of
 from geartrain.scene.stroke_letters import CurvedLine, capitals, curved_text, letter_strokes, text_length
 from geartrain.train import Dial
 

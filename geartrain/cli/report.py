@@ -45,8 +45,8 @@ def run(
 
 
 def _shared(train: GearTrain, view: bool) -> Document:
-    from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report
+    from geartrain.report.train_report import describe_shared_page
 
     pictures, notes = _pictures(train)
     if not view:

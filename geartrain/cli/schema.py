@@ -20,8 +20,7 @@ def run(
 
     With --as answers, the JSON Schema of what commands print with --json, by command.
     """
-    from geartrain.report.declaration_reference import declaration_reference, schema
-    from geartrain.report.json_schema import answer_schema
+    from geartrain.report.json_schema import answer_schema, declaration_reference, schema
 
     if form not in ("json", "markdown", "answers"):
         what = f"'{form}' is not a form of schema; use json or markdown, or answers"

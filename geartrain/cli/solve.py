@@ -34,7 +34,7 @@ def run(
 
         emit(as_json(collect_answers(train, answers, whole=output is None)), to)
     else:
-        from geartrain.report.speeds_text import speeds_text
+        from geartrain.report.answers import speeds_text
         from geartrain.train.trade_words import told_words
 
         words = told_words("\n".join(str(answer.verdict) for answer in answers if not answer))

@@ -72,8 +72,7 @@ def run(
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
     from geartrain.analysis.gear_train import load
-    from geartrain.report.torque_figures import collect_torque_report
-    from geartrain.report.torque_report import describe_torques
+    from geartrain.report.torque_report import collect_torque_report, describe_torques
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
@@ -171,8 +170,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
-    from geartrain.report.torque_cycle_report import turns_text
-    from geartrain.report.torque_report import summary_text
+    from geartrain.report.torque_report import summary_text, turns_text
 
     torques = _loaded(train, found, "--plot")
     name = train.name if torques.state is None else f"{train.name}, state {torques.state}"

@@ -44,8 +44,8 @@ def run(
 def _pages(path: Path) -> LivePages:
     from geartrain.analysis.gear_train import load
     from geartrain.report.html_page import to_html
-    from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report
+    from geartrain.report.train_report import describe_shared_page
     from geartrain.viewer import train_page
     from geartrain.viewer.live_server import LivePages
 

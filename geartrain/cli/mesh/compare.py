@@ -49,7 +49,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
-    from geartrain.report.tooth_form_comparison import describe_form_comparison
+    from geartrain.report.conjugate_pair_page import describe_form_comparison
 
     to, picture = sink(out, force, (".md", ".html", ".json")), picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)

@@ -16,9 +16,9 @@ import geartrain
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.answer import Answer
-from geartrain.report.declaration_reference import schema
 from geartrain.report.document import exact
 from geartrain.report.html_page import to_html
+from geartrain.report.json_schema import schema
 from geartrain.report.soundness import find_soundness
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train

@@ -30,9 +30,8 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
-from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
     from geartrain.dynamics import ErrorSamples, Motion, MotionRun

@@ -29,9 +29,8 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run, progress
-from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
-from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError, Problem
 from geartrain.wings import wing
 

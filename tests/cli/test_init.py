@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import geartrain
 from geartrain.cli import app
-from geartrain.cli.init import TEMPLATES
+from geartrain.cli.declarations import TEMPLATES
 from geartrain.train.declaration_style import with_short_forms
 
 KINDS = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))

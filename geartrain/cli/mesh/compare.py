@@ -20,8 +20,7 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.form_options import read_wheels
-from geartrain.cli.option_values import read_quantity
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme, read_quantity
 from geartrain.teeth.form_comparison import USUAL, arcs_error, comparable_forms, compare_forms
 
 if TYPE_CHECKING:

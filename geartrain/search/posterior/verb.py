@@ -31,8 +31,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.cli.option_values import MOST_COUNT
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:

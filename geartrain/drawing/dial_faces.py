@@ -9,9 +9,21 @@ from math import pi
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Circle, Figure, Polygon
-from geartrain.drawing.labels import text_width
-from geartrain.drawing.style import BLACK, FINE, GREY, SMALL, series_look, sheet, title_of, write
+from geartrain.drawing.arrangement import text_width
+from geartrain.drawing.style import (
+    BLACK,
+    FINE,
+    GREY,
+    SMALL,
+    Axes,
+    Circle,
+    Figure,
+    Polygon,
+    series_look,
+    sheet,
+    title_of,
+    write,
+)
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene

@@ -10,8 +10,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Line2D, MaxNLocator, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SCALE, SMALL, TEXT, headed
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    LETTER,
+    PALE,
+    RED,
+    SCALE,
+    SMALL,
+    TEXT,
+    Axes,
+    Figure,
+    Line2D,
+    MaxNLocator,
+    Patch,
+    headed,
+)
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:

@@ -29,7 +29,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import Rate, Restitution, Skip, Steps, TimeRequest, ToothModel, run_in_time
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

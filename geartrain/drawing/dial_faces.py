@@ -25,7 +25,7 @@ from geartrain.drawing.style import (
     write,
 )
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import decimal, is_short
+from geartrain.numerics.exact import decimal, is_short
 from geartrain.scene import Pointer, Scene
 from geartrain.scene.dial_scale import DialScale, clock_point, engrave, plain_circle
 from geartrain.scene.pose import body_errors, turns_of

@@ -29,7 +29,7 @@ from geartrain.drawing.style import (
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers
-from geartrain.numerics.decimal_text import decimal, fraction_text, is_short
+from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, Figure, Patch, Polygon, headed
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import zip_longest
 
-from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
+from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.result_picture import picture_maker
+from geartrain.numerics.results import picture_maker
 
 
 class ExactText(str):

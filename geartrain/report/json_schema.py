@@ -1,6 +1,6 @@
 """JSON Schema (draft 2020-12) of the answers of all commands, and of the declaration.
 
-Keys of an answer are those of `geartrain.numerics.plain_data`, kinds of values come from annotations, and descriptions
+Keys of an answer are those of `geartrain.numerics.results`, kinds of values come from annotations, and descriptions
 from docstrings. What commands add to a result is written by hand. The reference of the declaration is written from its
 models.
 """
@@ -23,8 +23,8 @@ from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, U
 from pydantic.json_schema import GenerateJsonSchema
 
 from geartrain.numerics.long_float import LongFloat
-from geartrain.numerics.plain_data import Key, Result, keys_of, whole
 from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.numerics.results import Key, Result, keys_of, whole
 from geartrain.train import Train
 from geartrain.wings import WINGS, WingResult, has_wing, wing
 

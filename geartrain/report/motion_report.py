@@ -9,8 +9,8 @@ from math import degrees
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.decimal_text import abridged_text
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.wings import WingResult, has_wing, wing
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
-from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import as_float, percent_of_text, percent_text, watts_text
+from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.wings import WingResult, has_wing, wing
 

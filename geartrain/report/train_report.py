@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.answer import Answer, Loop, abridged_names
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE, adjacency_labels, edge_rows
-from geartrain.kinematics.verdict import Loop, abridged_names
-from geartrain.numerics.decimal_text import abridged_text, plural
+from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import (
     MOST_ROWS,

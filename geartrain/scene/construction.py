@@ -23,7 +23,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.formulas import Formula, Formulas, find_formulas
 from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, scaled, size, unit_or_z
 from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact

@@ -19,16 +19,16 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.judged_outputs import SpeedValue, goal_of
-from geartrain.kinematics.relative_speeds import axis_sense, relative_speed
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
 from geartrain.scene.layout import WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch
-from geartrain.train.dials import looks_away
+from geartrain.train.outputs import looks_away
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 from geartrain.scene.stroke_letters import CurvedLine, Stroke, curved_text, text_length
 
 if TYPE_CHECKING:
-    from geartrain.train.dials import Dial, Graduation
+    from geartrain.train.outputs import Dial, Graduation
 
 Point = tuple[float, float]
 

@@ -13,9 +13,9 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING, ClassVar
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.packing import packed
-from geartrain.numerics.plain_data import Key, Result, plain
+from geartrain.numerics.arrays import packed
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Key, Result, plain
 from geartrain.scene.context import SceneContext
 
 if TYPE_CHECKING:

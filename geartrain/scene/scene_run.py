@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.packing import packed
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.arrays import packed
 from geartrain.numerics.polylines import simplified
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.vectors import Vector, across, minus, plus, size, unit_or_z
 from geartrain.wings import WingResult
 

@@ -10,12 +10,10 @@ from math import log2
 import pytest
 from concrete_trees import concrete, meshes, nodes, random_problem
 
+from geartrain.search.reconstruct import Candidate, ReconstructionProblem, find_reconstructions
 from geartrain.search.reconstruct.candidate_findings import grow_family_tree
 from geartrain.search.reconstruct.candidate_names import name_train
 from geartrain.search.reconstruct.explained_facts import ExplainedFacts, WeighedTrains
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import Candidate
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 Question = tuple[ReconstructionProblem, tuple[Candidate, ...], WeighedTrains, list[Fraction]]
 

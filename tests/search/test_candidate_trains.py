@@ -9,11 +9,10 @@ from concrete_trees import concrete, exact_dial, explanations, package_arbor, ra
 from sampling import all_but
 
 from geartrain import GearTrain, load
-from geartrain.search.reconstruct.candidate_train import candidate_data, candidate_text
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.search.reconstruct import Arbor, PlacedWheel, ReconstructionProblem, evidence_question, read_evidence
+from geartrain.search.reconstruct.train_construction import candidate_data, candidate_text
 from geartrain.train import Train, declare
-from geartrain.train.declaration_files import read_declaration, read_evidence, shipped_evidence
+from geartrain.train.declaration_files import read_declaration, shipped_evidence
 
 Path = list[tuple[str | None, PlacedWheel, PlacedWheel]]
 """Arbors that follow each other: name, driven wheel, driving wheel."""

@@ -10,11 +10,9 @@ from carried_trees import Node, carried_trains, random_evidence
 from concrete_trees import concrete
 
 from geartrain import load
-from geartrain.search.reconstruct.candidate_train import candidate_text
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct import evidence_question, find_reconstructions, read_evidence
+from geartrain.search.reconstruct.train_construction import candidate_text
 from geartrain.train import declare
-from geartrain.train.declaration_files import read_evidence
 
 
 @cache

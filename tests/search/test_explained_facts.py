@@ -7,10 +7,7 @@ from math import log2
 
 import pytest
 
-from geartrain.search.reconstruct.candidate_findings import grow_family_tree
-from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
-from geartrain.search.reconstruct.explained_facts import ExplainedFacts, Fact, FactMarginal, WeighedTrains
-from geartrain.search.reconstruct.reconstruction_problem import (
+from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     PlacedWheel,
@@ -19,6 +16,9 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingArbor,
     SurvivingWheel,
 )
+from geartrain.search.reconstruct.candidate_findings import grow_family_tree
+from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
+from geartrain.search.reconstruct.explained_facts import ExplainedFacts, Fact, FactMarginal, WeighedTrains
 
 
 def survivor(name: str, **counts: tuple[int, ...]) -> SurvivingArbor:

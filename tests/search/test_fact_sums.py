@@ -10,16 +10,18 @@ import pytest
 from concrete_trees import ADDED, concrete, explanations, meshes, nodes, package_arbor, random_problem, with_rings
 from sampling import all_but
 
-from geartrain.search.reconstruct import candidate_findings
+from geartrain.search.reconstruct import (
+    ReconstructionAnswer,
+    ReconstructionProblem,
+    candidate_findings,
+    describe_reconstruction,
+    evidence_question,
+    find_reconstructions,
+    read_evidence,
+)
 from geartrain.search.reconstruct.candidate_names import name_train
-from geartrain.search.reconstruct.evidence_question import evidence_question
 from geartrain.search.reconstruct.explained_facts import ExplainedFacts, WeighedTrains, sum_facts
-from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
-from geartrain.search.reconstruct.reconstruction_result import prior, topology_prior
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct.reconstruction_search import prior, topology_prior
 
 Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
 

@@ -14,13 +14,15 @@ from concrete_trees import random_problem
 
 from geartrain import GearTrainError
 from geartrain.errors import QuestionError
-from geartrain.search.reconstruct.candidate_train import TrainConstruction
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import Arbor, PlacedWheel, evidence_question, find_reconstructions, read_evidence
 from geartrain.search.reconstruct.geometry_likelihood import can_close, candidate_likelihood, order_exists
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, find_unreachable
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct.reconstruction_problem import (
+    MeasuredWheel,
+    PlacedArbor,
+    SurvivingGeometry,
+    find_unreachable,
+)
+from geartrain.search.reconstruct.train_construction import TrainConstruction
 
 P, V, W, X = PlacedWheel("p", 20), PlacedWheel("v", 30), PlacedWheel("w", 40), PlacedWheel("x", 60)
 

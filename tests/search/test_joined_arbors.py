@@ -10,11 +10,9 @@ from joined_trees import explanations_with_couplings, group, parted
 from sampling import all_but
 
 from geartrain import GearTrainError, load
-from geartrain.search.reconstruct.candidate_train import candidate_text
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import evidence_question, find_reconstructions, read_evidence
 from geartrain.search.reconstruct.link_roles import join_arbors
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct.train_construction import candidate_text
 
 
 @pytest.mark.parametrize("start", all_but({0, 80, 220}, range(0, 300, 20)))

@@ -10,29 +10,30 @@ import pytest
 from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
 
 from geartrain import GearTrainError
-from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules
-from geartrain.search.reconstruct.candidate_train import TrainConstruction
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import (
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    Reconstructions,
+    SearchedDial,
+    SurvivingArbor,
+    evidence_question,
+    find_reconstructions,
+    read_evidence,
+)
+from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules, check_same, find_known_train
 from geartrain.search.reconstruct.known_rank import (
     RankedQuestion,
     find_place,
     find_telling_facts,
     rank_known_train,
 )
-from geartrain.search.reconstruct.known_train import check_same, find_known_train
 from geartrain.search.reconstruct.lost_arbors import lost_evidence
-from geartrain.search.reconstruct.reconstruction_problem import (
-    Arbor,
-    PlacedWheel,
-    ReconstructionProblem,
-    SearchedDial,
-    SurvivingArbor,
-)
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions, mechanism
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction_search import mechanism
 from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import declare
-from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
+from geartrain.train.declaration_files import read_declaration, shipped
 
 
 def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem:

@@ -9,11 +9,16 @@ from concrete_trees import concrete, explanations, nodes, speeds
 from shipped import every_train
 
 from geartrain import GearTrainError, load
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import (
+    Arbor,
+    Candidate,
+    ExplanationCount,
+    PlacedWheel,
+    Reconstructions,
+    evidence_question,
+    find_reconstructions,
+)
 from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_evidence_data, rank_of
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.search.reconstruct.reconstruction_result import Candidate, ExplanationCount, Reconstructions
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_tree, find_spur_trees
 from geartrain.train.declaration_files import read_declaration
 

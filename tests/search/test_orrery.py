@@ -15,9 +15,7 @@ from geartrain import load
 from geartrain.analysis import GearTrain
 from geartrain.errors import QuestionError, RangeError
 from geartrain.search import Orrery, find_orrery
-from geartrain.search.orrery.arbor_trees import TreeEnumeration, fewest_wheels
-from geartrain.search.orrery.pair_ratio_table import pair_ratios, reach
-from geartrain.search.orrery.period_targets import read_period_targets
+from geartrain.search.orrery.arbor_trees import TreeEnumeration, fewest_wheels, pair_ratios, reach, read_period_targets
 from geartrain.train.periods import period_table
 
 HILLIS = {

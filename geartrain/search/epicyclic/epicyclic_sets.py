@@ -1,6 +1,4 @@
-"""What a search for epicyclic sets found, and a set as a declaration, with its counts or with wheels still to be
-found.
-"""
+"""What a search for epicyclic sets found, and a set as a declaration, with its counts or with bounds for them."""
 
 from __future__ import annotations
 
@@ -88,12 +86,6 @@ class EpicyclicSet(CountSizes, Result):
     def equally_spaced(self) -> bool:
         """True if the planets can be put in at equal distances."""
         return self.places % self.planets == 0
-
-    @property
-    def clears(self) -> bool:
-        """True if neighbouring planets do not touch."""
-        # wheels that just touch clear each other, whatever rounding says
-        return self.room >= -1e-9
 
     def to_train(self) -> dict[str, Any]:
         """A declaration as plain data: the set with one planet, driven at 1, whose output expects its exact ratio."""

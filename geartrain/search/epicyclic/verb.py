@@ -8,7 +8,7 @@ import typer
 
 from geartrain.cli.common import Force, Json, Out, give
 from geartrain.cli.option_values import decimal
-from geartrain.search.verb_options import (
+from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,

@@ -17,15 +17,19 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.search.orrery.arbor_trees import (
     FIRST,
     ArborTree,
+    PairRatios,
+    PeriodTargets,
+    ReachablePeriods,
     TreeArbor,
     TreeEnumeration,
     edges,
     fewest_wheels,
     grown,
+    pair_ratios,
+    reach,
+    read_period_targets,
 )
 from geartrain.search.orrery.orrery_result import Orrery, OrreryArbor, OrreryPair
-from geartrain.search.orrery.pair_ratio_table import PairRatios, ReachablePeriods, pair_ratios, reach
-from geartrain.search.orrery.period_targets import PeriodTargets, read_period_targets
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Ints

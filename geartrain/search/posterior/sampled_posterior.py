@@ -15,15 +15,16 @@ import numpy as np
 
 from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.search.join.wheel_monomials import IntervalConstraint
-from geartrain.search.posterior.inference_problem import InferenceProblem
-from geartrain.search.posterior.likelihood import ExactConstraint, FormulaValues, OutputLikelihood
-from geartrain.search.posterior.monomial_columns import (
+from geartrain.search.posterior.inference_problem import InferenceProblem, ToothCountPrior
+from geartrain.search.posterior.likelihood import (
     CombinationColumns,
+    FormulaValues,
     MonomialColumns,
+    OutputLikelihood,
+    exact_constraint,
     find_monomials,
     find_product_plan,
 )
-from geartrain.search.posterior.priors import ToothCountPrior
 
 BLOCK = 1 << 13
 """Combinations worked on at a time: 64 kB an array, so that a formula's columns stay in the processor's cache."""
@@ -56,7 +57,7 @@ class LikelihoodBatch:
             OutputLikelihood(one, self.monomials, self.domains, question.soft, self._values.get(one.name))
             for one in ordered
         ]
-        self._gates = [ExactConstraint(one, self.monomials, self.domains) for one in question.conditions]
+        self._gates = [exact_constraint(one, self.monomials, self.domains) for one in question.conditions]
         values = [*self._values.values(), *(judge.value for judge in self._judges)]
         self._plan = find_product_plan(key for value in values for key in value.plan)
 

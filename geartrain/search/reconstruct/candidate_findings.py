@@ -8,7 +8,6 @@ from fractions import Fraction
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.search.reconstruct.candidate_names import NamedArbor
-from geartrain.search.reconstruct.candidate_train import named_candidate
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.explained_facts import (
     MOST_SUMMED,
@@ -19,7 +18,8 @@ from geartrain.search.reconstruct.explained_facts import (
     sum_facts,
 )
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions, topology_prior
+from geartrain.search.reconstruct.reconstruction_search import Reconstructions, topology_prior
+from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
 # Candidates as a family tree: a trie over their meshes, from the input along the path to each pointer in turn.

@@ -15,12 +15,12 @@ from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.search.information import entropy
 from geartrain.search.reconstruct.arbor_orders import AddedPlace, NamedMesh
 from geartrain.search.reconstruct.candidate_names import NamedArbor
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
 from geartrain.search.reconstruct.search_tasks import OrderPart, TopologyTrains
 from geartrain.search.reconstruct.train_topology import Topology
+from geartrain.search.weighted_alternatives import entropy
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
 """What a fact is about.

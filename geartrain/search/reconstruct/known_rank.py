@@ -12,21 +12,22 @@ from geartrain.numerics.plain_data import Key, Result
 from geartrain.search.reconstruct.candidate_names import NamedArbor
 from geartrain.search.reconstruct.candidate_rules import (
     BrokenRule,
+    KnownTrain,
     admitting_question,
     as_missing_dial,
     broken_rules,
+    find_known_train,
 )
-from geartrain.search.reconstruct.candidate_train import named_candidate
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
     lost_pointers,
     train_facts,
     wheels_in_doubt,
 )
-from geartrain.search.reconstruct.known_train import KnownTrain, find_known_train
 from geartrain.search.reconstruct.lost_arbors import is_all_listed, rank_of
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions, mechanism, prior, weight_ranks
+from geartrain.search.reconstruct.reconstruction_search import Reconstructions, mechanism, prior, weight_ranks
+from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
 # Which facts single one train out among all that explain the evidence: each alone, and the smallest sets of them.

@@ -7,7 +7,7 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.search.reconstruct.reconstruction_problem import Arbor
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions, mechanism
+from geartrain.search.reconstruct.reconstruction_search import Reconstructions, mechanism
 from geartrain.search.reconstruct.spur_tree import SpurTree, why_not
 from geartrain.train import Train, declare
 from geartrain.train.reconstruction import NEW_ARBOR

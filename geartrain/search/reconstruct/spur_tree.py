@@ -15,6 +15,7 @@ from typing import NamedTuple
 from geartrain.analysis import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.circuits.joint_tree import Tree, find_tree
+from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import Figure
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
@@ -294,7 +295,7 @@ class _Parts:
 
     def trees(self) -> Iterator[SpurTree]:
         """Each part once an arbor is known at which it begins."""
-        waiting = [(base, arbors) for base in self._bases for arbors in _connected(self._mates(base))]
+        waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
         while waiting:
@@ -338,10 +339,11 @@ class _Parts:
             return self.train.frame
         return (bases or self._bases)[base].joined.get(link, (link,))[0]
 
-    def _mates(self, base: str) -> dict[str, set[str]]:
-        """By arbor, those that it meshes with."""
+    def _connected(self, base: str) -> Iterator[set[str]]:
+        """Arbors that meshes hold together."""
         meshes = self._bases[base].meshes
-        return {arbor: {self._arbor(base, each.other) for each in own} for arbor, own in meshes.items()}
+        mates = ((arbor, *(self._arbor(base, each.other) for each in own)) for arbor, own in meshes.items())
+        yield from map(set, joined_groups(meshes, mates))
 
     # where a part begins
 
@@ -407,20 +409,6 @@ class _Parts:
                 yield name, output.of or name, bool(output.targets)
         if base != train.frame:
             yield from ((link, link, False) for link in self._inputs if link not in train.case(None).outputs)
-
-
-def _connected(mates: Mapping[str, set[str]]) -> Iterator[set[str]]:
-    """Arbors that meshes hold together."""
-    seen: set[str] = set()
-    for first in mates:
-        if first not in seen:
-            group, waiting = {first}, [first]
-            while waiting:
-                new = mates[waiting.pop()] - group
-                group |= new
-                waiting += new
-            seen |= group
-            yield group
 
 
 def _renamed(tree: SpurTree) -> SpurTree:

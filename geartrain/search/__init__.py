@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicSet as EpicyclicSet
     from geartrain.search.epicyclic.epicyclic_sets import SetFindings as SetFindings
     from geartrain.search.epicyclic.set_search import find_sets as find_sets
-    from geartrain.search.orrery.orrery_result import Orrery as Orrery
+    from geartrain.search.orrery.orrery_search import Orrery as Orrery
     from geartrain.search.orrery.orrery_search import find_orrery as find_orrery
     from geartrain.search.posterior.corner_plot import counts_figure as counts_figure
     from geartrain.search.posterior.inference import infer_counts as infer_counts
@@ -96,8 +96,7 @@ _PLACES = {
     "ConstraintOptions": "constraints.constraint_options",
     **dict.fromkeys(("EpicyclicSet", "SetFindings"), "epicyclic.epicyclic_sets"),
     "find_sets": "epicyclic.set_search",
-    "Orrery": "orrery.orrery_result",
-    "find_orrery": "orrery.orrery_search",
+    **dict.fromkeys(("Orrery", "find_orrery"), "orrery.orrery_search"),
     "counts_figure": "posterior.corner_plot",
     **dict.fromkeys(("infer_counts", "joint_posterior", "most_informative_wheels"), "posterior.inference"),
     "describe_posterior": "posterior.posterior_report",

@@ -28,8 +28,7 @@ from studies.page import read
 
 from geartrain.search.reconstruct import Additions, ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_wheels
-from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence, lost_wheels
 from geartrain.train.declaration_files import read_declaration, shipped
 
 

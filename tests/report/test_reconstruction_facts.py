@@ -11,9 +11,16 @@ from rich.console import Console
 from geartrain.report import Document, Section, to_html, to_markdown
 from geartrain.report.document import Branch, SceneText
 from geartrain.report.text import to_terminal
-from geartrain.search.reconstruct.candidate_findings import FamilyBranch, FamilyTrain
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, LoneDial, MissingExplanation
-from geartrain.search.reconstruct.explained_facts import Fact, FactAnswer, FactKind, FactMarginal, NextFact
+from geartrain.search.reconstruct.explained_facts import (
+    Fact,
+    FactAnswer,
+    FactKind,
+    FactMarginal,
+    FamilyBranch,
+    FamilyTrain,
+    NextFact,
+)
 from geartrain.search.reconstruct.reconstruction_report import (
     assumptions_section,
     family_section,

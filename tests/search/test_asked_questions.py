@@ -57,7 +57,7 @@ def test_the_time_is_that_of_a_part_times_their_number(monkeypatch: pytest.Monke
     """Every part begins with 2 s, and all of them share 640 s of work."""
     asked: list[TopologyTask] = []
 
-    def timed(task: TopologyTask, _: object) -> float:
+    def timed(task: TopologyTask) -> float:
         asked.append(task)
         return 2 + (640 / task.parts if task.part < task.parts else 0)  # three in 4096 are half a second
 
@@ -89,7 +89,7 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
 def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatch: pytest.MonkeyPatch) -> None:
     """640 s with 3 added wheels and ten times as long with each more: 6.4e16 s, 2e9 years, with 17."""
 
-    def timed(task: TopologyTask, _: object) -> float:
+    def timed(task: TopologyTask) -> float:
         assert task.added <= 4, "what follows is not timed"
         return 2 + (640 * 10 ** (task.added - 3) / task.parts if task.part < task.parts else 0)
 

@@ -156,28 +156,36 @@ def test_what_fits_is_what_the_solver_says_fits(case: tuple[dict[str, Any], list
     turning = [row for row in everything if row[2] is not None]
     fitting = [row for row in turning if all(abs(off) <= 1 for off in misfit_of(data, row[2]))]
     assert 0 < len(fitting) < len(turning)
-    evidence = sum(prior for _, prior, _ in fitting)
+    rows = [(teeth, prior, sum(off**2 for off in misfit_of(data, speeds))) for teeth, prior, speeds in fitting]
+    says_of_all(found, rows, doubts_of(data))
     assert found.method == "exact"
     assert found.combinations == len(everything)
-    assert found.fits == len(fitting)
-    assert found.evidence.value == evidence
     assert found.turning.value == sum(prior for _, prior, _ in turning)
-    for wheel, counts in doubts_of(data).items():
-        for count in counts:
-            share = sum(prior for teeth, prior, _ in fitting if teeth[wheel] == count) / evidence
-            assert found[wheel].chance(count).value == share
-    ranked = sorted(sum(off**2 for off in misfit_of(data, speeds)) for _, _, speeds in fitting)
-    assert [one.misfit for one in found.best] == ranked[:5]
     assert found.ranked
     for one in found.best:
         speeds = next(row[2] for row in fitting if row[0] == {**row[0], **one.teeth})
         assert all(one.speeds[name] == speeds[name] for name in one.speeds)
-    weights = np.array([float(prior) for _, prior, _ in fitting])
-    for (first, second), value in found.correlations.items():
-        pair = np.array([[teeth[first], teeth[second]] for teeth, _, _ in fitting], dtype=float)
-        spread = np.cov(pair.T, aweights=weights, ddof=0)
-        assert value == pytest.approx(spread[0, 1] / math.sqrt(spread[0, 0] * spread[1, 1]), abs=1e-10)
     assert found.correlations or data["name"] == "loop", "two of its wheels are forced"
+
+
+def says_of_all(
+    found: ToothCountPosterior, rows: list[tuple[dict[str, int], Fraction, Fraction]], doubts: Mapping[str, Any]
+) -> None:
+    """It says what fits: the sums over rows of counts, prior and misfit, of which it lists five."""
+    evidence = sum(prior for _, prior, _ in rows)
+    assert (found.fits, found.evidence.value) == (len(rows), evidence)
+    assert [one.misfit for one in found.best] == sorted(misfit for _, _, misfit in rows)[:5]
+    if not rows:
+        return
+    for wheel, counts in doubts.items():
+        for count in counts:
+            share = sum(prior for teeth, prior, _ in rows if teeth[wheel] == count) / evidence
+            assert found[wheel].chance(count).value == share
+    weights = np.array([float(prior / evidence) for _, prior, _ in rows])
+    for pair, value in found.correlations.items():
+        one, other = (np.array([teeth[wheel] for teeth, _, _ in rows], dtype=float) for wheel in pair)
+        spread = np.cov(one, other, aweights=weights, ddof=0)
+        assert value == pytest.approx(spread[0, 1] / math.sqrt(spread[0, 0] * spread[1, 1]), abs=1e-6)
 
 
 def test_agreement_by_degree_is_a_sum_of_exponentials(case: tuple[dict[str, Any], list[Any]]) -> None:
@@ -234,27 +242,17 @@ def doubt(draw: Callable[..., Any], count: int) -> dict[str, Any]:
 @given(trains())
 def test_taking_all_together_equals_looking_at_each(data: dict[str, Any]) -> None:
     train = declared(data).declaration
-    question, found = build_inference_problem(train, find_priors(train)), run(data, method="exact", most=7)
-    fitting = [
-        (teeth, question.weight(teeth), sum((one.misfit(speed) for one, speed in speeds), Fraction(0)))
+    question = build_inference_problem(train, find_priors(train))
+    rows = [
+        (
+            teeth,
+            Fraction(question.weight(teeth), question.total),
+            sum((one.misfit(speed) for one, speed in speeds), Fraction(0)),
+        )
         for teeth, speeds in looked_at(question)
         if all(one.fits(speed) for one, speed in speeds)
     ]
-    total = sum(weight for _, weight, _ in fitting)
-    assert found.evidence.value == Fraction(total, question.total)
-    assert found.fits == len(fitting)
-    assert [one.misfit for one in found.best] == sorted(misfit for _, _, misfit in fitting)[:7]
-    if not fitting:
-        return
-    for wheel, doubt in question.doubts.items():
-        for count in doubt.counts:
-            own = sum(weight for teeth, weight, _ in fitting if teeth[wheel] == count)
-            assert found[wheel].chance(count).value == Fraction(own, total)
-    weights = np.array([float(Fraction(weight, total)) for _, weight, _ in fitting])
-    for pair, value in found.correlations.items():
-        one, other = (np.array([teeth[wheel] for teeth, _, _ in fitting], dtype=np.float64) for wheel in pair)
-        cov = np.cov(one, other, aweights=weights, ddof=0)
-        assert value == pytest.approx(cov[0, 1] / math.sqrt(cov[0, 0] * cov[1, 1]), abs=1e-6)
+    says_of_all(run(data, method="exact", most=5), rows, {w: doubt.counts for w, doubt in question.doubts.items()})
 
 
 def looked_at(question: InferenceProblem) -> Iterator[tuple[dict[str, int], list[tuple[ObservedOutput, Fraction]]]]:

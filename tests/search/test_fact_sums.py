@@ -13,9 +13,9 @@ from sampling import all_but
 from geartrain.search.reconstruct import (
     ReconstructionAnswer,
     ReconstructionProblem,
-    candidate_findings,
     describe_reconstruction,
     evidence_question,
+    explained_facts,
     find_reconstructions,
     read_evidence,
 )
@@ -106,8 +106,8 @@ def test_facts_are_told_of_all_trains_unless_they_are_too_many(
     evidence = read_evidence("back-train")
     problem = evidence_question(evidence).problem
     found = find_reconstructions(problem)
-    monkeypatch.setattr(candidate_findings, "MOST_SUMMED", most)
-    findings = candidate_findings.find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
+    monkeypatch.setattr(explained_facts, "MOST_SUMMED", most)
+    findings = explained_facts.find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
     assert findings.of_all == (told == 4)
     assert {one.trains for one in findings.marginals} == {told}
     assert (findings.listed, len(findings.family)) == (1, 1)

@@ -28,9 +28,8 @@ from geartrain.search.reconstruct.known_rank import (
     find_telling_facts,
     rank_known_train,
 )
-from geartrain.search.reconstruct.lost_arbors import lost_evidence
 from geartrain.search.reconstruct.reconstruction_search import mechanism
-from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import declare
 from geartrain.train.declaration_files import read_declaration, shipped

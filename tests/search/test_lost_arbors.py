@@ -18,8 +18,14 @@ from geartrain.search.reconstruct import (
     evidence_question,
     find_reconstructions,
 )
-from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_evidence_data, rank_of
-from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_tree, find_spur_trees
+from geartrain.search.reconstruct.reconstruction_search import rank_of
+from geartrain.search.reconstruct.spur_tree import (
+    SpurTree,
+    find_spur_tree,
+    find_spur_trees,
+    lost_evidence,
+    lost_evidence_data,
+)
 from geartrain.train.declaration_files import read_declaration
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel

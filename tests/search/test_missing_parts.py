@@ -126,7 +126,6 @@ def test_a_printed_row_stands_behind_those_that_are_nearer(found: TrainFindings,
 def test_the_third_venus_row_is_refused_and_one_count_alone_mends_it(found: TrainFindings) -> None:
     (standing,) = found.standing({"VO1": 32, "VO2": 48, "VX": 41})
     assert standing.refused
-    assert standing.refused
     mended = [row for row in brute("venus") if sum(a != b for a, b in zip(row, (32, 48, 41), strict=True)) == 1]
     assert mended == [(30, 48, 41)]
     assert f"{100 * float(1 / (1 + error_of('venus', mended[0])) - 1):+.2f}" == "+0.18"

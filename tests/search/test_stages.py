@@ -21,7 +21,7 @@ from geartrain.numerics import Journal, open_executor
 from geartrain.search import StageConstraints, StageFindings, TargetRatio, find_stages
 from geartrain.search.ratio import search_segments as stages_work
 from geartrain.search.ratio.product_windows import cuts, errors
-from geartrain.search.ratio.solution_order import best_pairing, suited
+from geartrain.search.ratio.stage_problem import best_pairing, suited
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 Set = tuple[int, ...]

@@ -23,15 +23,15 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.search.reconstruct import ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.lost_arbors import (
-    is_all_listed,
+from geartrain.search.reconstruct.reconstruction_search import is_all_listed, mechanism, prior, rank_of
+from geartrain.search.reconstruct.spur_tree import (
+    SpurTree,
+    find_spur_trees,
     lost_arbors,
     lost_evidence,
     lost_wheels,
-    rank_of,
+    why_not,
 )
-from geartrain.search.reconstruct.reconstruction_search import mechanism, prior
-from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_trees, why_not
 from geartrain.train.declaration_files import read_declaration, shipped
 from studies.followed_train import is_reached
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord

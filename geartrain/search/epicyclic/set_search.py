@@ -25,8 +25,17 @@ from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.kinematics.buildability.planet_assembly import neighbour_terms, passing_terms
 from geartrain.numerics.decimal_text import decimal
 from geartrain.search.constraints.count_conditions import cosine, is_positive, sine
-from geartrain.search.epicyclic.epicyclic_sets import EpicyclicSet, RatioIs, SetFindings, SetOrder, set_rank
-from geartrain.search.epicyclic.set_kinds import CentralWheel, EpicyclicKind, EpicyclicMode, epicyclic_kind
+from geartrain.search.epicyclic.epicyclic_sets import (
+    CentralWheel,
+    EpicyclicKind,
+    EpicyclicMode,
+    EpicyclicSet,
+    RatioIs,
+    SetFindings,
+    SetOrder,
+    epicyclic_kind,
+    set_rank,
+)
 from geartrain.search.search_outcome import Shortfall
 from geartrain.search.target_ratio import TargetRatio
 

@@ -24,7 +24,6 @@ from geartrain.search.posterior.inference_problem import (
     build_inference_problem,
     find_priors,
 )
-from geartrain.search.posterior.likelihood import misfit_of
 from geartrain.search.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
 from geartrain.search.posterior.posterior_summary import (
     PosteriorSummary,
@@ -38,6 +37,7 @@ from geartrain.search.posterior.posterior_summary import (
 from geartrain.search.posterior.sampled_posterior import (
     LikelihoodBatch,
     PosteriorTally,
+    misfit_of,
     packed,
     plain_number,
     sample_task,

@@ -16,23 +16,24 @@ import numpy as np
 
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.ratio.product_windows import ProductWindows, cuts, error_places, errors, expand, multisets
-from geartrain.search.ratio.solution_order import (
+from geartrain.search.ratio.stage_problem import (
     BestStages,
     RankedStages,
+    StageProblem,
     StageRank,
     first_of,
     key_of,
     margin,
     merged,
+    stage_problem_of,
     suited,
 )
-from geartrain.search.ratio.stage_problem import StageProblem, stage_problem_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools, Floats
-    from geartrain.search.ratio.solution_order import FeasiblePairings
+    from geartrain.search.ratio.stage_problem import FeasiblePairings
 
     Ints = NDArray[Any]
     Span = tuple[Ints, Ints]

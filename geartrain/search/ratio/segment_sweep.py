@@ -24,8 +24,7 @@ from geartrain.search.ratio.search_segments import (
     sets_of,
     task_of,
 )
-from geartrain.search.ratio.solution_order import StageRank, key_of, merged
-from geartrain.search.ratio.stage_problem import StageProblem, stage_problem_of
+from geartrain.search.ratio.stage_problem import StageProblem, StageRank, key_of, merged, stage_problem_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -23,8 +23,7 @@ from geartrain.numerics.work import Execution, Journal
 from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
 from geartrain.search.ratio.segment_sweep import SweepOutcome, nearest, tally, within
-from geartrain.search.ratio.solution_order import StageRank, best_pairing, check_order
-from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem
+from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem, StageRank, best_pairing, check_order
 from geartrain.search.search_outcome import GearStages, Shortfall
 from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts

@@ -9,8 +9,8 @@ The question
 - `link_roles`: the link that bears the arbors, and links that couplings join to one arbor
 - `reconstruction_problem`: the typed question with measured modules, radii and places of axes; its size and its digest
 - `evidence_translation`: translation of declared evidence into the question
-- `spur_tree`: parts of a complete train, trees found by breadth-first search along meshes
-- `lost_arbors`: evidence of such a part without some of its arbors
+- `spur_tree`: parts of a complete train, trees found by breadth-first search along meshes; evidence of such a part
+  without some of its arbors
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
 
@@ -29,9 +29,9 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 The answer
 
 - `train_construction`: a complete declaration of a candidate
-- `explained_facts`: exact marginals of facts over all trains, and the fact of greatest entropy
+- `explained_facts`: exact marginals of facts over all trains, the fact of greatest entropy, and the family tree, a trie
+  over meshes
 - `dropped_facts`: counts without each hard fact, and why nothing fits
-- `candidate_findings`: what is reported beyond counts, and the family tree, a trie over meshes
 - `candidate_rules`: a train of the literature in the names of the question, the rules that it breaks, and the question
   that would admit it
 - `known_rank`: its rank, and the smallest sets of facts that single it out (all sets of up to three)
@@ -85,17 +85,17 @@ __all__ = [
     "SearchedDial",
     "SurvivingArbor",
     "SurvivingWheel",
-    "candidate_train",
+    "train_construction",
     "describe_reconstruction",
     "draw_candidates",
-    "evidence_question",
+    "evidence_translation",
     "find_reconstructions",
     "read_evidence",
     "reconstruct",
 ]
 
 _PLACES = {
-    **dict.fromkeys(("EvidenceQuestion", "evidence_question"), "evidence_translation"),
+    **dict.fromkeys(("EvidenceQuestion", "evidence_translation"), "evidence_translation"),
     **dict.fromkeys(("RankedTrain", "ReconstructionAnswer", "ReconstructionRequest", "reconstruct"), "reconstruction"),
     **dict.fromkeys(
         (
@@ -108,7 +108,7 @@ _PLACES = {
         ("Candidate", "ExplanationCount", "Reconstructions", "draw_candidates", "find_reconstructions"),
         "reconstruction_search",
     ),
-    "candidate_train": "train_construction",
+    "train_construction": "train_construction",
     "describe_reconstruction": "reconstruction_report",
     "read_evidence": "..train.declaration_files",
 }

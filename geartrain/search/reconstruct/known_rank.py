@@ -24,9 +24,15 @@ from geartrain.search.reconstruct.explained_facts import (
     train_facts,
     wheels_in_doubt,
 )
-from geartrain.search.reconstruct.lost_arbors import is_all_listed, rank_of
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_search import Reconstructions, mechanism, prior, weight_ranks
+from geartrain.search.reconstruct.reconstruction_search import (
+    Reconstructions,
+    is_all_listed,
+    mechanism,
+    prior,
+    rank_of,
+    weight_ranks,
+)
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 

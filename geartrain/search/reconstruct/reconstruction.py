@@ -10,7 +10,6 @@ from typing import Literal
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.candidate_findings import NO_FINDINGS, CandidateFindings, find_facts
 from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
     ChangedCount,
@@ -20,9 +19,9 @@ from geartrain.search.reconstruct.dropped_facts import (
     without_each_fact,
 )
 from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, evidence_question
+from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
 from geartrain.search.reconstruct.known_rank import KnownRank, RankedQuestion, rank_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
-from geartrain.search.reconstruct.lost_arbors import lost_arbors, lost_evidence, rank_of
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, AskedQuestion, ReconstructionProblem
 from geartrain.search.reconstruct.reconstruction_search import (
     Candidate,
@@ -30,9 +29,10 @@ from geartrain.search.reconstruct.reconstruction_search import (
     Reconstructions,
     draw_candidates,
     find_reconstructions,
+    rank_of,
 )
 from geartrain.search.reconstruct.search_tasks import ExpectedCost, expect_cost
-from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, lost_evidence
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
 

@@ -10,7 +10,6 @@ from dataclasses import astuple
 
 from geartrain.numerics.decimal_text import fraction_text, plural
 from geartrain.report.document import Branch, Document, PageExtras, SceneText, Section, Table, cut, figure, filled_table
-from geartrain.search.reconstruct.candidate_findings import FamilyBranch, FamilyTrain
 from geartrain.search.reconstruct.candidate_rules import counts_text, speed_text
 from geartrain.search.reconstruct.dropped_facts import MISREAD, ChangedCount, LoneDial, MissingExplanation
 from geartrain.search.reconstruct.explained_facts import (
@@ -19,6 +18,8 @@ from geartrain.search.reconstruct.explained_facts import (
     FactAnswer,
     FactKind,
     FactMarginal,
+    FamilyBranch,
+    FamilyTrain,
     NextFact,
 )
 from geartrain.search.reconstruct.known_rank import (

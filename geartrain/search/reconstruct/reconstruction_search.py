@@ -332,6 +332,20 @@ def draw_candidates(
     return tuple(drawn)
 
 
+def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
+    """First and last rank by weight that a candidate may have among all, for some weigh the same.
+
+    None if it is not listed.
+    """
+    wanted = mechanism(arbor)
+    return next((one.ranks for one in found.candidates if mechanism(one.arbor) == wanted), None)
+
+
+def is_all_listed(found: Reconstructions) -> bool:
+    """Whether every explanation that is counted is listed."""
+    return found.complete and len(found.candidates) == sum(count.mechanisms for count in found.counts)
+
+
 # ---------------------------------------------------------------------------------- prior weights, and ranks by weight
 
 

@@ -282,11 +282,11 @@ def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
     return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
 
 
-def timed_part(task: TopologyTask, clock: Callable[[], float]) -> float:
+def timed_part(task: TopologyTask) -> float:
     """How long a part of the search takes (s)."""
-    start = clock()
+    start = perf_counter()
     _counted(task)
-    return clock() - start
+    return perf_counter() - start
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
@@ -350,7 +350,7 @@ class ExpectedCost(Result):
         return sum(self.seconds)
 
 
-def expect_cost(problem: ReconstructionProblem, clock: Callable[[], float] = perf_counter) -> ExpectedCost:
+def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
     """What a question will cost; the lists of its paths are made, and kept for the search in this process.
 
     Raises `QuestionError` if there are too many paths, or the search would not end within a hundred years.
@@ -359,7 +359,7 @@ def expect_cost(problem: ReconstructionProblem, clock: Callable[[], float] = per
     parted = dict.fromkeys(task.added for task in topology_tasks(problem) if task.parts > 1)
     timed: dict[int, tuple[int, float]] = {}
     for added in parted if all(total_paths(problem).values()) else ():
-        timed[added] = _sampled(problem, added, clock)
+        timed[added] = _sampled(problem, added)
         _refuse_endless(problem, [seconds for _, seconds in timed.values()])
     seconds = tuple(timed[added][1] if added in timed else 0.0 for added in range(problem.additions.wheels + 1))
     parts = max((parts for parts, _ in timed.values()), default=0)
@@ -412,14 +412,14 @@ def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) ->
     )
 
 
-def _sampled(problem: ReconstructionProblem, added: int, clock: Callable[[], float]) -> tuple[int, float]:
+def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
     """One part in how many was timed, and how long all of them would take (s)."""
     parts, whole = 0, 0.0
     for parts, samples in _SAMPLES.items():
         # a part that is none: what every part has to do before it comes to what is its own
-        alone = timed_part(TopologyTask(problem, added, parts, parts), clock)
+        alone = timed_part(TopologyTask(problem, added, parts, parts))
         chosen = (int(_GOLDEN * number % 1 * parts) for number in range(1, samples + 1))
-        own = sum(timed_part(TopologyTask(problem, added, part, parts), clock) - alone for part in chosen)
+        own = sum(timed_part(TopologyTask(problem, added, part, parts)) - alone for part in chosen)
         whole = alone + parts * max(0.0, own) / samples
         if own >= _ENOUGH:
             break

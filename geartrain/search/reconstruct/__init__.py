@@ -85,17 +85,17 @@ __all__ = [
     "SearchedDial",
     "SurvivingArbor",
     "SurvivingWheel",
-    "train_construction",
+    "candidate_train",
     "describe_reconstruction",
     "draw_candidates",
-    "evidence_translation",
+    "evidence_question",
     "find_reconstructions",
     "read_evidence",
     "reconstruct",
 ]
 
 _PLACES = {
-    **dict.fromkeys(("EvidenceQuestion", "evidence_translation"), "evidence_translation"),
+    **dict.fromkeys(("EvidenceQuestion", "evidence_question"), "evidence_translation"),
     **dict.fromkeys(("RankedTrain", "ReconstructionAnswer", "ReconstructionRequest", "reconstruct"), "reconstruction"),
     **dict.fromkeys(
         (
@@ -108,7 +108,7 @@ _PLACES = {
         ("Candidate", "ExplanationCount", "Reconstructions", "draw_candidates", "find_reconstructions"),
         "reconstruction_search",
     ),
-    "train_construction": "train_construction",
+    "candidate_train": "train_construction",
     "describe_reconstruction": "reconstruction_report",
     "read_evidence": "..train.declaration_files",
 }

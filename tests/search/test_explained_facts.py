@@ -24,7 +24,6 @@ from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
 from geartrain.search.reconstruct.explained_facts import (
     ExplainedFacts,
     Fact,
-    FactMarginal,
     WeighedTrains,
     grow_family_tree,
 )
@@ -148,7 +147,7 @@ def test_nothing_is_to_be_looked_for_where_there_is_one_candidate() -> None:
 
 def test_one_fact_is_certain() -> None:
     found = ExplainedFacts(WEIGHED, PROBLEM).marginals()
-    pointer: FactMarginal = next(one for one in found if one.kind == "pointer")
+    pointer = next(one for one in found if one.kind == "pointer")
     assert pointer.bits == 0
 
 

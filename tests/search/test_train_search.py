@@ -25,7 +25,6 @@ from geartrain.kinematics.formulas.output_formulas import find_formulas, with_co
 from geartrain.numerics import Journal, open_executor
 from geartrain.search import ConstraintOptions, TrainFindings, search_train
 from geartrain.train import Train
-from geartrain.train.yaml_nodes import as_yaml
 
 Data = dict[str, Any]
 Teeth = dict[str, int]
@@ -633,7 +632,7 @@ def test_a_solution_is_written_down_as_a_change_of_its_train(tmp_path: Path) -> 
     plain = found.declaration(changed, "freeth-2008", "another")
     assert plain["links"]["k2"] == {"wheels": {"k2": {"teeth": changed.teeth["k2"]}}}
     path = tmp_path / "another.yaml"
-    path.write_text(as_yaml(plain), encoding="utf-8")
+    path.write_text(json.dumps(plain), encoding="utf-8")
     child = load(path)
     assert child.name == "another"
     assert {wheel: child.declaration.wheels[wheel][1].count for wheel in changed.teeth} == changed.teeth

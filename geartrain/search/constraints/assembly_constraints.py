@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
-from geartrain.kinematics.buildability.ring_mates import tip_room
+from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
+from geartrain.kinematics.buildability.pitch_distances import tip_room
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing import MeshPhasing, find_phasing
 from geartrain.numerics.graphs import joined_groups
@@ -51,7 +51,7 @@ from geartrain.search.constraints.planet_constraints import PlanetRoom, equal_pl
 if TYPE_CHECKING:
     from decimal import Decimal
 
-    from geartrain.kinematics.buildability.planet_sets import CountRef
+    from geartrain.kinematics.buildability.equal_planets import CountRef
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.numerics.quantity import Quantity
     from geartrain.search.constraints.count_conditions import CandidateColumns

@@ -19,7 +19,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, CountRef
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
 _DIGITS = 70  # fifty are meant: the others take up the rounding of sums and powers

@@ -16,9 +16,8 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import abridged_text, decimal
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.exact import abridged_text, as_float, decimal
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 CARRIER = "carrier"

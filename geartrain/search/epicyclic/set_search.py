@@ -22,8 +22,8 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.kinematics.buildability.planet_assembly import neighbour_terms, passing_terms
-from geartrain.numerics.decimal_text import decimal
+from geartrain.kinematics.buildability.equal_planets import neighbour_terms, passing_terms
+from geartrain.numerics.exact import decimal
 from geartrain.search.constraints.count_conditions import cosine, is_positive, sine
 from geartrain.search.epicyclic.epicyclic_sets import (
     CentralWheel,

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import as_float, fraction_text
+from geartrain.numerics.results import Key, Result
 from geartrain.search.orrery.arbor_trees import (
     FIRST,
     ArborTree,

@@ -11,7 +11,7 @@ from typing import Literal
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.formulas import Formula, find_formulas
 from geartrain.numerics.exact import whole_multiple
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.search.join.product_lists import Domains
 from geartrain.search.join.wheel_monomials import Interval, IntervalConstraint, is_within
 from geartrain.search.train.output_requirements import (

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Result
 from geartrain.search.ratio.product_windows import PLAIN, ROUNDING, ProductWindows, error_places, multisets, products_of
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits.joint_tree import find_tree
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.graphs import joined_groups
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.search.reconstruct.arbor_orders import may_mesh
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import (

@@ -17,9 +17,9 @@ from math import prod
 from typing import Literal
 
 from geartrain.errors import DeclarationError, Problem
-from geartrain.numerics.decimal_text import plural
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.exact import plural
 from geartrain.numerics.quantity import Quantity
+from geartrain.numerics.results import Result
 from geartrain.train import Train
 
 Place = tuple[Fraction, Fraction]

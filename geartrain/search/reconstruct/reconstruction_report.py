@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import astuple
 
-from geartrain.numerics.decimal_text import fraction_text, plural
+from geartrain.numerics.exact import fraction_text, plural
 from geartrain.report.document import Branch, Document, PageExtras, SceneText, Section, Table, cut, figure, filled_table
 from geartrain.search.reconstruct.candidate_rules import counts_text, speed_text
 from geartrain.search.reconstruct.dropped_facts import MISREAD, ChangedCount, LoneDial, MissingExplanation

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.cli.common import Sink, tell
 from geartrain.cli.long_runs import RunOptions, close_journal, long_run, progress
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.reconstruct.reconstruction import ReconstructionRun
 from geartrain.search.reconstruct.reconstruction_problem import AskedQuestion, question_digest

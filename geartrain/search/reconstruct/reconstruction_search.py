@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import whole_multiple
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
 from geartrain.search.reconstruct.arbor_orders import MeshFacts, arranged, rings_limit

@@ -157,20 +157,6 @@ def test_fractions_by_distance_are_complete_and_in_order(a: Fraction, P: int, Q:
     assert above == (1, 0) or Fraction(*above) == min(f for f in everything if f >= a)
 
 
-def farey(order: int) -> list[Fraction]:
-    """The Farey series: all fractions from 0 to 1 whose denominators are at most `order`."""
-    return sorted({Fraction(p, q) for q in range(1, order + 1) for p in range(q + 1)})
-
-
-@given(st.builds(Fraction, st.integers(1, 996), st.just(997)), st.integers(1, 30))
-def test_farey_neighbours_are_a_part_of_what_the_tree_gives(value: Fraction, most: int) -> None:
-    walked = {approximant.value for approximant in approximants(value, most)}
-    for order in range(1, most + 1):
-        series = farey(order)
-        below, above = max(f for f in series if f < value), min(f for f in series if f > value)
-        assert {below, above} <= walked | {Fraction(0)}
-
-
 def test_numbers_that_are_not_positive_are_refused() -> None:
     with pytest.raises(QuestionError, match="must be positive"):
         approximants(Fraction(0), 10)

@@ -575,12 +575,6 @@ def test_a_rule_on_one_wheel_is_charged_with_all_the_counts_it_strikes() -> None
     assert tallies_add_up(empty)
 
 
-def test_a_sense_that_no_counts_give_is_said_to_be_wrong() -> None:
-    (part,) = find(chain([(15, 40)] * 2, {"expect": "1/2"})).parts
-    assert part.count == 0
-    assert "other sense" in part.shortfall.nearest
-
-
 def test_each_of_two_outputs_says_how_near_it_comes_alone() -> None:
     data = two_outputs()
     data["outputs"] = {"C": target("7/8", "1e-9"), "D": target("1000/777", "1e-9")}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
@@ -18,6 +18,7 @@ from geartrain.search.reconstruct.candidate_rules import (
     broken_rules,
     find_known_train,
 )
+from geartrain.search.reconstruct.dropped_facts import Search
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
     lost_pointers,
@@ -263,10 +264,6 @@ class KnownRank(Result):
     place: TrainPlace | None = None
     admitted: tuple[AdmittingQuestion, ...] = ()
     telling: TellingFacts | None = None
-
-
-Search = Callable[[ReconstructionProblem], Reconstructions]
-"""What finds all explanations of a question."""
 
 
 @dataclass(frozen=True)

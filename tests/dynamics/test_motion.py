@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from math import asin, degrees, pi
 from pathlib import Path
@@ -17,7 +18,6 @@ from scipy.optimize import brentq, fsolve
 from geartrain import GearTrainError, load
 from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
-from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.simulation import find_tooth_impacts
 from geartrain.teeth import Ideal, PinToSlotTransmission
@@ -378,7 +378,7 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
         case = train.declaration.case(state)
         lead = case.inputs[motion.train.lead]
         changed = solve(
-            SolvedPart(tuple(train.declaration.links), train.declaration.frame, circuits, ()),
+            replace(train.kinematics.whole, circuits=circuits),
             case,
             train.kinematics.signs,
         )

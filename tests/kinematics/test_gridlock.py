@@ -219,47 +219,6 @@ def test_each_diagonal_of_a_lattice_costs_one_mesh(large: bool, monkeypatch: pyt
     assert found.release.method == ("loops" if large else "matching")
 
 
-def test_a_chain_of_tiny_ratios_moves() -> None:
-    data: Data = {"links": {"frame": {}, "g0": {"wheels": {"a0": 20}}}, "gears": [], "inputs": {"g0": 1}}
-    for at in range(1, 701):
-        data["links"][f"g{at}"] = {"wheels": {f"b{at}": 60, f"a{at}": 20}}
-        data["gears"].append({"pair": [f"a{at - 1}", f"b{at}"]})
-    data["revolutes"] = [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in range(701)]
-    assert GearTrain.declare(data).kinematics.gridlock.moves
-
-
-def test_a_loop_that_misses_by_eight_in_ten_million_is_a_gridlock_and_any_mesh_frees_it() -> None:
-    links = {
-        "frame": {},
-        "a": {"wheels": {"a113": 113, "a108": {"teeth": 108, "internal": True}}},
-        "b": {"wheels": {"b117": 117, "b95": 95}},
-        "c": {"wheels": {"c96": 96, "c113": 113}},
-    }
-    joints = [{"pair": ["frame", link], "axis": link} for link in "abc"]
-    gears = [{"pair": ["a113", "b117"]}, {"pair": ["b95", "c96"]}, {"pair": ["c113", "a108"]}]
-    found = GearTrain.declare(
-        {"links": links, "revolutes": joints, "gears": gears, "inputs": {"a": 1}}
-    ).kinematics.gridlock
-    (jam,) = found.jams
-    assert jam.loop.product in (Fraction(1213055, 1213056), Fraction(1213056, 1213055))
-    assert jam.by == "ratio"
-    assert len(found.release.choices) == 3
-
-
-def test_fibonacci_ratios_that_differ_in_the_last_digit_are_a_gridlock() -> None:
-    links = {
-        "frame": {},
-        "a": {"wheels": {"a1": 63245986, "a2": 39088169}},
-        "b": {"wheels": {"b1": 102334155, "b2": 63245986}},
-    }
-    joints = [{"pair": ["frame", link], "axis": link} for link in "ab"]
-    gears = [{"pair": ["a1", "b1"]}, {"pair": ["a2", "b2"]}]
-    found = GearTrain.declare({"links": links, "revolutes": joints, "gears": gears}).kinematics.gridlock
-    (jam,) = found.jams
-    assert abs(jam.loop.product - 1) == pytest.approx(Fraction(1, 63245986**2), rel=1e-6)
-    assert len(found.release.choices) == 2
-
-
 # rings, pins, carriers, brakes ----------------------------------------------------------------------------------------
 
 

@@ -236,6 +236,7 @@ def test_a_speed_just_within_the_range_of_floats_is_a_float() -> None:
     train = thirds(600)
     value = train.solve().to_dict()["speeds"]["g600"]["value"]
     assert abs(Fraction(value) * 3**600 - 1) <= Fraction(1, 2**53)
+    assert train.kinematics.gridlock.moves
 
 
 def test_a_speed_above_the_range_of_floats_is_no_float_and_exact_otherwise() -> None:
@@ -264,6 +265,8 @@ def test_a_loop_that_misses_by_one_in_a_million_is_a_gridlock() -> None:
     assert verdict.loops[0].product in (Fraction(1213055, 1213056), Fraction(1213056, 1213055))
     assert train.mobility.by_rank == 0
     assert train.mobility.redundant == 0
+    (jam,) = train.kinematics.gridlock.jams
+    assert (jam.by, len(train.kinematics.gridlock.release.choices)) == ("ratio", 3), "any mesh frees it"
 
 
 def test_the_same_loop_closes_when_its_products_are_made_equal() -> None:
@@ -287,7 +290,10 @@ def test_fibonacci_meshes_that_floats_cannot_tell_apart_are_a_gridlock() -> None
     assert train.mobility.redundant == 0
     verdict = train.solve().verdict
     assert verdict.kind == "locked"
-    assert verdict.loops[0].product != 1
+    (jam,) = train.kinematics.gridlock.jams
+    for loop in (*verdict.loops, jam.loop):
+        assert abs(loop.product - 1) == pytest.approx(Fraction(1, 63245986**2), rel=1e-6)
+    assert len(train.kinematics.gridlock.release.choices) == 2
 
 
 def test_a_locked_train_is_locked_whatever_the_method() -> None:

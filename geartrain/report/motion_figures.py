@@ -227,7 +227,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
     """
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
-    separation = wing("simulation.contacts.train_separation")
+    separation = wing("simulation.contacts.separation_rate")
     if not separation.has_separation(train.mechanics, state):
         return None
     return separation.find_separation(train.mechanics, state, without)

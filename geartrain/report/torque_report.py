@@ -57,7 +57,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
-        sections += wing("workshop.monte_carlo.friction_trials_report").trial_sections(found.friction_trials)
+        sections += wing("workshop.monte_carlo.friction_trials").trial_sections(found.friction_trials)
     lead = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", lead, sections)
 

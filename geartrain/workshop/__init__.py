@@ -3,8 +3,9 @@
 export        outlines, plates, solids, graphs and tables of a train as files; proof that the cut parts turn
 cutting       wheels with cutting errors: which pairs jam, clash or lose contact, and their transmission functions
 monte_carlo   trials of a train cut by hand, and of its friction: probabilities with confidence intervals, Sobol indices
-budget        the causes of a pointer's error: ratio, pins, teeth, lost motion, cutting (`find_budget`)
+budget        the causes of the error of a pointer: ratio, pins, teeth, lost motion, cutting (`find_budget`)
 sizes         radii, clearance and half angle of triangular teeth that minimise loss, error, impact or jamming
+answers       the results that commands print as JSON
 """
 
 from __future__ import annotations
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
     from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
-    from geartrain.workshop.monte_carlo.pair_trials import PairTrials as PairTrials
     from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse as PointerErrorCourse
     from geartrain.workshop.monte_carlo.pointer_error import PointerErrorStatistics as PointerErrorStatistics
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices as SobolIndices
@@ -53,16 +53,17 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.trial_run import run_course as run_course
     from geartrain.workshop.monte_carlo.trial_run import run_trials as run_trials
     from geartrain.workshop.sizes.best_sizes import BestToothSizes as BestToothSizes
+    from geartrain.workshop.sizes.best_sizes import OutlineAgreement as OutlineAgreement
     from geartrain.workshop.sizes.best_sizes import find_tooth_sizes as find_tooth_sizes
-    from geartrain.workshop.sizes.outline_agreement import OutlineAgreement as OutlineAgreement
     from geartrain.workshop.sizes.size_design import SizeLimit as SizeLimit
     from geartrain.workshop.sizes.size_design import ToothSizes as ToothSizes
     from geartrain.workshop.sizes.size_search import ChanceLimit as ChanceLimit
+    from geartrain.workshop.sizes.size_search import PairTrials as PairTrials
     from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
     from geartrain.workshop.sizes.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
+    from geartrain.workshop.sizes.train_size_search import BestTrainSizes as BestTrainSizes
+    from geartrain.workshop.sizes.train_size_search import PairSizes as PairSizes
     from geartrain.workshop.sizes.train_size_search import find_train_sizes as find_train_sizes
-    from geartrain.workshop.sizes.train_sizes import BestTrainSizes as BestTrainSizes
-    from geartrain.workshop.sizes.train_sizes import PairSizes as PairSizes
 
 __all__ = [
     "BestToothSizes",
@@ -132,19 +133,16 @@ _PLACES = {
     "monte_carlo_figure": "monte_carlo.monte_carlo_plots",
     "describe_monte_carlo": "monte_carlo.monte_carlo_report",
     "MonteCarloResult": "monte_carlo.monte_carlo_result",
-    "PairTrials": "monte_carlo.pair_trials",
     **dict.fromkeys(("PointerErrorCourse", "PointerErrorStatistics"), "monte_carlo.pointer_error"),
     **dict.fromkeys(("SobolIndices", "find_sobol_indices"), "monte_carlo.sobol_indices"),
     **dict.fromkeys(("TrialPlan", "find_trial_plan"), "monte_carlo.trial_plan"),
     **dict.fromkeys(("PairEventRates", "TrialResults"), "monte_carlo.trial_results"),
     **dict.fromkeys(("run_course", "run_trials"), "monte_carlo.trial_run"),
-    **dict.fromkeys(("BestToothSizes", "find_tooth_sizes"), "sizes.best_sizes"),
-    "OutlineAgreement": "sizes.outline_agreement",
+    **dict.fromkeys(("BestToothSizes", "OutlineAgreement", "find_tooth_sizes"), "sizes.best_sizes"),
     **dict.fromkeys(("SizeLimit", "ToothSizes"), "sizes.size_design"),
-    "ChanceLimit": "sizes.size_search",
+    **dict.fromkeys(("ChanceLimit", "PairTrials"), "sizes.size_search"),
     **dict.fromkeys(("tooth_sizes_figure", "train_sizes_figure"), "sizes.tooth_sizes_plot"),
-    "find_train_sizes": "sizes.train_size_search",
-    **dict.fromkeys(("BestTrainSizes", "PairSizes"), "sizes.train_sizes"),
+    **dict.fromkeys(("BestTrainSizes", "PairSizes", "find_train_sizes"), "sizes.train_size_search"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -12,13 +12,19 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
 from geartrain.numerics.kernels import kernel
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.contact_model import (
+    Bearing,
+    ContactModel,
+    ContactPair,
+    ContactSystem,
+    Form,
+    Spring,
+    Stop,
+)
 from geartrain.simulation.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
 from geartrain.simulation.contacts.train_model import SlackPin
 from geartrain.simulation.steps import simulation
-from geartrain.simulation.steps.contact_solution import StepRules
-from geartrain.simulation.steps.run_record import (
+from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
     BLOW_COUNT,
     BLOWS,
@@ -27,6 +33,7 @@ from geartrain.simulation.steps.run_record import (
     TIME_APART,
     VISCOUS,
     ContactState,
+    StepRules,
 )
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.simulation.steps.time_steps import run_steps

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.simulation import PairStrength
-from geartrain.simulation.strength.formulas.iso_6336 import RackWheel, ToothLean, root_stress
-from geartrain.simulation.strength.formulas.leaning_contact import least_couples
+from geartrain.simulation.strength.contact_pressure import least_couples
+from geartrain.simulation.strength.iso_6336 import RackWheel, ToothLean, root_stress
 
 Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
 

@@ -10,9 +10,13 @@ import pytest
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.simulation import SeparationRates, find_link_inertias, find_separation
+from geartrain.simulation.contacts.inertial_contacts import (
+    InertialContacts,
+    YieldingPairs,
+    find_inertial_loads,
+    least_rate,
+)
 from geartrain.simulation.contacts.rubbing_arms import separate_rubbing
-from geartrain.simulation.inertia.inertial_contacts import InertialContacts, YieldingPairs, least_rate
-from geartrain.simulation.inertia.inertial_loads import find_inertial_loads
 
 PIN = """
 links: {{frame: {{}}, a: {{}}, b: {{inertia: 1e-5 kg m2, {drag}}}}}

@@ -10,8 +10,8 @@ import pytest
 import sorge
 
 import geartrain
-from geartrain.simulation.strength.formulas.pitch_force import bevel_force
 from geartrain.simulation.strength.strength_results import WheelForce
+from geartrain.simulation.strength.tooth_forces import bevel_force
 
 FLAT = "A: {position: [0 mm, 0 mm, 0 mm]}, B: {position: [%s mm, 0 mm, 0 mm]}"
 SKEW = "A: {direction: [0, 0, 1], position: [0 mm, 0 mm, 0 mm]}, B: {direction: %s, position: [%s mm, 0 mm, 0 mm]}"

@@ -16,8 +16,8 @@ import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report
 from geartrain.simulation import collect_strength_report, describe_strength
-from geartrain.simulation.strength.arbor_strength import greatest_moment
 from geartrain.simulation.strength.strength_results import PairStrength
+from geartrain.simulation.strength.train_strength import greatest_moment
 
 PAIR = """
 links:

@@ -14,7 +14,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
 from geartrain.workshop.budget.crank_load import find_crank_load
-from geartrain.workshop.budget.pin_theory import equation_of_centre, least_difference
+from geartrain.workshop.budget.motion_causes import equation_of_centre, least_difference
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}

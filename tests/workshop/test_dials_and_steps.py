@@ -18,8 +18,7 @@ from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.palette import THEMES
 from geartrain.workshop import export_files
-from geartrain.workshop.export.assembly_pictures import step_pictures
-from geartrain.workshop.export.assembly_steps import assembly_steps
+from geartrain.workshop.export.assembly_guide import assembly_steps, step_pictures
 from geartrain.workshop.export.parts_list import parts_list
 
 

@@ -19,10 +19,8 @@ from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
 from geartrain.teeth.contact.outline_contact import TwoFlankContact, solve
 from geartrain.teeth.contact.outline_curve import OutlineCurve
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
-from geartrain.workshop.cutting.cut_pair import CutGearPair
-from geartrain.workshop.cutting.cut_wheel import CutWheel
-from geartrain.workshop.cutting.displaced_pair import DisplacedPair
-from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
+from geartrain.workshop.cutting.displaced_pair import DisplacedPair, DisplacedWheel
 from geartrain.workshop.cutting.file_strokes import FileableCutPair, file_to_fit
 from geartrain.workshop.monte_carlo.random_streams import RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, trial_pointers

@@ -18,7 +18,7 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_dept
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.least_backlash import even_tooth_pair, jamming_bound, nominal_backlash
-from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
 
 THIRTY = radians(30)
 

@@ -30,7 +30,7 @@ from geartrain.workshop import (
     run_trials,
 )
 from geartrain.workshop.cutting.cut_wheel import CutWheel
-from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
 from geartrain.workshop.monte_carlo.clearance_study import run_clearances
 from geartrain.workshop.monte_carlo.random_streams import RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers

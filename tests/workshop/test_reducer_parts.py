@@ -17,7 +17,7 @@ from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
 from geartrain.workshop import export_files
 from geartrain.workshop.export.proof import TrainProof, prove_train
-from geartrain.workshop.export.proof.cut_outlines import cut_lines
+from geartrain.workshop.export.proof.turned_pair import cut_lines
 
 Point = tuple[float, float]
 
@@ -302,7 +302,7 @@ def test_a_wave_that_does_not_bend_the_wheel_into_its_ring_is_seen() -> None:
     from dataclasses import replace
 
     from geartrain.workshop.export.proof.mesh_proof import read_wheels
-    from geartrain.workshop.export.proof.wave_proof import overlaps
+    from geartrain.workshop.export.proof.train_proof import overlaps
 
     model = work("strain-wave")
     assert model.frame is not None

@@ -6,7 +6,7 @@ import pytest
 from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop.export.assembly_steps import assembly_steps
+from geartrain.workshop.export.assembly_guide import assembly_steps
 
 manifold3d = pytest.importorskip("manifold3d")
 

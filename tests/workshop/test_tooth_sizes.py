@@ -13,7 +13,7 @@ from scipy.optimize import differential_evolution
 
 from geartrain.errors import QuestionError
 from geartrain.workshop import ChanceLimit, SizeLimit, ToothSizes, find_tooth_sizes
-from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
+from geartrain.workshop.sizes.best_sizes import confirm_by_outlines
 from geartrain.workshop.sizes.size_design import AIMS, equal_depth_radii
 from geartrain.workshop.sizes.size_search import USUAL_RANGES, SizeSearch, undominated
 

@@ -25,8 +25,7 @@ from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Floats, Ints
 from geartrain.teeth.transmission import behind
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.workshop.cutting.cut_pair import ROUNDING, CutGearPair, CutToothPairs
-from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.cut_wheel import ROUNDING, CutGearPair, CutToothPairs, CutWheel
 
 Cells = tuple[Ints, Floats, Floats]
 Value = Callable[[Ints, Floats], Floats]

@@ -29,7 +29,7 @@ from geartrain.cli.option_values import turns as read_turns
 from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
-    from geartrain.workshop.budget.pin_theory import Body
+    from geartrain.workshop.budget.motion_causes import Body
 
 
 def run(

@@ -11,7 +11,7 @@ from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, 
 if TYPE_CHECKING:
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
     from geartrain.workshop.sizes.size_design import ToothSizes
-    from geartrain.workshop.sizes.train_sizes import BestTrainSizes
+    from geartrain.workshop.sizes.train_size_search import BestTrainSizes
 
 _LABELS = {
     "loss": "loss (%)",

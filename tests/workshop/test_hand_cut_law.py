@@ -311,17 +311,21 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
 
 
 @pytest.mark.parametrize("number", [pytest.param(3), pytest.param(60, marks=pytest.mark.long)])
-def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: int) -> None:
-    """Marched on, the driven wheel dragging, it is soon caught between the tooth that came in and the one before."""
-    rng = np.random.default_rng(5)
-    while number:
-        sizes = equally_deep(16, 12, 0.0)
-        sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
-        places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
-        law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
-        if not law.events or {event.kind for event in law.events.all} != {"clash"} or law.events.play < 0:
-            continue
-        number -= 1
+def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> None:
+    """The outlines are turned on in small steps, the driven wheel dragging, and no step passes through a tooth.
+
+    Soon the driven wheel is caught between the tooth that came in and the one before, though flanks have play. If it
+    lags so far that the tooth that comes in passes its mate altogether, it is not pushed for most of a pitch.
+    """
+    rng, skipped, steps = np.random.default_rng(5), 0, 400
+    for _ in range(number):
+        while True:
+            sizes = equally_deep(16, 12, 0.0)
+            sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
+            places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
+            law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+            if law.events and {event.kind for event in law.events.all} == {"clash"} and law.events.play >= 0:
+                break
         judge = Judge(
             *(
                 Outline(np.arange(w.z) * w.pitch + p, np.full(w.z, w.radius), *np.full((2, w.z), THIRTY))
@@ -329,16 +333,22 @@ def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: i
             ),
             sizes.D,
         )
-        start = law.events.stop.start
-        S = np.arange(start - 0.05 * sizes.p1, start + 0.5 * sizes.p1, sizes.p1 / 200)
-        y, on = -float(law.angle(S[0])) - 1e-9, np.linspace(0, 0.04 * sizes.p2, 41)
+        clash = law.events.stop
+        S = np.arange(clash.start - 0.05 * sizes.p1, clash.start + sizes.p1, sizes.p1 / steps)
+        # no pair of teeth of these turns the driven wheel on as fast as 4 times the mean
+        y, on = -float(law.angle(S[0])) - 1e-9, np.linspace(0, 4 * sizes.p2 / steps, 21)
         for angle in S[1:]:
-            hit = judge.overlap(np.full(41, -angle), y - on)
+            hit = judge.overlap(np.full(21, -angle), y - on)
             if hit.all():
                 break
             y -= on[np.argmin(hit)]
-        assert hit.all()
-        assert start - 0.01 * sizes.p1 < angle < start + 0.4 * sizes.p1
+        if hit.all():
+            assert clash.start - 0.01 * sizes.p1 < angle < clash.start + 0.4 * sizes.p1
+        else:
+            skipped += 1
+            assert clash.amount > 0.1 * sizes.p2
+            assert float(law.angle(angle)) + y > 0.6 * sizes.p2  # behind the law of its pushing flanks
+    assert skipped <= 0.05 * number
 
 
 # -------------------------------------------------------------------------------------------------------------- events

@@ -143,10 +143,11 @@ class ContactEnvelope:
         return found
 
     def speed(self, first: FirstContact) -> Floats:
-        """tau of the couples that decide; 0 where they have left."""
+        """tau of the couples that decide; 0 where they have left, infinite where teeth that jam overlap past a flank."""
         couples = self.pair.couples(first.couple)
         x = self.inside(first)
-        found: Floats = np.where(first.state == LEFT, 0.0, couples.tau(x, first.state == APPROACHES))
+        with np.errstate(divide="ignore"):
+            found: Floats = np.where(first.state == LEFT, 0.0, couples.tau(x, first.state == APPROACHES))
         return found
 
     def inside(self, first: FirstContact) -> Floats:

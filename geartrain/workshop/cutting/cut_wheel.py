@@ -271,7 +271,7 @@ class CutToothPairs(ToothCouple):
         return self.approach_angle(x, np) < self.recess_angle(x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Speed ratio at x in the phase given."""
+        """Speed ratio at x in the phase given; infinite where teeth that jam overlap down past the driven flank."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:

@@ -54,7 +54,8 @@ class MeshingVerdicts:
 
     play         least play over the cycle of teeth (rad of the driven wheel): below 0 a front flank is against a back
                  flank; inf where nothing touches
-    clash        a tooth comes in against a tip, the driven wheel dragging; led by hand within its play it may pass
+    clash        a tooth comes in against a tip or in front of it, the driven wheel dragging: the pair sticks fast, or,
+                 rarely, skips a tooth; led by hand within its play it may pass
     standstill   the driven wheel is left standing somewhere
     disengaged   somewhere no tooth is in reach
     leans        a flank leans beyond the perpendicular where tips meet: which couple touches first is then not certain
@@ -74,7 +75,7 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """True where the pair, its driven wheel dragging, cannot turn through its cycle: jammed, or tip against tip."""
+        """True where the pair, its driven wheel dragging, cannot turn through its cycle: a jam or a clash."""
         return self.jams | self.clash
 
     @classmethod

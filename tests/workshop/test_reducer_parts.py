@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 from math import cos, hypot, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,6 @@ from shapely.affinity import affine_transform, rotate, translate
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.solid_part import SolidPart
 from geartrain.workshop import export_files
 from geartrain.workshop.export.proof import TrainProof, prove_train
 from geartrain.workshop.export.proof.turned_pair import cut_lines
@@ -58,11 +58,11 @@ def circles(name: str, drawing: str) -> list[Circle]:
     return [found for line in written(name)[drawing] if (found := Circle.of(line))]
 
 
-def part(name: str, of: str) -> SolidPart:
+def part(name: str, of: str) -> Any:
     return next(each for each in work(name).parts if each.name == of)
 
 
-def parts(name: str, start: str) -> list[SolidPart]:
+def parts(name: str, start: str) -> list[Any]:
     return [each for each in work(name).parts if each.name.startswith(start) and each.kind == "pin"]
 
 

@@ -20,7 +20,6 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.built_elements import ScenePart
 from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
 from geartrain.scene.parts.processes import PROCESSES, process_named
 from geartrain.scene.solids.bearing_plates import around
@@ -301,11 +300,11 @@ BRASS = 100_000.0  # N/mm2, Young's modulus
 PUSH = 10.0  # N, of a hand at the crank
 
 
-def parts_of_kind(name: str, kind: str) -> list[ScenePart]:
+def parts_of_kind(name: str, kind: str) -> list[Any]:
     return [part for part in built(name).parts_of_kind if part.kind == kind]
 
 
-def thickness(pillar: ScenePart) -> float:
+def thickness(pillar: Any) -> float:
     return 2 * max(radius for _, _, radius, _ in pillar.bands)
 
 

@@ -347,14 +347,6 @@ def test_no_two_wheels_overlap_at_many_positions(play: float) -> None:
     assert wrong == []
 
 
-def test_a_planet_is_cut_for_its_ring_too() -> None:
-    """Cut for the sun alone its roots were 1.27e-3 mm2 too full for the tips of the ring."""
-    work = workpiece("planetary-24-18-60", module=2.0, backlash=0.0)
-    gear = next(each for each in work.train.declaration.gears if set(each.pair) == {"p", "ring"})
-    meshed = Meshed(work, gear)
-    assert max(meshed.overlap(t) for t in meshed.positions(60)) <= NOTHING
-
-
 @pytest.mark.parametrize("play", [0.0, 0.02, 0.08])
 @pytest.mark.parametrize(
     "name", ["planetary-24-18-60", "planetary-24-18-60-involute", "longcase-clock-cycloidal", "longcase-clock"]

@@ -171,11 +171,11 @@ class ContactLoad:
         return float(self.pressures(np.linspace(low + nudge, high - nudge, _POSITIONS))[0].max())
 
     def places(self) -> tuple[ContactPlace, ...]:
-        """Ends of single contact, the pitch point, and the worst of all places."""
+        """Ends of contact and of single contact, the pitch point, and the worst of all places."""
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         named = {"start of contact": -approach, "end of contact": recess}
-        if approach + recess > p and recess - p < p - approach:
-            low, high = self.single()
+        low, high = self.single()
+        if low > -approach:
             named |= {"inner single contact of gear 1": low, "inner single contact of gear 2": high}
         if -approach <= 0 <= recess:
             named["pitch point"] = 0.0
@@ -188,14 +188,14 @@ class ContactLoad:
         worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
         found = [self._place(name, each) for name, each in sorted(named.items(), key=lambda each: each[1])]
         far = "worst" if not self.has_cusp else f"worst, but for {_CUSP:g} pitch about the pitch point"
-        last = ContactPlace(far, float(X[worst] / p), int(counts[worst]), float(force[worst]), float(pressure[worst]))
+        last = ContactPlace(far, float(X[worst] / p), counts[worst].item(), float(force[worst]), float(pressure[worst]))
         return (*found, last)
 
     def _place(self, name: str, X: float) -> ContactPlace:
         nudge = 1e-7 * self.path.pitch.p  # into the stretch where fewer couples bear the load
         towards = {"inner single contact of gear 1": nudge, "inner single contact of gear 2": -nudge}.get(name, 0.0)
         pressure, force, counts = self.pressures(np.array([X + towards]))
-        return ContactPlace(name, X / self.path.pitch.p, int(counts[0]), float(force[0]), float(pressure[0]))
+        return ContactPlace(name, X / self.path.pitch.p, counts[0].item(), float(force[0]), float(pressure[0]))
 
 
 def base_helix_angle(helix: float, pressure_angle: float) -> float:
@@ -249,23 +249,6 @@ class LeaningLoad(ContactLoad):
     def single(self) -> tuple[float, float]:
         """All of the path: the load never rests on one couple alone."""
         return -self.path.arcs[0], self.path.arcs[1]
-
-    def places(self) -> tuple[ContactPlace, ...]:
-        """Ends of the path, the pitch point, and the worst of all places."""
-        (approach, recess), p = self.path.arcs, self.path.pitch.p
-        named = {"start of contact": -approach, "pitch point": 0.0, "end of contact": recess}
-        X = np.linspace(-approach, recess, 801)
-        pressure, force, counts = self.pressures(X)
-        worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
-        found = [self._at(name, each) for name, each in named.items() if -approach <= each <= recess]
-        last = ContactPlace(
-            "worst", float(X[worst] / p), float(counts[worst]), float(force[worst]), float(pressure[worst])
-        )
-        return (*found, last)
-
-    def _at(self, name: str, X: float) -> ContactPlace:
-        pressure, force, counts = self.pressures(np.array([X]))
-        return ContactPlace(name, X / self.path.pitch.p, float(counts[0]), float(force[0]), float(pressure[0]))
 
 
 # ----------------------------------------------------------------------------------------------------------- at a point

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.spherical.configuration import Configuration
 from geartrain.spherical.gear_places import (
     Gears,

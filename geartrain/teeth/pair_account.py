@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.pair_verdict import PairVerdict
 from geartrain.teeth.transmission_figures import SlidingEfficiency, SpeedRatio, TransmissionError
 

@@ -10,7 +10,7 @@ from fractions import Fraction
 from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 
 if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction

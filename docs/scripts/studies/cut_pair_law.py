@@ -143,7 +143,7 @@ class ContactEnvelope:
         return found
 
     def speed(self, first: FirstContact) -> Floats:
-        """tau of the couples that decide; 0 where they have left, infinite where teeth that jam overlap past a flank."""
+        """tau of the couples that decide; 0 where they have left, infinite where jammed teeth overlap past a flank."""
         couples = self.pair.couples(first.couple)
         x = self.inside(first)
         with np.errstate(divide="ignore"):

@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.corner_positions import CornerSearch
 from geartrain.errors import check_numbers
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.simulation.contacts.inertial_contacts import find_inertial_loads, torques_have_units
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.vectors import cross, dot, minus, scaled, size, unit
 
 if TYPE_CHECKING:

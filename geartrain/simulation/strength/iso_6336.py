@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from math import atan, copysign, cos, sin, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import RangeError
-from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+from geartrain.kinematics.circuits.fundamental import shaft_angle
 from geartrain.simulation.strength.contact_pressure import CrossedWheels
 from geartrain.simulation.strength.strength_results import WheelForce
 from geartrain.simulation.strength.virtual_spurs import ConeMiddle
@@ -22,7 +22,7 @@ from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.dynamics.torques.torque_results import PairTorque
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Wheel

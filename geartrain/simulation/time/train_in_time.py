@@ -13,7 +13,7 @@ import numpy as np
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 from geartrain.numerics.labelled_array import labelled_array
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
 from geartrain.simulation.contacts.time_case import PowerInput, find_time_case
 from geartrain.simulation.contacts.train_model import TrainModel

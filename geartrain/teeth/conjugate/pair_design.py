@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.conjugate.admissibility import tip_thickness
 from geartrain.teeth.conjugate.path_costs import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.transmission_figures import SlidingEfficiency

@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 from geartrain.teeth.conjugate.path_side import PathSide
 

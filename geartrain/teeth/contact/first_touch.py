@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.arrays import joined, some
 from geartrain.numerics.polynomial_pieces import value, value_alone
-from geartrain.numerics.simultaneous_roots import roots_by_false_position
+from geartrain.numerics.roots import roots_by_false_position
 from geartrain.teeth.contact.driven_frame import DrivenFrame
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.polynomial_pieces import ends, extremes, moments, value
 from geartrain.teeth.contact.outline_contact import KINDS
 from geartrain.teeth.transmission import SpeedLeap

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.polynomial import chebyshev as cheb
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.arrays import joined, some
 from geartrain.numerics.polynomial_pieces import COUNT, POWERS, ends
 from geartrain.teeth.contact.outline_pair import OutlinePair
 from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.teeth.outlines.contour import Contour
 
 

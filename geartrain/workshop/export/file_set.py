@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from geartrain.drawing.flat_files import to_dxf, to_svg
 from geartrain.errors import GearTrainError, Problem, QuestionError, install_command, suggest
 from geartrain.kinematics import graph
-from geartrain.numerics.decimal_text import decimal, fraction_text
+from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.files import csv_text
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 from geartrain.workshop.export.assembly_guide import readme, step_pictures

@@ -17,7 +17,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.workshop.cutting.cut_wheel import CutGearPair
 from geartrain.workshop.cutting.declared_errors import (
     OF_PAIRS,

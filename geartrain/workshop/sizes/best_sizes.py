@@ -11,9 +11,7 @@ from math import cos, sin
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Result
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Pictured, Result, Tabular
 from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
 from geartrain.workshop.sizes.size_design import (
     AIMS,

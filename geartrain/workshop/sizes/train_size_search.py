@@ -20,9 +20,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.numerics.graphs import DisjointSets
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Pictured, Result, Tabular
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh

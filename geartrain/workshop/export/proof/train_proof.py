@@ -19,7 +19,7 @@ import numpy as np
 from geartrain.dynamics.cut_teeth import not_cut
 from geartrain.errors import MissingExtraError, Problem
 from geartrain.kinematics.buildability import BuildFinding, build_errors
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.wave_tooth import bent_line
 from geartrain.workshop.export.proof.link_freedom import LinkFreedom, prove_freedom

@@ -26,11 +26,15 @@ if TYPE_CHECKING:
     from geartrain.workshop.budget.train_budget import BudgetQuestion as BudgetQuestion
     from geartrain.workshop.budget.train_budget import find_budget as find_budget
     from geartrain.workshop.cutting.declared_errors import read_error_overrides as read_error_overrides
+    from geartrain.workshop.export.assembly_guide import AssemblyStep as AssemblyStep
+    from geartrain.workshop.export.assembly_guide import assembly_steps as assembly_steps
     from geartrain.workshop.export.file_set import ExportFile as ExportFile
     from geartrain.workshop.export.file_set import export_files as export_files
     from geartrain.workshop.export.file_set import notices as notices
     from geartrain.workshop.export.file_set import train_file as train_file
     from geartrain.workshop.export.file_set import wheel_file as wheel_file
+    from geartrain.workshop.export.parts_list import ListedPart as ListedPart
+    from geartrain.workshop.export.parts_list import parts_list as parts_list
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.workshop.monte_carlo.clearance_study import jamming_map as jamming_map
     from geartrain.workshop.monte_carlo.friction_trials import FrictionPlan as FrictionPlan
@@ -66,6 +70,7 @@ if TYPE_CHECKING:
     from geartrain.workshop.sizes.train_size_search import find_train_sizes as find_train_sizes
 
 __all__ = [
+    "AssemblyStep",
     "BestToothSizes",
     "BestTrainSizes",
     "BudgetCause",
@@ -77,6 +82,7 @@ __all__ = [
     "FrictionPlan",
     "FrictionSpread",
     "FrictionTrials",
+    "ListedPart",
     "MonteCarloResult",
     "OutlineAgreement",
     "PairEventRates",
@@ -94,6 +100,7 @@ __all__ = [
     "TrialPlan",
     "TrialResults",
     "WeightDrive",
+    "assembly_steps",
     "budget_figure",
     "describe_budget",
     "describe_monte_carlo",
@@ -107,6 +114,7 @@ __all__ = [
     "jamming_map",
     "monte_carlo_figure",
     "notices",
+    "parts_list",
     "read_error_overrides",
     "run_course",
     "run_trials",
@@ -124,7 +132,9 @@ _PLACES = {
     **dict.fromkeys(("BudgetCause", "PointerBudget", "RatioDrift", "TrainBudget"), "budget.pointer_budget"),
     **dict.fromkeys(("BudgetQuestion", "find_budget"), "budget.train_budget"),
     "read_error_overrides": "cutting.declared_errors",
+    **dict.fromkeys(("AssemblyStep", "assembly_steps"), "export.assembly_guide"),
     **dict.fromkeys(("ExportFile", "export_files", "notices", "train_file", "wheel_file"), "export.file_set"),
+    **dict.fromkeys(("ListedPart", "parts_list"), "export.parts_list"),
     **dict.fromkeys(("ClearanceCase", "jamming_map"), "monte_carlo.clearance_study"),
     **dict.fromkeys(
         ("FrictionPlan", "FrictionSpread", "FrictionTrials", "TrialFigure", "find_friction_plan", "try_frictions"),

@@ -23,8 +23,7 @@ from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
 from geartrain.scene.parts.processes import PROCESSES, process_named
 from geartrain.scene.solids.bearing_plates import around
-from geartrain.workshop import export_files, notices
-from geartrain.workshop.export.assembly_guide import assembly_steps
+from geartrain.workshop import assembly_steps, export_files, notices
 
 manifold3d = pytest.importorskip("manifold3d")
 

@@ -15,9 +15,8 @@ import shapely
 from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop import export_files
-from geartrain.workshop.export.assembly_guide import assembly_steps, step_pictures
-from geartrain.workshop.export.parts_list import parts_list
+from geartrain.workshop import assembly_steps, export_files, parts_list
+from geartrain.workshop.export.assembly_guide import step_pictures
 
 
 def model(name: str) -> SolidModel:

@@ -20,9 +20,8 @@ from geartrain.errors import GearTrainError, QuestionError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.workshop import wheel_file
+from geartrain.workshop import parts_list, wheel_file
 from geartrain.workshop.export.cut_sheets import FlatPart, compensated, stock_sheets
-from geartrain.workshop.export.parts_list import parts_list
 
 shapely = pytest.importorskip("shapely")
 

@@ -189,7 +189,21 @@ def _turn(play: float | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class AssemblyStep:
-    """One step: what is done, which parts come in by it, and whether a picture shows them; what hangs is too tall."""
+    """One step of an assembly.
+
+    Attributes
+    ----------
+    text : str
+        What is done.
+    parts : tuple of str
+        The parts that it adds.
+    shown : bool
+        Whether a picture shows them; what hangs is too tall.
+
+    See Also
+    --------
+    assembly_steps : gives these.
+    """
 
     text: str
     parts: tuple[str, ...]
@@ -197,7 +211,28 @@ class AssemblyStep:
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
-    """Arbors and their wheels, what carriers bear, the back plate with studs, all arbors, the front plate, dials."""
+    """Steps of the assembly of a train, in the order of heights.
+
+    Arbors and their wheels, what carriers bear, the back plate with studs, all arbors, the front plate, dials.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train at the sizes at which it is made.
+
+    Returns
+    -------
+    list of AssemblyStep
+        Empty for a train without plates.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
+    >>> assembly_steps(work)[0].text
+    "Fix s on the arbor of 'sun'"
+    """
     return [] if work.frame is None else list(_Steps(work, work.frame).all())
 
 

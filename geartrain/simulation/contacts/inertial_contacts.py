@@ -44,6 +44,7 @@ _DEGREE = 9
 _LEAP = 1e-7  # of the input's speed and the greatest of a link's: a lesser jump of a speed is rounding
 _MANY, _TABLES = 8, 1e-11  # laws of longer trains are read from tables of so many pitches
 _NUMBERS = 1 << 22  # most entries of matrices at once
+
 FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
 """What friction adds to the arm of a driver on its drive flank, turning forward and back, by its forward angle."""
 

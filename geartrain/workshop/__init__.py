@@ -46,13 +46,13 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
     from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
-    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse as PointerErrorCourse
-    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorStatistics as PointerErrorStatistics
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices as SobolIndices
     from geartrain.workshop.monte_carlo.sobol_indices import find_sobol_indices as find_sobol_indices
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan as TrialPlan
     from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan as find_trial_plan
     from geartrain.workshop.monte_carlo.trial_results import PairEventRates as PairEventRates
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse as PointerErrorCourse
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorStatistics as PointerErrorStatistics
     from geartrain.workshop.monte_carlo.trial_results import TrialResults as TrialResults
     from geartrain.workshop.monte_carlo.trial_run import run_course as run_course
     from geartrain.workshop.monte_carlo.trial_run import run_trials as run_trials
@@ -143,10 +143,11 @@ _PLACES = {
     "monte_carlo_figure": "monte_carlo.monte_carlo_plots",
     "describe_monte_carlo": "monte_carlo.monte_carlo_report",
     "MonteCarloResult": "monte_carlo.monte_carlo_result",
-    **dict.fromkeys(("PointerErrorCourse", "PointerErrorStatistics"), "monte_carlo.pointer_error"),
     **dict.fromkeys(("SobolIndices", "find_sobol_indices"), "monte_carlo.sobol_indices"),
     **dict.fromkeys(("TrialPlan", "find_trial_plan"), "monte_carlo.trial_plan"),
-    **dict.fromkeys(("PairEventRates", "TrialResults"), "monte_carlo.trial_results"),
+    **dict.fromkeys(
+        ("PairEventRates", "PointerErrorCourse", "PointerErrorStatistics", "TrialResults"), "monte_carlo.trial_results"
+    ),
     **dict.fromkeys(("run_course", "run_trials"), "monte_carlo.trial_run"),
     **dict.fromkeys(("BestToothSizes", "OutlineAgreement", "find_tooth_sizes"), "sizes.best_sizes"),
     **dict.fromkeys(("SizeLimit", "ToothSizes"), "sizes.size_design"),

@@ -37,9 +37,8 @@ from geartrain.workshop.budget.motion_causes import (
 from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
 from geartrain.workshop.cutting.declared_errors import read_error_overrides
 from geartrain.workshop.monte_carlo.clearance_study import run_clearances
-from geartrain.workshop.monte_carlo.pointer_error import FEWEST
 from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
-from geartrain.workshop.monte_carlo.trial_results import turning_trials
+from geartrain.workshop.monte_carlo.trial_results import FEWEST, turning_trials
 from geartrain.workshop.monte_carlo.trial_run import run_trials
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ trial_plan            a train as its trials see it: pairs, wheels with errors, c
 random_streams        independent random streams by trial, wheel and kind of error
 trial_block           wheels of a block of trials, drawn, judged and put in motion
 trial_run             tasks of trials, their journal and their table
-trial_results         results of trials by pair and by pointer; `pointer_error`, errors along a turn
+trial_results         results of trials by pair and by pointer, and errors of a pointer along a turn
 clearance_study       the same trials at other clearances
 sobol_indices         Sobol indices: whose errors move a pointer
 monte_carlo_result    all of these as one result

@@ -40,9 +40,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import TrialResults
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults
 
 
 PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")

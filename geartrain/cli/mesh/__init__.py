@@ -15,7 +15,7 @@ from geartrain.teeth.any_tooth_form import tooth_forms
 
 _OWN = {
     "triangular": "geartrain.cli.mesh.triangular",
-    "pin": "geartrain.cli.mesh.any_form:pin",
+    "any_form": "geartrain.cli.mesh.any_form:pin",
     "compare": "geartrain.cli.mesh.compare",
 }
 _FORMS = {name: model for name, model in tooth_forms().items() if name not in (*_OWN, "ideal")}

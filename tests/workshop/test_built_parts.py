@@ -20,8 +20,8 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
 from geartrain.scene.parts.processes import PROCESSES, process_named
+from geartrain.scene.parts.stack_discs import Passage, clear_passages, with_passages
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.workshop import assembly_steps, export_files, notices
 

@@ -18,7 +18,7 @@ from shipped import train as load
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError, QuestionError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.workshop import parts_list, wheel_file
 from geartrain.workshop.export.cut_sheets import FlatPart, compensated, stock_sheets

@@ -14,7 +14,7 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, install_com
 from geartrain.kinematics import graph
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.files import csv_text
-from geartrain.scene.solids.flat_drawing import FlatDrawing
+from geartrain.scene.solids.bearing_plates import FlatDrawing
 from geartrain.workshop.export.assembly_guide import readme, step_pictures
 from geartrain.workshop.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.workshop.export.parts_list import parts_list, to_csv

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Line2D, MaxNLocator, Patch
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
@@ -26,6 +25,11 @@ from geartrain.drawing.style import (
     SMALL,
     TEXT,
     WIDTH,
+    Axes,
+    Figure,
+    Line2D,
+    MaxNLocator,
+    Patch,
     headed,
     plain,
     series_look,

@@ -28,8 +28,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.form_options import FormOptions, read_form
-from geartrain.cli.option_values import at_option, decimal, quantity
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme, at_option, decimal, quantity
 from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.triangular_form import Triangular
 

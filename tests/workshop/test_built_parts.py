@@ -300,7 +300,7 @@ PUSH = 10.0  # N, of a hand at the crank
 
 
 def parts_of_kind(name: str, kind: str) -> list[Any]:
-    return [part for part in built(name).parts_of_kind if part.kind == kind]
+    return [part for part in built(name).parts if part.kind == kind]
 
 
 def thickness(pillar: Any) -> float:

@@ -529,6 +529,5 @@ def test_a_pinion_that_never_leaves_the_teeth_of_its_ring_is_refused() -> None:
     """82 teeth in 84, a module tall: no tip circle is crossed, and the teeth overlap on the far side."""
     ring = declared("{form: involute}").declaration.model_dump(mode="json", exclude_unset=True)
     ring["links"]["a"]["wheels"]["p"], ring["links"]["b"]["wheels"]["w"] = 82, {"teeth": 84, "internal": True}
-    found = GearTrain.declare(ring).meshes[0].faults
-    assert [fault.kind for fault in found] == ["interference"]
-    assert "tips of the ring" in found[0].what
+    (fault,) = GearTrain.declare(ring).meshes[0].faults
+    assert "tips of the ring" in fault.what

@@ -21,7 +21,7 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_dept
 from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop import ToothSizes
-from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
+from geartrain.workshop.sizes.best_sizes import confirm_by_outlines
 
 # driver; teeth of pinion and ring; ratio of the radii over that of the teeth (None: equal depth); half angles (deg);
 # excess; tip radius of the ring, centre distance, reach of the driver (deg); window of excess; verdict, play (deg)

@@ -20,8 +20,9 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
+from geartrain.scene.parts.arbor_columns import AxisBearing, ColumnProblem, FramePlaces
 from geartrain.scene.parts.processes import PROCESSES, process_named
-from geartrain.scene.parts.stack_discs import Passage, clear_passages, with_passages
+from geartrain.scene.parts.stack_discs import Passage, StackDisc, clear_passages, with_passages
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.workshop import assembly_steps, export_files, notices
 
@@ -476,3 +477,22 @@ def test_a_wheel_across_goes_through_its_plate_with_air_round_it(name: str, whee
     material = shapely.Polygon(outer, holes)
     gaps = [material.distance(shapely.Point(x, y)) for x, y, z in within if abs(z) <= flat.height / 2]
     assert min(gaps) == pytest.approx(0.4, abs=0.02)
+
+
+def column(front: float) -> Any:
+    """The third arbor (wheels in levels 1 and 2), 34 mm from an hour wheel of tip radius 37.716 in level 5."""
+    own = [
+        StackDisc(name, "third", "third", (0, 0), h, h + 2.5, 9.0, root=3.14) for name, h in (("t56", 3.5), ("t8", 7))
+    ]
+    hour = StackDisc("h72", "hour", "centre", (34.0, 0.0), 17.5, 20.0, 37.716)
+    problem = ColumnProblem("third", (0, 0), own, [hour], {}, (-5, 30), "plates", process_named(None), 3.0)
+    return problem.columns(FramePlaces((-1.0, -1.0), (front, front)))
+
+
+def test_an_arbor_that_would_pass_a_wheel_is_reported_with_its_depth_and_a_nearer_plate_frees_it() -> None:
+    through, *studs = column(21.0)
+    assert [(disc.name, round(room, 3)) for disc, room in through.hit] == [("h72", -5.216)]
+    assert any(not each.hit for each in studs), "a stud in the back plate ends before it"
+    near, *_ = column(12.0)
+    assert near.bearing is AxisBearing.THROUGH
+    assert near.hit == ()

@@ -464,7 +464,9 @@ def test_a_form_of_graph_is_chosen_by_suffix_or_by_name(tmp_path: Path, suffix: 
     assert run("graph", "pennestri-2002", "--as", form, "-o", by_name)[0] == 0
     code, out, _ = run("graph", "pennestri-2002", "--as", form)
     assert code == 0
-    assert by_suffix.read_text(encoding="utf-8") == by_name.read_text(encoding="utf-8") == out
+    assert (
+        by_suffix.read_text(encoding="utf-8").rstrip() == by_name.read_text(encoding="utf-8").rstrip() == out.rstrip()
+    )
     assert out.startswith({"graphml": "<graphml", "json": "{", "dot": 'graph "pennestri-2002" {', "labels": "#"}[form])
 
 

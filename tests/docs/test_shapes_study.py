@@ -19,6 +19,8 @@ from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.conjugate.singular_collocation import solved
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 SMOOTH = [case for case in CASES if case.kind != "friction"]
 
 

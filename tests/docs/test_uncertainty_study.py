@@ -30,6 +30,8 @@ from studies.uncertainty_study import uncertainty
 from geartrain.workshop.cutting.least_backlash import nominal_backlash
 from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 @pytest.fixture(scope="module")
 def records() -> UncertaintyRecords:

@@ -390,7 +390,7 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
 
 
 def _mark(panel: Axes, name: str, extreme: TorqueExtreme, marker: str, colour: str) -> None:
-    look = {"color": colour, "markersize": 7, "clip_on": False, "zorder": 5}
+    look: dict[str, Any] = {"color": colour, "markersize": 7, "clip_on": False, "zorder": 5}
     panel.plot([extreme.turns], [extreme.torque], marker, label=f"{name} {extreme.torque:.5g}", gid=name, **look)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from io import BytesIO
 from textwrap import fill, shorten
 from threading import Lock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -216,11 +216,17 @@ def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> 
 
 
 def legend_below(
-    figure: Figure, columns: int, handles: Sequence[Artist] | None = None, side: str = "center", **how: Any
+    figure: Figure,
+    columns: int,
+    handles: Sequence[Artist] | None = None,
+    side: Literal["center", "left"] = "center",
+    **how: Any,
 ) -> None:
     """A legend below all panels, by default of what their artists are labelled."""
-    how = {"fontsize": SMALL, "frameon": False, **how} | ({} if handles is None else {"handles": handles})
-    figure.legend(loc=f"outside lower {side}", ncols=columns, **how)
+    how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
+    if handles is not None:
+        how["handles"] = handles
+    figure.legend(loc="outside lower left" if side == "left" else "outside lower center", **how)
 
 
 def legend_above(axes: Axes, columns: int) -> None:

@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import signal
+from collections.abc import Callable
 from itertools import pairwise
 from math import pi, tau
 from pathlib import Path
@@ -17,15 +18,14 @@ from commands import HEAVY, call, interrupt_after
 
 from geartrain.errors import GearTrainError
 
+Write = Callable[..., Path]
 TURN = ("--rate", "0.3", "--turns", "1", "--skip", "0", "--steps", "1000", "--no-fast")
 
 
 @pytest.fixture
-def pin(tmp_path: Path) -> Path:
+def pin(train_file: Write) -> Path:
     """A pin at 10 mm in a slot whose axis is 8 mm away, with inertia and drag behind it."""
-    path = tmp_path / "pin.yaml"
-    path.write_text(HEAVY, encoding="utf-8")
-    return path
+    return train_file(HEAVY, "pin.yaml")
 
 
 def answer(*words: object) -> dict[str, Any]:
@@ -62,10 +62,9 @@ def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settle
     assert "All agree." in text
 
 
-def test_a_train_that_friction_locks_on_its_way_has_no_solution_there(tmp_path: Path) -> None:
+def test_a_train_that_friction_locks_on_its_way_has_no_solution_there(train_file: Write) -> None:
     # a slot that drives its pin locks where f > |cos d / sin d|: 14 % of a turn
-    path = tmp_path / "locks.yaml"
-    path.write_text(
+    path = train_file(
         """
 links: {frame: {}, a: {inertia: 1 g cm2}, b: {inertia: 100 g cm2}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
@@ -73,7 +72,7 @@ couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 m
 inputs: {b: 1}
 loads: {a: -10 N mm}
 """,
-        encoding="utf-8",
+        "locks.yaml",
     )
     done = call("dynamics", path, *TURN)
     assert done.exit_code == 1
@@ -91,22 +90,22 @@ def test_where_teeth_bounce_or_yield_the_rate_at_which_rigid_ones_part_is_told_a
     assert "These rates" not in call("dynamics", pin, *TURN).output
 
 
-def test_a_load_that_drives_gives_power_back_at_what_is_kept(tmp_path: Path) -> None:
-    path = tmp_path / "driven.yaml"
-    path.write_text("extends: worm\nname: driven\nloads: {wheel: -1 N m}\n", encoding="utf-8")
+def test_a_load_that_drives_gives_power_back_at_what_is_kept(train_file: Write) -> None:
+    path = train_file("extends: worm\nname: driven\nloads: {wheel: -1 N m}\n", "driven.yaml")
     text = call("dynamics", path, "--rate", "1", "--turns", "1").output
     # 1 N m over 30 at 2 pi rad/s
     assert "Torque at 'screw': -33.333 N mm in the mean; given back: 209.4 mW." in text
 
 
 @pytest.mark.parametrize(("torque", "still"), [("0.5 N mm", True), ("2 N mm", False)])
-def test_a_train_that_its_drive_does_not_move_is_said_to_stand_still(tmp_path: Path, torque: str, still: bool) -> None:
-    path = tmp_path / "driven.yaml"
-    path.write_text(
+def test_a_train_that_its_drive_does_not_move_is_said_to_stand_still(
+    train_file: Write, torque: str, still: bool
+) -> None:
+    path = train_file(
         "links: {frame: {}, a: {inertia: 1e-5 kg m2, bearing: 1 N mm}}\n"
         "revolutes: [{pair: [frame, a], axis: A}]\n"
         f"inputs: {{a: 1}}\nrate: 1 turn/s\ndrive: {{torque: {torque}}}\n",
-        encoding="utf-8",
+        "driven.yaml",
     )
     done = call("dynamics", path, "--turns", "1", "--skip", "0", "--steps", "500", "--no-fast")
     assert ("'a' STANDS STILL" in done.output) is still
@@ -126,9 +125,8 @@ def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pi
         assert abs(float(row["a~b gap (rad)"])) < 1e-9
 
 
-def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_closed_one(tmp_path: Path) -> None:
-    path = tmp_path / "slack.yaml"
-    path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")
+def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_closed_one(train_file: Write) -> None:
+    path = train_file(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), "slack.yaml")
     # from a difference quotient of the slot's law: equation 7 has 3.247654 turn/s for a pin without clearance
     closed = 3.2483918
     words = ("--rate", "1", "--turns", "0.3", "--skip", "0", "--steps", "500", "--no-fast", "--find-rate")
@@ -143,12 +141,11 @@ def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_clo
 
 
 def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    train_file: Write, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from geartrain.simulation.time import stepped_separation
 
-    path = tmp_path / "slack.yaml"
-    path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")
+    path = train_file(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), "slack.yaml")
     words = ("--rate", "1", "--turns", "0.5", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate", "--json")
     finer, calls = stepped_separation.PartingSearch.finer, []
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from collections.abc import Callable
 from math import log, pi
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from commands import call
 
 import geartrain
 
+Write = Callable[..., Path]
 PIN = """
 links: {frame: {}, a: {}, b: {}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
@@ -28,10 +30,8 @@ SAMPLES = ("--samples", "300")
 
 
 @pytest.fixture
-def pin(tmp_path: Path) -> Path:
-    path = tmp_path / "pin.yaml"
-    path.write_text(PIN, encoding="utf-8")
-    return path
+def pin(train_file: Write) -> Path:
+    return train_file(PIN, "pin.yaml")
 
 
 def test_json_holds_the_torque_over_the_turns_at_its_top_level(pin: Path) -> None:
@@ -55,9 +55,10 @@ def test_text_tells_extremes_energies_and_losses(pin: Path) -> None:
         assert said in text
 
 
-def test_a_train_without_load_is_said_to_give_nothing_out(tmp_path: Path) -> None:
-    path = tmp_path / "idle.yaml"
-    path.write_text(PIN.replace("b: {}}\nrev", "b: {bearing: 1 N m}}\nrev").replace("loads: {b: -10 N m}", ""), "utf-8")
+def test_a_train_without_load_is_said_to_give_nothing_out(train_file: Write) -> None:
+    path = train_file(
+        PIN.replace("b: {}}\nrev", "b: {bearing: 1 N m}}\nrev").replace("loads: {b: -10 N m}", ""), "idle.yaml"
+    )
     text = " ".join(call("torques", path, "--turns", "1", *SAMPLES).output.split())
     assert "nothing is taken out; the greatest power" in text
     assert "No energy is taken out on the whole: all that is put in is lost." in text
@@ -75,9 +76,8 @@ def test_every_position_stands_in_the_table(pin: Path, tmp_path: Path) -> None:
     assert written.read_text(encoding="utf-8").splitlines() == printed.splitlines()
 
 
-def test_a_train_that_locks_says_where(tmp_path: Path) -> None:
-    path = tmp_path / "locks.yaml"
-    path.write_text(LOCKS, encoding="utf-8")
+def test_a_train_that_locks_says_where(train_file: Write) -> None:
+    path = train_file(LOCKS, "locks.yaml")
     done = call("torques", path, "--turns", "1", *SAMPLES, "--json")
     assert done.exit_code == 1
     over = json.loads(done.output)["over_turn"]

@@ -10,12 +10,12 @@ from base64 import b64encode
 from collections.abc import Callable
 from dataclasses import replace
 from hashlib import sha256
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
 from commands import HEAVY, LOCKED, RIGHT, WRONG, call, interrupt_after
+from html_reader import Read
 
 import geartrain.viewer
 from geartrain import GearTrainError, load
@@ -26,30 +26,6 @@ from geartrain.viewer import page
 VIEWER = Path(geartrain.viewer.__file__).parent
 EVIL = "</script><script>alert(1)</script><!-- \u2028 &amp; <img src=x onerror=alert(2)>"
 Written = Callable[..., Path]
-
-
-class Reader(HTMLParser):
-    """Scripts and tags as a reader of HTML that knows nothing of the page finds them."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.scripts: list[str] = []
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.inside = False
-        self.feed(text)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append((tag, dict(attrs)))
-        self.inside = tag == "script"
-        if self.inside:
-            self.scripts.append("")
-
-    def handle_endtag(self, tag: str) -> None:
-        self.inside = False
-
-    def handle_data(self, data: str) -> None:
-        if self.inside:
-            self.scripts[-1] += data
 
 
 @pytest.fixture
@@ -78,19 +54,17 @@ def test_the_program_in_the_page_is_below_720_kilobytes() -> None:
 
 def test_the_page_carries_the_scene_unchanged_and_nothing_that_points_elsewhere() -> None:
     scene = make_scene(load("freeth-2008"))
-    read = Reader(page([scene]))
+    read = Read(page([scene]))
     assert json.loads(read.scripts[0])["scenes"] == json.loads(json.dumps([scene.to_dict()]))
-    kinds = [name for name, _ in read.tags]
-    assert kinds.count("script") == 2
-    for name, attributes in read.tags:
-        assert attributes.get("src") is None, name
+    assert len(read.scripts) == 2
+    for name, attributes in read.elements:
+        assert "src" not in attributes, name
         assert attributes.get("href", "data:,") == "data:,", name
 
 
 def test_the_policy_of_the_page_lets_its_own_script_run_and_nothing_reach_out() -> None:
-    read = Reader(page([make_scene(load("planetary-24-18-60"))]))
-    policy = next(each["content"] for name, each in read.tags if name == "meta" and "http-equiv" in each)
-    assert policy is not None
+    read = Read(page([make_scene(load("planetary-24-18-60"))]))
+    policy = next(each["content"] for each in read.all("meta") if "http-equiv" in each)
     rules = dict(rule.strip().split(" ", 1) for rule in policy.split(";"))
     digest = b64encode(sha256(read.scripts[1].encode("utf-8")).digest()).decode()
     assert rules["script-src"] == f"'sha256-{digest}'"
@@ -100,9 +74,8 @@ def test_the_policy_of_the_page_lets_its_own_script_run_and_nothing_reach_out() 
 
 def test_names_that_look_like_html_stay_names() -> None:
     scene = replace(make_scene(load("planetary-24-18-60")), name=EVIL, title=EVIL, verdict={"text": EVIL})
-    read = Reader(page([scene]))
-    assert [name for name, _ in read.tags].count("script") == 2
-    assert "img" not in [name for name, _ in read.tags]
+    read = Read(page([scene]))
+    assert (len(read.scripts), read.all("img")) == (2, [])
     assert json.loads(read.scripts[0])["scenes"][0]["title"] == EVIL
 
 
@@ -114,7 +87,7 @@ def test_a_page_needs_a_scene_and_a_comparison_two() -> None:
 
 
 def scenes_of(path: Path) -> tuple[list[dict[str, object]], dict[str, object]]:
-    data = json.loads(Reader(path.read_text(encoding="utf-8")).scripts[0])
+    data = json.loads(Read(path.read_text(encoding="utf-8")).scripts[0])
     return data["scenes"], data["options"]
 
 

@@ -6,6 +6,7 @@ Measured in the written file, where a glyph is an outline: what is measured is w
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import pairwise
 
@@ -19,6 +20,8 @@ from geartrain.errors import QuestionError
 pytest.importorskip("matplotlib")
 
 from matplotlib.figure import Figure
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 from seen_figure import alike
 from written_text import read_picture
 
@@ -76,16 +79,17 @@ def test_words_can_be_read_in_all_shipped_trains(name: str, kind: str) -> None:
         check(name, kind, Fraction(355, 113))
 
 
+def struck(words: Text, marks: Iterable[Bbox]) -> list[Bbox]:
+    """The marks that some words lie on."""
+    box = words.get_window_extent()
+    return [mark for mark in marks if box.x0 < mark.x1 and mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1]
+
+
 def test_words_keep_off_the_marks_of_teeth() -> None:
     (axes,) = picture(load("longcase-clock"), "stick", None, Fraction(0)).axes
     marks = [line.get_window_extent() for line in axes.lines if line.get_gid() == "teeth"]
     assert len(marks) == 2 * 5 + 1  # the escape wheel meets no other
-    for words in axes.texts:
-        box = words.get_window_extent()
-        hidden = [
-            mark for mark in marks if box.x0 < mark.x1 and mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1
-        ]
-        assert not hidden, words.get_text()
+    assert not [words.get_text() for words in axes.texts if struck(words, marks)]
 
 
 @pytest.mark.parametrize("name", ["four-gear-loop", "longcase-clock", "rv-reducer", "zf-8hp70"])
@@ -98,10 +102,7 @@ def test_names_of_links_axes_and_couplings_keep_off_uprights(name: str) -> None:
         if (line.get_gid() or "").startswith(("wheel ", "crank ", "coupling ")) and np.ptp(line.get_xdata()) == 0
     ]
     assert uprights
-    for words in axes.texts[1:]:
-        box = words.get_window_extent()
-        struck = [mark for mark in uprights if box.x0 < mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1]
-        assert not struck, words.get_text()
+    assert not [words.get_text() for words in axes.texts[1:] if struck(words, uprights)]
 
 
 def test_lines_of_a_stick_diagram_tell_by_their_width_what_they_are_and_so_does_its_legend() -> None:
@@ -136,7 +137,7 @@ def test_labels_of_a_graph_keep_off_other_edges(name: str, most: int) -> None:
             first, middle, last = np.asarray(patch.get_path().vertices, dtype=float)
             curve = (1 - share) ** 2 * first + 2 * share * (1 - share) * middle + share**2 * last
             edges.append((kind, label, axes.transData.transform(curve)))
-    struck = []
+    hit = []
     for text in axes.texts:
         if not (text.get_gid() or "").startswith("label "):
             continue
@@ -144,10 +145,10 @@ def test_labels_of_a_graph_keep_off_other_edges(name: str, most: int) -> None:
         for kind, label, points in edges:
             inside = (points > (box.x0, box.y0)).all(1) & (points < (box.x1, box.y1)).all(1)
             if label != text.get_text() and inside.any():
-                struck.append((kind, text.get_text(), label))
+                hit.append((kind, text.get_text(), label))
     assert len(edges) == sum((text.get_gid() or "").startswith("label ") for text in axes.texts)
-    assert len(struck) <= most, struck
-    assert not [each for each in struck if each[0] == "gear"]
+    assert len(hit) <= most, hit
+    assert not [each for each in hit if each[0] == "gear"]
 
 
 @pytest.mark.parametrize(("name", "round_"), [("lantern-mill", "pit72"), ("huygens-planetarium-1682", "y300")])
@@ -191,10 +192,7 @@ def test_names_of_links_keep_off_the_bearings_of_carriers() -> None:
     (axes,) = picture(load("carman-thorndike-evans-2012"), "stick", None, Fraction(0)).axes
     bearings = [line.get_window_extent() for line in axes.lines if line.get_gid() == "bearing"]
     assert len(bearings) == 2 * sum((line.get_gid() or "").startswith("crank ") for line in axes.lines)
-    for words in axes.texts:
-        box = words.get_window_extent()
-        struck = [b for b in bearings if box.x0 < b.x1 and b.x0 < box.x1 and box.y0 < b.y1 and b.y0 < box.y1]
-        assert not struck, words.get_text()
+    assert not [words.get_text() for words in axes.texts if struck(words, bearings)]
 
 
 @pytest.mark.parametrize("name", ["rv-reducer", "cycloidal-reducer", "freeth-2008"])
@@ -202,9 +200,8 @@ def test_names_of_wheels_keep_off_pins(name: str) -> None:
     (axes,) = picture(load(name), "plan", None, Fraction(0)).axes
     pins = [part.get_window_extent() for part in axes.get_children() if str(part.get_gid()).startswith("pin ")]
     assert pins
-    for words in axes.texts:
-        if str(words.get_gid()).startswith("name "):
-            assert not any(words.get_window_extent().overlaps(pin) for pin in pins), words.get_text()
+    names = [words for words in axes.texts if str(words.get_gid()).startswith("name ")]
+    assert not [words.get_text() for words in names if struck(words, pins)]
 
 
 def test_panels_of_a_speed_diagram_fill_the_page() -> None:

@@ -7,7 +7,7 @@ import io
 import json
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import lru_cache
 from html import unescape
@@ -37,6 +37,7 @@ from geartrain.report import (
 )
 from geartrain.report.text import to_terminal
 
+Write = Callable[..., Path]
 Rows = list[list[str]]
 SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")
 VOID = {"meta", "link", "br", "hr", "img", "input", "base", "col", "wbr"}
@@ -244,15 +245,14 @@ def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> 
     assert [each["state"] for each in entry["states"]] == list(train.states or (None,))
 
 
-def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_path: Path) -> None:
-    path = tmp_path / "t.yaml"
-    path.write_text(
+def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(train_file: Write) -> None:
+    path = train_file(
         'title: "<script>alert(1)</script> & | <b>"\n'
         'links: {frame: {}, "a|b": {note: "<img src=x onerror=y> | z", wheels: {"w|1": 20}}, c: {wheels: {v: 30}}}\n'
         'revolutes: [{pair: [frame, "a|b"], axis: "A|x"}, {pair: [frame, c], axis: C}]\n'
         'gears: [{id: "G|1", pair: ["w|1", v]}]\n'
         'inputs: {"a|b": 1}\n',
-        encoding="utf-8",
+        "t.yaml",
     )
     document = describe_train(collect_report(load(path)))
     page, text = Page(to_html([document])), to_markdown([document])
@@ -265,15 +265,14 @@ def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_p
     assert circuits[0][1] == "G|1"
 
 
-def test_a_note_of_several_lines_stays_within_its_cell(tmp_path: Path) -> None:
-    path = tmp_path / "t.yaml"
-    path.write_text(
+def test_a_note_of_several_lines_stays_within_its_cell(train_file: Write) -> None:
+    path = train_file(
         'links: {frame: {}, a: {note: "one\\ntwo", wheels: {w: 20}}, c: {wheels: {v: 30}}}\n'
         "revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, c], axis: C}]\n"
         "gears: [{pair: [w, v]}]\n"
         "inputs: {a: 1}\n"
         'errata: [{place: p, printed: 1, right: 2, why: "because\\nof this"}]\n',
-        encoding="utf-8",
+        "t.yaml",
     )
     text = to_markdown([describe_train(collect_report(load(path)))])
     assert [row[0] for row in section(text, "Structure")[0]] == ["link", "frame", "a", "c"]

@@ -6,13 +6,13 @@ import base64
 import hashlib
 import re
 from collections.abc import Callable, Iterator
-from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import urlsplit
 from xml.etree import ElementTree
 
 import pytest
 from commands import LOCKED, call, without
+from html_reader import Read
 from markdown_it import MarkdownIt
 
 from geartrain import load
@@ -33,42 +33,6 @@ SVG = (
     'viewBox="0 0 10 5">'
     '<defs><path id="a" d="M 0.123456 1 L 2 3"/></defs><g clip-path="url(#a)"><use href="#a"/></g></svg>'
 )
-Elements = list[tuple[str, dict[str, str]]]
-
-
-class Read(HTMLParser):
-    """All elements with their attributes, the text of each kind, and what every cell says."""
-
-    def __init__(self, page: str) -> None:
-        super().__init__()
-        self.elements: Elements = []
-        self.text = ""
-        self.inside: list[str] = []
-        self.scripts: list[str] = []
-        self.feed(page)
-        self.close()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append((tag, {key: value or "" for key, value in attrs}))
-        self.inside.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        while self.inside and self.inside.pop() != tag:
-            pass
-
-    def handle_data(self, data: str) -> None:
-        last = self.inside[-1] if self.inside else ""
-        if last == "script":
-            self.scripts.append(data)
-        elif last != "style":
-            self.text += data
-
-    def all(self, tag: str) -> list[dict[str, str]]:
-        return [attrs for name, attrs in self.elements if name == tag]
-
-    @property
-    def ids(self) -> list[str]:
-        return [attrs["id"] for _, attrs in self.elements if "id" in attrs]
 
 
 def page_of(*names: str, pictures: tuple[Picture, ...] = (), viewer: str = "") -> Read:

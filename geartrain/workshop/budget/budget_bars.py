@@ -4,7 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, WIDTH, Axes, Figure, Patch, plain, short
+from geartrain.drawing.style import (
+    BLACK,
+    SMALL,
+    TEXT,
+    WHITE,
+    Axes,
+    Figure,
+    Patch,
+    bar_panel,
+    draw_interval,
+    legend_below,
+    name_axes,
+    short,
+)
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
 
@@ -64,21 +77,14 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     if len(found.pointers) == 1:
         return _causes(found, ranked[0])
     shown = ranked[:most]
-    figure = Figure(figsize=(11.0, 1.7 + 0.55 * len(shown)), dpi=100, layout="constrained")
-    axes = figure.add_subplot()
-    plain(axes)
-    axes.grid(False, axis="y")
+    figure, axes = bar_panel([short(each.name, 24) for each in shown], 1.7 + 0.55 * len(shown), 11.0)
     for at, pointer in enumerate(shown):
         _bar(axes, at, pointer)
-    axes.set_yticks(range(len(shown)), [short(each.name, 24) for each in shown])
-    axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.set_xlim(0.0, 1.0)
     axes.set_xlabel(_below(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")
-    axes.set_title(f"{_of(found)}: what each pointer's error comes from", fontsize=TEXT, loc="left", color=BLACK)
+    name_axes(axes, title=f"{_of(found)}: what each pointer's error comes from")
     handles = [Patch(color=colour, label=_legend(cause, found)) for cause, colour in COLOURS.items()]
-    figure.legend(
-        handles=handles, loc="outside lower center", ncols=5, fontsize=SMALL, frameon=False, columnspacing=1.2
-    )
+    legend_below(figure, 5, handles, columnspacing=1.2)
     return figure
 
 
@@ -88,26 +94,20 @@ def _of(found: TrainBudget) -> str:
 
 def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
     """The causes of one pointer's error below each other, the greatest on top, and those that are not declared."""
-    figure = Figure(figsize=(WIDTH, 3.6), dpi=100, layout="constrained")
-    axes = figure.add_subplot()
-    plain(axes)
-    axes.grid(False, axis="y")
     ranked = [*pointer.ranked, *pointer.undeclared]
+    figure, axes = bar_panel([cause.name for cause in ranked], 3.6)
     for at, cause in enumerate(ranked):
         size = cause.degrees or 0.0
         high = _LOW if cause.declared == "part" else _HIGH
         axes.barh(at, size, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name)
-        low, most = cause.interval or (size, size)
-        if cause.interval:
-            axes.plot([low, most], [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=8, gid="within")
+        draw_interval(axes, at, cause.interval)
+        _, most = cause.interval or (size, size)
         words = "not declared" if cause.degrees is None else f"{_size(size, 3)}°"
         words += ", declared in part" if cause.declared == "part" else ""
         axes.annotate(words, (max(size, most), at), xytext=(6, 0), textcoords="offset points", va="center",
                       fontsize=SMALL, color=BLACK, annotation_clip=False, gid="size")  # fmt: skip
-    axes.set_yticks(range(len(ranked)), [cause.name for cause in ranked])
-    axes.set_ylim(len(ranked) - 0.4, -0.6)
     axes.set_xlim(left=0.0)
-    axes.set_xlabel("size (deg)", fontsize=TEXT)
+    name_axes(axes, "size (deg)")
     title = f"{_of(found)}: what the error of {short(pointer.name, 24)} comes from, {_size(pointer.total, 3)}° in sum"
     axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
     return figure

@@ -11,13 +11,15 @@ from geartrain.drawing.style import (
     GREEN,
     GREY,
     RED,
-    SMALL,
     TEXT,
     WHITE,
     WIDTH,
     Axes,
     Figure,
+    curve_panels,
     headed,
+    legend_below,
+    name_axes,
     plain,
     short,
 )
@@ -82,8 +84,8 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
 def _aim_figure(found: BestToothSizes) -> Figure:
     """A panel for each free size."""
     names = list(found.free)
-    figure = Figure(figsize=(WIDTH, 3.2 * len(names)), layout="constrained")
-    for axes, name in zip(figure.subplots(len(names), 1, squeeze=False)[:, 0], names, strict=True):
+    figure, panels = curve_panels([3.2] * len(names), share=False)
+    for axes, name in zip(panels, names, strict=True):
         _panel(axes, found, name, found.aims[0])
     _key(figure, figure.axes[0])
     return figure
@@ -127,9 +129,8 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     axes.set_yticks(range(len(pairs)), [short(label, 30) for label in labels])
     axes.set_ylim(len(pairs) - 0.5, -0.5)
     axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
-    axes.set_xlabel(_LABELS[found.aim], fontsize=TEXT)
-    axes.set_title(_gain(found), fontsize=TEXT, loc="left", color=BLACK)
-    figure.legend(loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False)
+    name_axes(axes, _LABELS[found.aim], title=_gain(found))
+    legend_below(figure, 3)
     return figure
 
 
@@ -148,8 +149,7 @@ def _front_figure(found: BestToothSizes) -> Figure:
     near, far = figure.subplots(1, 2)
     x, y = ([_shown(each, name) for each in found.front] for name in (first, second))
     plain(near)
-    near.set_xlabel(_LABELS[first], fontsize=TEXT)
-    near.set_ylabel(_LABELS[second], fontsize=TEXT)
+    name_axes(near, _LABELS[first], _LABELS[second])
     near.set_title("Pareto front", fontsize=TEXT)
     near.locator_params(axis="x", nbins=4)
     _panel(far, found, first, second)
@@ -163,8 +163,8 @@ def _front_figure(found: BestToothSizes) -> Figure:
 
 def _key(figure: Figure, axes: Axes) -> None:
     """What the marks are, below all panels: within one there are designs everywhere."""
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles), fontsize=SMALL, frameon=False)
+    handles, _ = axes.get_legend_handles_labels()
+    legend_below(figure, len(handles), handles)
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
@@ -179,8 +179,7 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
         if each is not None:
             at = _shown(each, across), _shown(each, up)
             axes.plot(*at, linewidth=0, label=name, gid=name, zorder=3, clip_on=False, **look)
-    axes.set_xlabel(_LABELS[across], fontsize=TEXT)
-    axes.set_ylabel(_LABELS[up], fontsize=TEXT)
+    name_axes(axes, _LABELS[across], _LABELS[up])
     for name, limit in ((across, axes.set_xlim), (up, axes.set_ylim)):
         if name not in found.free and name != "jam":
             limit(*_span(found, name))

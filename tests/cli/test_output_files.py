@@ -353,3 +353,16 @@ def test_what_cannot_be_written_is_said_before_anything_is_read(here: Path) -> N
     assert "the file exists" in refused(call("report", "t.yaml", "-o", "x.md"))
     (here / "t.yaml").write_text(RIGHT, encoding="utf-8")
     assert call("report", "t.yaml", "-o", "x.md", "--force").exit_code == 0
+
+
+@pytest.mark.parametrize(("verb", "suffix"), [("report", ".html"), ("report", ".md"), ("compare", ".html")])
+def test_a_run_that_fails_leaves_the_old_file_and_makes_no_new_one(here: Path, verb: str, suffix: str) -> None:
+    (here / "bad.yaml").write_text(UNUSABLE, encoding="utf-8")
+    old = here / f"old{suffix}"
+    old.write_text("before", encoding="utf-8")
+    for out in (old.name, f"new{suffix}"):
+        done = call(verb, "worm", "bad.yaml", "pennestri-2002", "-o", out, "--force")
+        assert done.exit_code != 0
+        assert done.stdout == ""
+    assert old.read_text(encoding="utf-8") == "before"
+    assert sorted(each.name for each in here.iterdir()) == ["bad.yaml", old.name]

@@ -26,8 +26,7 @@ from geartrain.drawing.style import (
     require_contact,
 )
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
-from geartrain.teeth.triangular.real_path import STANDSTILL
-from geartrain.teeth.triangular.speed_jump import SpeedJump
+from geartrain.teeth.triangular.real_path import STANDSTILL, SpeedJump
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Section, Table, figure
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.pair_design import DesignCosts, PairDesign
+    from geartrain.teeth.conjugate.conjugate_mesh import DesignCosts, PairDesign
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
 

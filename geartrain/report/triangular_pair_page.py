@@ -7,10 +7,10 @@ from math import degrees, isfinite, pi
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
-from geartrain.teeth.pair_verdict import friction_lock_at_speed
+from geartrain.teeth.pair_results import friction_lock_at_speed
 from geartrain.teeth.rubbed_transmission import pair_friction
-from geartrain.teeth.triangular.contact_course import contact_course
-from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
+from geartrain.teeth.triangular.triangular_mesh import explain_clearance, explain_friction_lock
+from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairOperation

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.numerics.vectors import Vector, across, minus, size, unit_or_z
 from geartrain.scene.elements import SceneBody, SceneWave, SceneWheel
-from geartrain.teeth.outlines.wave_tooth import wall
+from geartrain.teeth.outlines.fixed_teeth import wall
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain

@@ -15,7 +15,7 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.any_tooth_form import Involute, tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.pair_verdict import ToothFault
+from geartrain.teeth.pair_results import ToothFault
 
 if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity

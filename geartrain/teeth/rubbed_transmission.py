@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.teeth.derived_transmission import DerivedTransmission
 from geartrain.teeth.friction_law import PairFriction
-from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
+from geartrain.teeth.transmission import ContactRubbing, DerivedTransmission, TransmissionFunction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -16,7 +16,7 @@ from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.pair_account import PairFigures
+    from geartrain.teeth.pair_results import PairFigures
 
 IDEAL = "give this pair `tooth_form: {form: ideal}`"
 
@@ -137,7 +137,7 @@ class ToothForm(BaseModel, ABC):
     @classmethod
     def figures(cls) -> type[PairFigures]:
         """The class of what a mesh of this form tells of itself, from which the schema of answers is read."""
-        from geartrain.teeth.pair_account import PairFigures
+        from geartrain.teeth.pair_results import PairFigures
 
         return PairFigures
 

@@ -20,9 +20,8 @@ from geartrain.numerics.calendar_dates import CalendarDate, julian_day, read_dat
 from geartrain.numerics.quantity import Figure, Quantity, Speed, Torque, in_unit
 from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
 from geartrain.numerics.units import same_kind
-from geartrain.teeth.coulomb_friction import CoulombFriction
+from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.pin_coupling import Coupling
-from geartrain.teeth.restitution import DeclaredRestitution
 from geartrain.train.dials import Dial
 from geartrain.train.drives import Drive, Escapement
 from geartrain.train.fields import (

@@ -44,7 +44,7 @@ from geartrain.numerics.quantity_bounds import (
     not_below_zero,
 )
 from geartrain.numerics.vectors import Vector, unit
-from geartrain.teeth.restitution import DeclaredRestitution
+from geartrain.teeth.contact_coefficients import DeclaredRestitution
 from geartrain.train.fields import (
     AlsoShort,
     Boolean,

@@ -13,10 +13,10 @@ import pytest
 from commands import call
 
 from geartrain import GearTrain, GearTrainError
+from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE, screw_efficiency
 from geartrain.scene import ManufacturingSizes, lay_out
 from geartrain.scene.solids.triangle_solids import Solid, twisted, wheel_solid
 from geartrain.scene.solids.wheel_blanks import find_blanks
-from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency
 
 
 def train(first: dict[str, Any], second: dict[str, Any], **also: Any) -> GearTrain:

@@ -16,9 +16,9 @@ from scipy.spatial import ConvexHull
 
 from geartrain import GearTrainError
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron
-from geartrain.spherical.assembly_loops import regions
 from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows, tangency
 from geartrain.spherical.circle_packing import SpherePacking, angle_excess, boost, pack_circles, stiffness
+from geartrain.spherical.configuration import regions
 from geartrain.spherical.graph_set import separating_pair
 from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, moved
 

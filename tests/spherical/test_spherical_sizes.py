@@ -33,8 +33,8 @@ from geartrain.spherical import (
     size_gears,
     suggest_tooth_counts,
 )
-from geartrain.spherical.assembly_loops import fundamental_loops, loop_rules, regions, residue
-from geartrain.spherical.configuration import mesh_kinds
+from geartrain.spherical.configuration import fundamental_loops, loop_rules, mesh_kinds, regions, residue
+from geartrain.spherical.gear_sizes import impossibility_theorem
 from geartrain.spherical.pitch_cones import (
     base_pitch,
     operating_pitch,
@@ -46,7 +46,6 @@ from geartrain.spherical.pitch_cones import (
     virtual_teeth,
     wheel_radius,
 )
-from geartrain.spherical.pitch_theorems import impossibility_theorem
 
 PHI = (1 + sqrt(5)) / 2
 

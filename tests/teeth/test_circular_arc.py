@@ -26,7 +26,7 @@ from geartrain.scene import make_scene
 from geartrain.teeth import CircularArc
 from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.circular_arc import addendum_factor
-from geartrain.teeth.outline_transmission import OutlineTransmission
+from geartrain.teeth.contact.outline_transmission import OutlineTransmission
 
 FORM = CircularArc.model_validate({"form": "circular_arc"})
 
@@ -291,12 +291,13 @@ def test_a_wheel_is_cut_to_scale_and_its_law_drawn(tmp_path: Path) -> None:
     assert "transmission error" in plot.read_text() or plot.stat().st_size > 10_000
 
 
-def test_no_file_of_the_package_but_its_own_and_the_union_names_it() -> None:
+def test_no_file_of_the_package_but_its_own_the_union_and_the_map_names_it() -> None:
     package = Path(geartrain.__file__).parent
     files = (path for path in package.rglob("*.py") if re.search(r"circular[_-]arc|CircularArc", path.read_text()))
     assert {path.relative_to(package).as_posix() for path in files} == {
         "teeth/circular_arc.py",
         "teeth/any_tooth_form.py",
+        "teeth/__init__.py",
     }
 
 

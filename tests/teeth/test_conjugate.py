@@ -15,9 +15,9 @@ from places import DATA
 
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.closed_form_sides import cycloid
 from geartrain.teeth.conjugate.path_costs import PathCosts, height, measure, sliding_integral
-from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-from geartrain.teeth.conjugate.path_side import PathSide
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact, PathSide
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 TABLES = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
@@ -231,7 +231,7 @@ def test_a_cycloid_loses_more_than_the_involute_by_the_closed_form() -> None:
     pitch = PitchSurfaces.spur(24, 36)
     X, rho = pi / 2, 4.5
     closed = -4 * rho**2 * log(cos(X / (2 * rho)))
-    assert sliding_integral(pitch, forms.cycloid(X, rho)) == pytest.approx(closed, rel=1e-13)
+    assert sliding_integral(pitch, cycloid(pitch, X, rho)) == pytest.approx(closed, rel=1e-13)
     assert closed / (X**2 / 2) == pytest.approx(1.005118582955953, abs=1e-13)
 
 

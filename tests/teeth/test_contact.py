@@ -15,11 +15,11 @@ from shapely.affinity import rotate, translate
 
 from geartrain.errors import GearTrainError, QuestionError, RangeError
 from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.closed_form_sides import cycloid
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks, polyline
 from geartrain.teeth.contact.outline_contact import KINDS, contact, solve
-from geartrain.teeth.contact.outline_curve import OutlineCurve, polyline
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -406,7 +406,7 @@ SHAPES = {
     "uniform stress in a ring": lambda: stress(RING),
     "uniform stress, bevel": lambda: stress(PitchSurfaces.cones(24, 36)),
     "uniform heat": lambda: heat(SPUR),
-    "cycloid": lambda: same(SPUR, lambda X: forms.cycloid(X, 4.5)),
+    "cycloid": lambda: same(SPUR, lambda X: cycloid(SPUR, X, 4.5)),
     "involute in a ring": lambda: same(RING, lambda X: forms.involute(X, TWENTY)),
     "involute, bevel, two pairs": lambda: same(PitchSurfaces.cones(15, 45), lambda X: forms.involute(X, TWENTY), 0.7),
     "involute, obtuse shaft angle": lambda: same(PitchSurfaces.cones(20, 40, 2.1), lambda X: forms.involute(X, TWENTY)),
@@ -447,7 +447,8 @@ def test_cycloids_at_a_wrong_distance_are_what_a_scan_of_dense_points_says() -> 
 
 
 def test_an_eccentric_cycloid_repeats_itself_after_the_turns_that_bring_the_same_teeth_together() -> None:
-    first, second, distance = conjugate(same(PitchSurfaces.spur(6, 8), lambda X: forms.cycloid(X, 1.2)))
+    small = PitchSurfaces.spur(6, 8)
+    first, second, distance = conjugate(same(small, lambda X: cycloid(small, X, 1.2)))
     one, two = first.displaced(0.01, 0.0), second.displaced(0.0, 0.02)
     period = 4 * 2 * pi  # 24 pitches
     phi1 = np.linspace(0, 2, 7)

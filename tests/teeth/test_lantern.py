@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from geartrain.errors import GearTrainError
 from geartrain.teeth import Lantern
 from geartrain.teeth.conjugate.admissibility import faults
+from geartrain.teeth.conjugate.closed_form_sides import flank_start
 from geartrain.teeth.conjugate.path_costs import measure
-from geartrain.teeth.conjugate.pin_undercut import flank_start
 
 # X, d, psi (deg), point of the mate; R1 = 12, R2 = A = 18, B = 0.8, X counted from the pin on the line of centres
 TABLE = """

@@ -19,7 +19,7 @@ from geartrain.errors import GearTrainError
 from geartrain.teeth import Cycloidal, Involute, Lantern, LeastFriction, UniformStress, UniformTemperature
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
-from geartrain.teeth.conjugate.off_design import OffDesignTransmission, outlines
+from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission, outlines
 from geartrain.teeth.conjugate.path_costs import height, measure
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
@@ -208,7 +208,7 @@ def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: i
     theta2 = acos((a**2 + tip2**2 - tip1**2) / (2 * a * tip2))
     gap = theta1 * z1 / z2 + inv(alpha) - inv(second) - theta2
     assert (("interference", 0) in kinds(law)) == (gap < 0)
-    from geartrain.teeth.conjugate.tip_interference import tip_gap
+    from geartrain.teeth.conjugate.admissibility import tip_gap
 
     assert tip_gap(law.path) == pytest.approx(gap, abs=1e-13)
 

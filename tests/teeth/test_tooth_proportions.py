@@ -10,7 +10,7 @@ from commands import call
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.teeth import Cycloidal, Involute
-from geartrain.teeth.conjugate.off_design import outlines
+from geartrain.teeth.conjugate.displaced_contact import outlines
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact.outline_contact import solve
 

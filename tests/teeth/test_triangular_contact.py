@@ -239,7 +239,7 @@ def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the
 
 def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_standstill() -> None:
     from geartrain.teeth import Triangular
-    from geartrain.teeth.triangular.contact_course import contact_course
+    from geartrain.teeth.triangular.triangular_transmission import contact_course
 
     law = Triangular.declared({"half_angle": "30 deg", "clearance": "1.032"}).law(15, 60, 0.2)
     course = contact_course(law, 3)

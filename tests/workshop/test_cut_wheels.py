@@ -21,7 +21,7 @@ from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.teeth import Involute
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.outline_mesh import OutlineMesh
+from geartrain.teeth.contact.outline_mesh import OutlineMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 from geartrain.workshop import export_files, notices, wheel_file
 

@@ -12,12 +12,10 @@ from studies.cut_pair_law import CutPairLaw
 
 import geartrain
 from geartrain.teeth import Cycloidal, Involute, Lantern
-from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact
-from geartrain.teeth.conjugate.off_design import outlines
+from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact, outlines
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
 from geartrain.teeth.contact.outline_contact import TwoFlankContact, solve
-from geartrain.teeth.contact.outline_curve import OutlineCurve
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
 from geartrain.workshop.cutting.cut_pair import CutGearPair
 from geartrain.workshop.cutting.cut_wheel import CutWheel

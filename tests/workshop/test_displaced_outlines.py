@@ -14,10 +14,9 @@ from geartrain import GearTrainError
 from geartrain.dynamics import MotionRun
 from geartrain.teeth import CircularArc
 from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
-from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+from geartrain.teeth.contact.displaced_outlines import displaced_outlines
+from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
 from geartrain.teeth.contact.outline_contact import solve
-from geartrain.teeth.contact.outline_curve import OutlineCurve
-from geartrain.teeth.displaced_outlines import displaced_outlines
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 

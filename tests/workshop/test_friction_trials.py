@@ -7,7 +7,7 @@ import pytest
 from models import load
 
 from geartrain import GearTrain
-from geartrain.teeth.coulomb_friction import CoulombFriction
+from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train import Train
 from geartrain.workshop import find_friction_plan, try_frictions
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction

@@ -14,7 +14,7 @@ from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
 
 Profile = Annotated[
     Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
@@ -50,7 +50,7 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], t
 
 def _blank_sizes(module: float | None, sizes: Mapping[str, str | None]) -> BlankSizes:
     """Sizes in mm, the module in m."""
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
         why = "an outline is to scale, and nothing gives these wheels a size"

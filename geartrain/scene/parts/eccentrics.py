@@ -18,7 +18,7 @@ from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.wave_tooth import bent_line
+from geartrain.teeth.outlines.fixed_teeth import bent_line
 
 WALL = 1.5  # mm of an eccentric beside its arbor at least, and of a wheel beside a hole
 USUAL_ARBOR = 6.0

@@ -29,7 +29,7 @@ from geartrain.scene.parts.plate_passages import Passage
 from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
 from geartrain.scene.solids.bearing_plates import basis
 from geartrain.scene.strain_waves import BentWheel, bent_wheels
-from geartrain.teeth.outlines.wave_tooth import CUP, wall
+from geartrain.teeth.outlines.fixed_teeth import CUP, wall
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 from geartrain.teeth.standard_teeth import DEDENDUM
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.cut_wheel import WheelOutline
+from geartrain.teeth.outlines.wheel_outline import WheelOutline
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -16,7 +16,7 @@ from geartrain.errors import Problem
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.wheel_arms import arm_windows
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT
+from geartrain.teeth.outlines.fixed_teeth import ESCAPEMENT
 from geartrain.teeth.outlines.wheel_outline import pin_seats
 
 if TYPE_CHECKING:

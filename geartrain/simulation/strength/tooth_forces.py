@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import copysign, cos, tan
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.errors import RangeError
 from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 from geartrain.simulation.strength.contact_results import WheelForce
@@ -15,7 +16,6 @@ from geartrain.simulation.strength.formulas.point_contact import CrossedWheels
 from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
-from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
 from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:

@@ -1,6 +1,19 @@
 """Conjugate teeth from their path of contact, spur and bevel at once: profiles, sliding, stress, heat, loss.
 
 The path is where contact happens in the fixed frame: at the signed distance d from the pitch point along a normal that
-makes the pressure angle psi with the pitch line. One function, psi(d), gives both profiles and all that is asked of
-them; a tooth form is a choice of it.
+makes the pressure angle psi with the pitch line. One function, psi(d), gives both profiles and every result; a tooth
+form is a choice of it.
+
+wheel_pair                tooth counts of a pair, how its axes stand, and whether there is such a pair
+pitch_surfaces            cylinders, cones and rings that roll on each other
+path_of_contact           pieces psi(d), the sides made of them, and contact at every instant (velocities, curvatures)
+closed_form_sides         cycloids, round pins, the source's extremal
+optimal_sides             uniform stress, uniform temperature, least friction (Chebyshev collocation, Newton's method)
+involute_geometry         involute wheels cut by a rack: thickness, working pressure angle, arcs
+admissibility             undercut, pointed tips, contact ratio, interference
+path_costs                loss, stress, heat, flash temperature, depth; efficiency exact in friction
+conjugate_form            base class of the forms, and checks of a declaration
+conjugate_transmission    the pair as designed, and its transmission function
+displaced_contact         displaced flanks, and axles at another centre distance
+conjugate_mesh            a pair of a train: figures, and its design
 """

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.conjugate.admissibility import faults
+from geartrain.teeth.conjugate.admissibility import faults, ring_tips
 from geartrain.teeth.conjugate.path_costs import efficiency, locking_friction, powers
-from geartrain.teeth.conjugate.tip_interference import ring_tips
-from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
+from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:

@@ -1,11 +1,11 @@
-"""What a path of contact costs: loss, greatest stress, heat and flash, depth; and how it compares with another.
+"""Costs of a path of contact: loss, maximum stress, heat, flash temperature and depth; their ratios to another path.
 
 A force is known only with an assumption on how pairs of teeth that touch at once share the load. Two are made here:
-one pair bears all of it along its whole path, as if it were alone, and those in contact bear equal parts at every
-instant. They are the same where the contact ratio is 1.
+one pair bears all of it along its whole path, or those in contact bear equal parts at every instant. They are the same
+where the contact ratio is 1.
 
-Friction of one contact, exact in its coefficient, spur and bevel, rings too: docs/shapes.md (6) for spur pairs.
-
+Friction of one contact is exact in its coefficient, for spur and bevel wheels and rings (docs/shapes.md (6)
+for spur pairs).
 The contact pushes with N along the normal n and rubs with mu N across it, against the sliding, whose sense turns at the
 pitch point. Over N and the pitch-line speed, the power that enters at gear i, or leaves there, is the force times the
 speed of that gear's body at the contact:
@@ -18,22 +18,22 @@ A contact line of a bevel pair has these ratios at every distance from the apex,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import floor, inf
+from math import floor, inf, nan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.plain_data import Key, Result, finite
-from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
-from geartrain.teeth.conjugate.path_side import PathSide
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact, PathSide
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-
 
 # 12 nodes leave 1e-12 on usual paths and 24 rounding: twice that for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(48)
@@ -48,6 +48,7 @@ LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
 """Costs that depend on how the load is shared, in the order of tables."""
 FREE = ("depth", "contact_ratio", "slowest")
 """Measures that do not."""
+_STEP, _STEPS = 1.25, 40  # growth of the bracket, and how often it may grow: by 1.25^40 = 7500
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,3 +302,53 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
 
     steepest = greatest(path, lean)
     return 1 / steepest if steepest > 0 else inf
+
+
+# -------------------------------------------------------------------------------------------------------- working depth
+
+
+def working_depth(pitch: PitchSurfaces, sides: Sequence[PathSide]) -> float:
+    """Heights of the last contacts over the pitch line, summed (modules; rad)."""
+    return sum(height(pitch, side) for side in sides)
+
+
+def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
+    """The gamma = (A + B) / heat whose `depth`, which grows with it, is as wanted; looked for around `start`.
+
+    most   a depth that no heat gives, such as the arcs summed: a contact rises by less than it travels
+
+    Raises `GearTrainError` where no heat gives that depth.
+    """
+
+    def off(gamma: float) -> float:
+        try:
+            return depth(gamma) - wanted
+        except GearTrainError:
+            return nan  # too steep to be reached, or too hot for the contact to move
+
+    low = high = start
+    at_low = at_high = off(start) if wanted < most else nan
+    for _ in range(_STEPS if wanted < most else 0):
+        if at_low < 0 < at_high or at_low == 0:
+            break
+        # upwards while even the hottest is too low; NaN, which cannot be reached, and too deep both lead downwards
+        if not at_high >= 0 and at_high == at_high:
+            low, at_low, high = high, at_high, high * _STEP
+            at_high = off(high)
+        else:
+            high, at_high, low = low, at_low, low / _STEP
+            at_low = off(low)
+    if not (at_low <= 0 <= at_high):
+        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
+        if at_low > 0:
+            raise GearTrainError(
+                Problem(what, "even the hottest are deeper", "ask for more depth or shorter arcs, or give the heat")
+            )
+        raise GearTrainError(
+            Problem(
+                what,
+                "their pressure angle would reach a right angle, or their contact stand still, before",
+                "ask for another depth, shorter arcs or more teeth, or give the heat",
+            )
+        )
+    return root(off, low, high, at_low, at_high)

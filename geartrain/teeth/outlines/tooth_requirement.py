@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.teeth.outlines.flank_curve import FlankCurve, flank
-from geartrain.teeth.outlines.tooth_outline import ToothOutline, fillet, pin_span
+from geartrain.teeth.outlines.tooth_outline import FlankCurve, ToothOutline, fillet, flank, pin_span
 from geartrain.teeth.outlines.wheel_requirement import CutTooth, LanternPins, WheelRequirement
 
 if TYPE_CHECKING:

@@ -10,11 +10,10 @@ from math import degrees, inf
 from typing import Literal
 
 from geartrain.numerics.roots import bracketed_root, root
-from geartrain.teeth.pair_verdict import PairVerdict
+from geartrain.teeth.pair_results import PairVerdict
 from geartrain.teeth.tooth_form import refused
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval, RealPath
-from geartrain.teeth.triangular.standstill import DraggedPath, drag
+from geartrain.teeth.triangular.real_path import STANDSTILL, DraggedPath, DriveInterval, RealPath, drag
 from geartrain.teeth.triangular.tooth_couple import APPROACH
 
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]

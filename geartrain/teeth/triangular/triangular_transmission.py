@@ -1,8 +1,9 @@
-"""The transmission law of triangular teeth, vectorised over driver angles."""
+"""The transmission function of triangular teeth, vectorised over driver angles; a table of contact over one pitch."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from itertools import pairwise
@@ -12,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
 from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, behind, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import DriveInterval
-from geartrain.teeth.triangular.speed_jump import SpeedJump, matches
+from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
 from geartrain.teeth.triangular.tooth_couple import APPROACH
 
 if TYPE_CHECKING:
@@ -25,9 +26,9 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.friction_law import PairFriction
-    from geartrain.teeth.pair_verdict import PairVerdict
+    from geartrain.teeth.pair_results import PairVerdict
 
-
+_USUAL = 5  # rows for each interval of the real path
 _BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
 _GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
 _ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
@@ -343,3 +344,66 @@ class TriangularTransmission(TransmissionFunction):
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
         """Every collision of a pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
+
+
+# -------------------------------------------------------------------------------------------------- rows over one pitch
+
+
+@dataclass(frozen=True)
+class ContactCourse(Result):
+    """Contact over one pitch, in order of time, both ends of every interval among the rows.
+
+    phases           of each row
+    alpha1, alpha2   angles of the apices from the line of centres (rad)
+    speed_ratio      tau
+    instant_centre   O1C, from the driver's axis, in the unit of the law's lengths; NaN in a standstill, as what follows
+    driver_arm, driven_arm   of the force about either axis, b1 and b2
+    efficiency       tau b2/b1; NaN too where friction locks
+    """
+
+    KEYS = (
+        *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
+        *(Key(name, to=finite) for name in ("driver_arm", "driven_arm", "efficiency")),
+    )
+
+    phases: tuple[str, ...]
+    alpha1: Floats
+    alpha2: Floats
+    speed_ratio: Floats
+    instant_centre: Floats
+    driver_arm: Floats
+    driven_arm: Floats
+    efficiency: Floats
+
+
+def contact_course(
+    law: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
+) -> ContactCourse:
+    """The course of a pair, `samples` rows for each interval of its real path; none for teeth that never touch.
+
+    friction   in place of the law's own, where it depends on speed
+    """
+    at = [(each, np.linspace(each.start, each.end, samples)) for each in law.intervals]
+    couple = law.contact.path.couple
+
+    def column(what: Callable[[str, Floats], Floats], held: Callable[[DriveInterval], float]) -> Floats:
+        values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
+        return np.concatenate([np.empty(0), *values])
+
+    def arm(wheel: int) -> Floats:
+        return column(
+            lambda phase, x: couple.moment_arms(phase, x, law.coefficient(phase, x, friction), np)[wheel], lambda _: nan
+        )
+
+    eta = column(lambda phase, x: couple.efficiency(phase, x, law.coefficient(phase, x, friction), np), lambda _: nan)
+    first, second = arm(0), arm(1)
+    return ContactCourse(
+        tuple(each.phase for each, x in at for _ in x),
+        np.concatenate([np.empty(0), *(x for _, x in at)]),
+        column(lambda phase, x: couple.angle(phase, x, np), lambda each: each.held or 0.0),
+        column(lambda phase, x: couple.speed(phase, x, np), lambda _: 0.0),
+        column(lambda phase, x: couple.instant_centre(phase, x, np), lambda _: nan),
+        first,
+        second,
+        np.where((first > 0) & (second > 0), eta, nan),
+    )

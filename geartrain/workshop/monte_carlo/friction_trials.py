@@ -25,7 +25,7 @@ from geartrain.numerics.confidence_intervals import (
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.work import Execution
-from geartrain.teeth.coulomb_friction import CoulombFriction
+from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
 from geartrain.workshop.monte_carlo.trial_run import check_trials
 

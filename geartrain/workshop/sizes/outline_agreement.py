@@ -8,7 +8,7 @@ from math import cos, sin
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.plain_data import Result
-from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
+from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTransmission
 from geartrain.workshop.sizes.size_design import ToothSizes, impact_of
 
 if TYPE_CHECKING:

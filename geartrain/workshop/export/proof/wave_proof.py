@@ -13,7 +13,7 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability import BuildFinding
-from geartrain.teeth.outlines.wave_tooth import bent_line
+from geartrain.teeth.outlines.fixed_teeth import bent_line
 from geartrain.workshop.export.proof.cut_outlines import plane_geometry
 from geartrain.workshop.export.proof.turned_pair import NOTHING
 

@@ -44,6 +44,7 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.teeth import any_tooth_form
     from geartrain.teeth.any_tooth_form import *  # noqa: F403
+    from geartrain.teeth.form_comparison import compare_forms as compare_forms
     from geartrain.teeth.friction_law import BuckinghamFriction as BuckinghamFriction
     from geartrain.teeth.friction_law import DokosFriction as DokosFriction
     from geartrain.teeth.friction_law import FrictionLaw as FrictionLaw
@@ -80,6 +81,7 @@ if TYPE_CHECKING:
         "TransmissionError",
         "TransmissionFunction",
         "WheelOutline",
+        "compare_forms",
     ]
     __all__ += any_tooth_form.__all__
 
@@ -101,6 +103,7 @@ _PLACES = {
     "TransmissionError": "pair_results",
     "TransmissionFunction": "transmission",
     "WheelOutline": "outlines.wheel_outline",
+    "compare_forms": "form_comparison",
 }
 
 _find = lazy_names(__name__, _PLACES)

@@ -146,7 +146,7 @@ def compare_forms(
 
     Examples
     --------
-    >>> from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    >>> from geartrain.teeth.conjugate import WheelPair
     >>> (form,) = compare_forms(WheelPair(24, 36), ["least_friction"]).forms
     >>> form.runs, form.ratios.one_pair["loss"] < 1
     (True, True)

@@ -26,7 +26,7 @@ class UniformStress(ConjugateToothForm):
 
     Examples
     --------
-    >>> from geartrain.teeth.conjugate.path_costs import measure
+    >>> from geartrain.teeth.conjugate import measure
     >>> stress = measure(UniformStress(form="uniform_stress").path(24, 36)).one_pair
     >>> round(stress.stress / stress.off_pitch, 6)
     1.0

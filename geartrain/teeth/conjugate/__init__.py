@@ -17,3 +17,49 @@ conjugate_transmission    the pair as designed, and its transmission function
 displaced_contact         displaced flanks, and axles at another centre distance
 conjugate_mesh            a pair of a train: figures, and its design
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
+    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission, pair_outlines
+    from geartrain.teeth.conjugate.path_costs import PathCosts, PathMeasures, efficiency, measure
+    from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+
+__all__ = [
+    "ConjugatePair",
+    "ConjugateToothForm",
+    "ConjugateTransmission",
+    "OffDesignTransmission",
+    "PathContact",
+    "PathCosts",
+    "PathMeasures",
+    "PathOfContact",
+    "WheelPair",
+    "efficiency",
+    "measure",
+    "pair_outlines",
+]
+
+_PLACES = {
+    "ConjugatePair": "conjugate_transmission",
+    "ConjugateToothForm": "conjugate_form",
+    "ConjugateTransmission": "conjugate_transmission",
+    "OffDesignTransmission": "displaced_contact",
+    "PathContact": "path_of_contact",
+    "PathCosts": "path_costs",
+    "PathMeasures": "path_costs",
+    "PathOfContact": "path_of_contact",
+    "WheelPair": "wheel_pair",
+    "efficiency": "path_costs",
+    "measure": "path_costs",
+    "pair_outlines": "displaced_contact",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

@@ -34,7 +34,12 @@ _DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
 
 
 class ConjugateToothForm(ToothForm):
-    """A conjugate tooth form: a path of contact for any two wheels, and the thickness of their teeth."""
+    """A conjugate tooth form: a path of contact for any two wheels, and the thickness of their teeth.
+
+    See Also
+    --------
+    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : two of them.
+    """
 
     conjugate: ClassVar[bool] = True
     matched: ClassVar[str] = ""

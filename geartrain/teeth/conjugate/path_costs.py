@@ -53,15 +53,27 @@ _STEP, _STEPS = 1.25, 40  # growth of the bracket, and how often it may grow: by
 
 @dataclass(frozen=True, slots=True)
 class PathCosts(Result):
-    """What a path costs under one assumption on the load, friction and load taken out; lengths in modules or radians.
+    """Costs of a path under one assumption on the load, friction and load taken out; lengths in modules or radians.
 
-    assumption  on how pairs of teeth share the load, in words
-    loss        mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its
-                path (Buckingham); shared: the mean over a pitch (Ohlendorf)
-    stress      greatest Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0
-    off_pitch   the same where |X| is more than a tenth of a pitch
-    heat        greatest heat per area of either profile, over friction times tangential force: max Q
-    flash       greatest flash proxy
+    Attributes
+    ----------
+    assumption : str
+        How pairs of teeth share the load.
+    loss : float
+        Mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path
+        (Buckingham); shared: the mean over a pitch (Ohlendorf).
+    stress : float
+        Maximum Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0.
+    off_pitch : float
+        The same where |X| is more than a tenth of a pitch.
+    heat : float
+        Maximum heat per area of either profile, over friction times tangential force: max Q.
+    flash : float
+        Maximum of what the flash temperature is proportional to.
+
+    See Also
+    --------
+    measure : gives it.
     """
 
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
@@ -74,18 +86,34 @@ class PathCosts(Result):
     flash: float
 
     def over(self, other: PathCosts) -> dict[str, float]:
-        """Each of the quantities as a ratio to another path's."""
+        """Each of the quantities as a ratio to another path's.
+
+        Parameters
+        ----------
+        other : PathCosts
+            Under the same assumption.
+        """
         return {name: getattr(self, name) / getattr(other, name) for name in LOADED}
 
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures(Result):
-    """What one path costs, and its geometry; lengths in modules or radians.
+    """Costs of one path, and its geometry; lengths in modules or radians.
 
-    one_pair, shared   costs where one pair bears the load, and where pairs in contact share it equally
-    depth           working depth |eta_a| + eta_r
-    slowest         least speed of the contact along a dedendum, over the pitch-line speed
-    contact_ratio   pitches of displacement while one pair touches
+    Attributes
+    ----------
+    one_pair, shared : PathCosts
+        Where one pair bears the load, and where pairs in contact share it equally.
+    depth : float
+        Working depth |eta_a| + eta_r.
+    slowest : float
+        Minimum speed of the contact along a dedendum, over the pitch-line speed.
+    contact_ratio : float
+        Pitches of displacement while one pair touches.
+
+    See Also
+    --------
+    measure : gives it.
     """
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
@@ -97,7 +125,13 @@ class PathMeasures(Result):
     contact_ratio: float
 
     def over(self, other: PathMeasures) -> PathRatios:
-        """Each of the quantities as a ratio to another path's."""
+        """Each of the quantities as a ratio to another path's.
+
+        Parameters
+        ----------
+        other : PathMeasures
+            Such as those of an involute.
+        """
         free = {name: getattr(self, name) / getattr(other, name) for name in FREE}
         return PathRatios(self.one_pair.over(other.one_pair), self.shared.over(other.shared), free)
 
@@ -118,7 +152,24 @@ class PathRatios(Result):
 
 
 def measure(path: PathOfContact) -> PathMeasures:
-    """All measures of a path."""
+    """Loss, stress, heat, flash temperature and depth of a path of contact.
+
+    Parameters
+    ----------
+    path : PathOfContact
+        Of any conjugate form.
+
+    Returns
+    -------
+    PathMeasures
+        Under two assumptions on the load.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> round(measure(Involute(form="involute").path(24, 36)).shared.loss, 4)
+    0.155
+    """
     alone = [(-path.arcs[0], path.arcs[1], 1)]
     slowest = -greatest(path, lambda c: -np.minimum(c.U1, c.U2))
     if min(path.arcs) >= 0:
@@ -281,7 +332,31 @@ def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: 
 
 
 def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> Floats:
-    """Power out over power in; NaN where friction lets nothing out: the contact locks."""
+    """Efficiency of one contact of conjugate teeth, exact in friction.
+
+    Parameters
+    ----------
+    pitch : PitchSurfaces
+        Of the path.
+    contact : PathContact
+        One contact or many.
+    friction : float
+        Coefficient of friction, 0 or more.
+    driver : {1, 2}
+        The gear that drives.
+
+    Returns
+    -------
+    ndarray
+        Power out over power in, of the contact's shape; NaN where the contact locks.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> path = Involute(form="involute").path(24, 36)
+    >>> [round(float(value), 4) for value in efficiency(path.pitch, path.at([-1.0, 0.0, 1.0]), 0.1)]
+    [0.9857, 1.0, 0.9867]
+    """
     into, out = powers(pitch, contact, friction, driver)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(out > 0, out / into, np.nan)

@@ -232,19 +232,38 @@ def none(psi: float) -> PathSide:
 
 @dataclass(frozen=True)
 class PathContact:
-    """The contact at pitch-line displacements X, arrays of one shape; X < 0 is approach, X > 0 recess.
+    """The contact at pitch-line displacements X: arrays of one shape. X < 0 is approach, X > 0 recess.
 
-    d        signed distance from the pitch point (modules; rad)
-    sin_psi, cos_psi   of the pressure angle
-    q        d(psi)/dX
-    w        d(S sin psi)/dd
-    U1, U2   speed of the contact along each profile, over the pitch-line speed
-    k1, k2   (geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0
-    kr       relative curvature k1 - k2
-    H        kr / cos psi: the Hertz pressure goes with its square root
-    Q1, Q2   heat of friction per area of each profile over (friction times tangential force)
-    flash    F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, what Blok's flash temperature of like materials goes with
-    rub      |S| / cos psi, the loss going with its integral over X
+    Attributes
+    ----------
+    X : ndarray
+        Pitch-line displacement [module; rad for bevels].
+    d : ndarray
+        Signed distance from the pitch point [module; rad].
+    sin_psi, cos_psi : ndarray
+        Of the pressure angle.
+    q : ndarray
+        d(psi)/dX.
+    w : ndarray
+        d(S sin psi)/dd.
+    U1, U2 : ndarray
+        Speed of the contact along each profile, over the pitch-line speed.
+    k1, k2 : ndarray
+        (Geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0.
+    kr : ndarray
+        Relative curvature k1 - k2.
+    H : ndarray
+        kr / cos psi: the Hertz pressure is proportional to its square root.
+    Q1, Q2 : ndarray
+        Frictional heat per area of each profile, over friction times tangential force.
+    flash : ndarray
+        F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature of like materials is proportional.
+    rub : ndarray
+        |S| / cos psi; the loss is proportional to its integral over X.
+
+    See Also
+    --------
+    PathOfContact.at : gives it.
     """
 
     X: Floats
@@ -273,10 +292,29 @@ class PathContact:
 
 @dataclass(frozen=True)
 class PathOfContact:
-    """Where contact happens: one side before the pitch point, one after.
+    """Where contact happens: one side before the pitch point, one after. Lengths in modules; of bevels rad.
 
-    real   arcs of approach and recess (X) that the teeth leave of the sides'; one is negative where contact begins, or
-           ends, so far beyond the pitch point. Default the sides'
+    Attributes
+    ----------
+    pitch : PitchSurfaces
+        Pitch cylinders or cones of both gears.
+    approach, recess : PathSide
+        The two sides.
+    real : tuple of float or None
+        Arcs of approach and recess (X) in which the teeth touch, where they are shorter than the sides; one is negative
+        where contact begins, or ends, beyond the pitch point. None for the arcs of the sides.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : every conjugate form has a method `path` that gives it.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import UniformStress
+    >>> path = UniformStress(form="uniform_stress").path(24, 36)
+    >>> stress = path.at([-1.0, 0.5, 1.0]).H
+    >>> round(path.contact_ratio, 12), bool(abs(stress / stress[0] - 1).max() < 1e-9)
+    (1.0, True)
     """
 
     pitch: PitchSurfaces
@@ -290,7 +328,15 @@ class PathOfContact:
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
-        """Distances d on one side between which the teeth touch, X from `low` to `high`; None where they do not."""
+        """Distances d on one side between which the teeth touch; None where they do not.
+
+        Parameters
+        ----------
+        recess : bool
+            Which side.
+        low, high : float
+            Bounds of X.
+        """
         first, last = max(-self.arcs[0], low), min(self.arcs[1], high)
         near, far = (first, last) if recess else (-last, -first)
         side = self.recess if recess else self.approach
@@ -307,17 +353,40 @@ class PathOfContact:
         return sum(self.arcs) / self.pitch.p
 
     def ends(self, gear: int) -> tuple[float, float]:
-        """Displacements X at which the root end of a gear's flank touches, and its tip."""
+        """Displacements X at which the root end of a gear's flank touches, and its tip.
+
+        Parameters
+        ----------
+        gear : {1, 2}
+            Which gear.
+        """
         approach, recess = self.arcs
         return (-approach, recess) if gear == 1 else (recess, -approach)
 
     def radii(self, gear: int) -> tuple[float, float]:
-        """Radii (modules; half-angles of cones, rad) between which a gear's flank works, root end first."""
+        """Radii (modules; half-angles of cones, rad) between which a gear's flank works, root end first.
+
+        Parameters
+        ----------
+        gear : {1, 2}
+            Which gear.
+        """
         (low, high), _ = self.pitch.polar(gear, self.flank(gear, np.array(self.ends(gear))))
         return float(low), float(high)
 
     def at(self, X: ArrayLike) -> PathContact:
-        """The contact at displacements X within the arcs, any shape."""
+        """The contact at given displacements.
+
+        Parameters
+        ----------
+        X : array_like
+            Pitch-line displacements within the arcs, any shape.
+
+        Returns
+        -------
+        PathContact
+            Arrays of that shape.
+        """
         X = np.asarray(X, dtype=float)
         recess = X >= 0
         d = np.empty(X.shape)
@@ -331,7 +400,15 @@ class PathOfContact:
         return self._contact(X, d, sine, q)
 
     def along(self, d: ArrayLike, recess: bool) -> PathContact:
-        """The contact at distances d >= 0 from the pitch point, on one side."""
+        """The contact at given distances from the pitch point.
+
+        Parameters
+        ----------
+        d : array_like
+            Distances, 0 or more.
+        recess : bool
+            Which side.
+        """
         side, sign = (self.recess, 1.0) if recess else (self.approach, -1.0)
         d = np.asarray(d, dtype=float)
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
@@ -358,17 +435,42 @@ class PathOfContact:
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
     def flank1(self, X: ArrayLike) -> Floats:
-        """Points of gear 1's profile, by the displacement X at which they touch, in its X = 0 position."""
+        """Points of gear 1's profile in its X = 0 position.
+
+        Parameters
+        ----------
+        X : array_like
+            Displacements at which the points touch.
+
+        Returns
+        -------
+        ndarray
+            (..., 2) from the pitch point, or of bevels (..., 3) on the unit sphere.
+        """
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear1(self._points(X), X)
 
     def flank2(self, X: ArrayLike) -> Floats:
-        """Points of gear 2's profile, likewise."""
+        """Points of gear 2's profile, likewise.
+
+        Parameters
+        ----------
+        X : array_like
+            As of `flank1`.
+        """
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear2(self._points(X), X)
 
     def flank(self, gear: int, X: ArrayLike) -> Floats:
-        """Points of the profile of gear 1 or 2, likewise."""
+        """Points of the profile of one gear, likewise.
+
+        Parameters
+        ----------
+        gear : {1, 2}
+            Which gear.
+        X : array_like
+            As of `flank1`.
+        """
         return self.flank1(X) if gear == 1 else self.flank2(X)
 
     def _points(self, X: Floats) -> Floats:

@@ -7,3 +7,26 @@ tooth_requirement         the same for conjugate teeth: whether a mate's teeth p
 wheel_outline             blank sizes and the outline of a whole wheel
 fixed_teeth               escape wheels and strain waves
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.teeth.outlines.contour import Contour
+    from geartrain.teeth.outlines.tooth_outline import repeated
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline, outline
+
+__all__ = ["BlankSizes", "Contour", "WheelOutline", "outline", "repeated"]
+
+_PLACES = {
+    "BlankSizes": "wheel_outline",
+    "Contour": "contour",
+    "WheelOutline": "wheel_outline",
+    "outline": "wheel_outline",
+    "repeated": "tooth_outline",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

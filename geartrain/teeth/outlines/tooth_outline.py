@@ -162,7 +162,25 @@ class ToothOutline:
 
 
 def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
-    """z teeth round the axle from one."""
+    """z teeth round the axle, from the vertices of one.
+
+    Parameters
+    ----------
+    tooth : sequence of tuple
+        x, y and bulge of each vertex.
+    z : int
+        Number of teeth.
+
+    Yields
+    ------
+    tuple
+        Vertices of all teeth, for `Contour.of`.
+
+    Examples
+    --------
+    >>> [(round(x, 6), round(y, 6)) for x, y, _ in repeated([(1.0, 0.0, 0.0)], 2)]
+    [(1.0, 0.0), (-1.0, 0.0)]
+    """
     for k in range(z):
         c, s = cos(2 * pi * k / z), sin(2 * pi * k / z)
         for x, y, bulge in tooth:

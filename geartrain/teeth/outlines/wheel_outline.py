@@ -149,10 +149,40 @@ OutlineSizes = tuple[float, float, float, float, float]
 
 
 def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
-    """The outline of gear 1 or 2 of a pair; `pins` where one of them is a lantern.
+    """The outline of one wheel of a pair with conjugate teeth.
 
     Turned about by its own angle so that a space of gear 2 faces a tooth of gear 1, the two wheels mesh at
-    `centre_distance` with half the backlash on either side. Raises `QuestionError` where no such wheel can be cut.
+    `centre_distance` with half the backlash on either side.
+
+    Parameters
+    ----------
+    pair : ConjugatePair
+        As designed; spur.
+    gear : {1, 2}
+        Which gear.
+    cut : BlankSizes
+        Module, bore, tolerance, and sizes of the roots.
+    pins : LanternPins, optional
+        Where one of the gears is a lantern.
+
+    Returns
+    -------
+    WheelOutline
+        To scale.
+
+    Raises
+    ------
+    QuestionError
+        Where no such wheel can be cut.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> from geartrain.teeth.conjugate import WheelPair
+    >>> from geartrain.teeth.outlines import BlankSizes
+    >>> wheel = outline(Involute(form="involute").pair(WheelPair(24, 36)), 1, BlankSizes(module=2.0))
+    >>> wheel.tip_radius, wheel.centre_distance
+    (26.0, 60.0)
     """
     check_flat(pair)
     both = _Both(pair, cut, pins)

@@ -42,11 +42,32 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
 
 
 class TriangularTransmission(TransmissionFunction):
-    """The law of a pair of wheels, the first of `sizes` driving.
+    """The transmission function of a pair of wheels with triangular teeth.
 
-    `direction` -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive. The law of
-    a pair that stands still at each pitch has those standstills; that of a pair that jams or clashes is what its front
-    flanks alone would do.
+    The function of a pair that dwells at each pitch has those dwells; that of a pair that jams or clashes is what its
+    front flanks alone would do.
+
+    Parameters
+    ----------
+    sizes : TriangularSizes
+        The pair, the first wheel driving.
+    friction : float
+        Coefficient of friction, 0 or more.
+    direction : {1, -1}
+        -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive.
+
+    See Also
+    --------
+    geartrain.teeth.Triangular : its method `law` gives it from a declaration.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.teeth.triangular import TriangularSizes, equal_depth
+    >>> radii = equal_depth(48, 96, pi / 6, pi / 6)
+    >>> law = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, 0.01), 0.2)
+    >>> law.verdict.kind, law.ratio, [round(jump.value, 4) for jump in law.jumps]
+    ('runs', Fraction(1, 2), [0.1582])
     """
 
     def __init__(self, sizes: TriangularSizes, friction: float = 0.0, direction: int = 1) -> None:
@@ -84,13 +105,29 @@ class TriangularTransmission(TransmissionFunction):
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._rubs, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Speed of sliding at alpha_1 = x (rad) over that of the pitch line."""
+        """Speed of sliding over that of the pitch line.
+
+        Parameters
+        ----------
+        phase : {"approach", "recess"}
+            Of the couple in contact.
+        x : ndarray
+            Its alpha_1 [rad].
+        """
         sizes = self.sizes
         found: Floats = self.contact.path.couple.sliding(phase, x, np) * sizes.pitch_sum / (sizes.D * sizes.z1)
         return found
 
     def coefficient(self, phase: str, x: Floats, by: PairFriction | None) -> float | Floats:
-        """Friction at alpha_1 = x (rad): the law's own, or `by` the speed of sliding."""
+        """Coefficient of friction.
+
+        Parameters
+        ----------
+        phase, x
+            As of `sliding`.
+        by : PairFriction or None
+            Friction by the speed of sliding; None for the coefficient of this function.
+        """
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _rubs(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
@@ -110,7 +147,13 @@ class TriangularTransmission(TransmissionFunction):
         return TriangularTransmission(self.sizes, self.friction, -self.direction)
 
     def alpha1(self, S: ArrayLike) -> Floats:
-        """alpha_1 (rad) of the couple that drives at driver angles S (rad)."""
+        """alpha_1 (rad) of the couple that drives.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+        """
         return self._map(S, lambda interval, x: x)
 
     def _map(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:

@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 
 from geartrain.errors import GearTrainError
 from geartrain.teeth import Lantern
-from geartrain.teeth.conjugate.admissibility import faults
+from geartrain.teeth.conjugate import ConjugatePair, measure
 from geartrain.teeth.conjugate.closed_form_sides import flank_start
-from geartrain.teeth.conjugate.path_costs import measure
 
 # X, d, psi (deg), point of the mate; R1 = 12, R2 = A = 18, B = 0.8, X counted from the pin on the line of centres
 TABLE = """
@@ -121,8 +120,8 @@ def test_undercut_begins_in_approach_where_the_closed_form_says(z1: int, z2: int
     arc = 2 * R2 * (first - limit) / pi
     for part, cut in ((0.999, False), (1.001, True)):
         path = lantern(pin_diameter=repr(diameter), arcs=[repr(arc * part), 1]).path(z1, z2)
-        path = replace(path, real=None)  # as if no pin cut its mate
-        found = [fault for fault in faults(path) if fault.kind == "undercut"]
+        whole = ConjugatePair(replace(path, real=None), (0.1, 0.1))  # as if no pin cut its mate
+        found = [fault for fault in whole.faults if fault.kind == "undercut"]
         assert bool(found) == cut
     assert found[0].gear == 1
     assert found[0].X / pi == pytest.approx(-arc, rel=1e-8)

@@ -18,8 +18,9 @@ from shapely import Polygon
 import geartrain
 from geartrain.errors import GearTrainError
 from geartrain.teeth import BlankSizes, Involute
+from geartrain.teeth.conjugate import measure
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, solve
-from geartrain.teeth.outlines.wheel_outline import outline
+from geartrain.teeth.outlines import outline
 
 ALPHA = pi / 9
 BACKLASH = 0.05
@@ -198,8 +199,6 @@ def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair
     first, last = (end / cos(pair.angle) for end in pair.ends)
     assert law.pair.arcs == pytest.approx((-first, last), abs=1e-9)
     assert law.path.contact_ratio == pytest.approx(pair.ratio, rel=1e-9)
-    from geartrain.teeth.conjugate.path_costs import measure
-
     found = measure(law.path)
     assert found.one_pair.loss == pytest.approx(pair.loss(False), rel=1e-4)
     assert found.shared.loss == pytest.approx(pair.loss(True), rel=1e-3)

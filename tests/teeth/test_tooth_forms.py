@@ -17,13 +17,18 @@ from pydantic import ValidationError
 
 from geartrain.errors import GearTrainError
 from geartrain.teeth import Cycloidal, Involute, Lantern, LeastFriction, UniformStress, UniformTemperature
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
-from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission, outlines
-from geartrain.teeth.conjugate.path_costs import height, measure
-from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.contact.outline_contact import solve
+from geartrain.teeth.conjugate import (
+    ConjugateToothForm,
+    ConjugateTransmission,
+    OffDesignTransmission,
+    PathOfContact,
+    WheelPair,
+    efficiency,
+    measure,
+    pair_outlines,
+)
+from geartrain.teeth.conjugate.admissibility import tip_gap
+from geartrain.teeth.contact import solve
 
 TABLES = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 PERFORMANCE = {(row[0], row[1]): row[2:] for row in TABLES["performance"]}
@@ -208,8 +213,6 @@ def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: i
     theta2 = acos((a**2 + tip2**2 - tip1**2) / (2 * a * tip2))
     gap = theta1 * z1 / z2 + inv(alpha) - inv(second) - theta2
     assert (("interference", 0) in kinds(law)) == (gap < 0)
-    from geartrain.teeth.conjugate.admissibility import tip_gap
-
     assert tip_gap(law.path) == pytest.approx(gap, abs=1e-13)
 
 
@@ -456,9 +459,7 @@ def test_uniform_temperature_has_the_depth_it_is_asked_for() -> None:
     for reading in "abc":
         for wheels in ({}, {"internal": True}, {"shaft_angle": RIGHT}):
             path = shape("uniform_temperature", reading=reading, depth="0.9").path(20, 50, **wheels)
-            module = path.pitch.p / pi
-            found = sum(height(path.pitch, side) for side in (path.approach, path.recess))
-            assert found / module == pytest.approx(0.9, rel=1e-11)
+            assert measure(path).depth / (path.pitch.p / pi) == pytest.approx(0.9, rel=1e-11)
 
 
 @pytest.mark.parametrize("wheels", [{}, {"internal": True}, {"shaft_angle": RIGHT}])
@@ -530,8 +531,6 @@ BALANCED = [
 def test_the_efficiency_of_a_contact_is_that_of_its_forces_on_turning_bodies(
     form: ConjugateToothForm, wheels: dict[str, Any], driver: int
 ) -> None:
-    from geartrain.teeth.conjugate.path_costs import efficiency
-
     path = form.path(20, 45, **wheels)
     for part in (-0.9, -0.4, 0.3, 0.95):
         X = part * path.arcs[1 if part > 0 else 0]
@@ -541,8 +540,6 @@ def test_the_efficiency_of_a_contact_is_that_of_its_forces_on_turning_bodies(
 
 
 def test_recess_is_milder_than_approach_by_the_exact_fractions() -> None:
-    from geartrain.teeth.conjugate.path_costs import efficiency
-
     path, friction, alpha = shape("involute").path(24, 36), 0.2, radians(20)
     A, B, d = 1 / 12, 1 / 18, 1.2
     X = d / cos(alpha)
@@ -577,8 +574,6 @@ def test_the_mean_is_that_of_ten_thousand_instants(wheels: dict[str, Any]) -> No
 
 
 def test_while_two_pairs_touch_each_takes_half_the_drivers_torque() -> None:
-    from geartrain.teeth.conjugate.path_costs import efficiency
-
     law = shape("involute").law(30, 50, 0.1)
     S = np.linspace(0, law.period, 400)
     X = law.contacts(S)
@@ -751,7 +746,7 @@ def test_outlines_in_contact_keep_the_ratio_at_the_design_distance(wheels: dict[
         loose = form.model_copy(update={"backlash": shape("involute", backlash="0.1").backlash})
         pair = loose.law(24, 72, **wheels).pair
         distance = abs(pair.path.pitch.R2) + pair.path.pitch.R1 * (-1 if wheels else 1)
-        touch = solve(*outlines(pair), distance, np.linspace(0, 2 * pi / 24, 24))
+        touch = solve(*pair_outlines(pair), distance, np.linspace(0, 2 * pi / 24, 24))
         expected = np.linspace(0, 2 * pi / 24, 24) / 3 + (pi / 2 - 0.05) / 36
         np.testing.assert_allclose(touch.front.angle, expected, atol=1e-12)
         np.testing.assert_allclose(touch.play, 0.1 / 36, atol=1e-12)

@@ -17,10 +17,10 @@ from scipy.spatial import ConvexHull
 from geartrain import GearTrainError
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron
 from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows, tangency
-from geartrain.spherical.circle_packing import SpherePacking, angle_excess, boost, pack_circles, stiffness
+from geartrain.spherical.circle_packing import SpherePacking, pack_circles
 from geartrain.spherical.configuration import regions
 from geartrain.spherical.graph_set import separating_pair
-from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, moved
+from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, frames, moved
 
 Floats = NDArray[np.float64]
 Edge = tuple[str, str]
@@ -183,24 +183,6 @@ def test_a_thousand_gears_pack_and_close() -> None:
     assert found.exact == ("phases",)
 
 
-def test_a_boost_keeps_circles_tangent() -> None:
-    made = boost(np.array([0.3, -0.7, 0.2]))
-    metric = np.diag([1.0, 1, 1, -1])
-    assert np.allclose(made.T @ metric @ made, metric, atol=1e-14)
-
-
-def test_the_stiffness_is_the_derivative_of_the_angles() -> None:
-    i, j = np.array([0, 1, 1, 2]), np.array([1, 0, 2, 1])
-    u, h = np.array([0.3, -0.2, 0.9]), 1e-6
-    for k in range(3):
-        e = np.zeros(3)
-        e[k] = h
-        slope = (angle_excess(u + e, i, j, np.zeros(3)) - angle_excess(u - e, i, j, np.zeros(3))) / (2 * h)
-        w = stiffness(u, i, j)
-        expected = np.array([sum(w[(i == row) & (j == k)]) - sum(w[i == row]) * (row == k) for row in range(3)])
-        assert slope == pytest.approx(expected, abs=1e-9)
-
-
 # derivatives and rank ------------------------------------------------------------------------------------------------
 
 
@@ -227,8 +209,6 @@ def test_an_axis_that_turns_with_all_others_changes_no_angle_between_azimuths() 
     axes = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
     at, to = np.array([0, 0]), np.array([1, 2])
     spin = np.cross(np.array([0.1, 0.5, -0.3]), axes)
-    from geartrain.spherical.pitch_cones import frames
-
     steps = np.einsum("gx,gkx->gk", spin, frames(axes)).ravel()
     rows = azimuth_rows(axes, at, to) @ steps
     assert rows[0] - rows[1] == pytest.approx(0, abs=1e-14)

@@ -11,7 +11,7 @@ from finite_elements import plane_stress, root_stress_factor, triangles
 from geartrain.simulation.strength.formulas.iso_6336 import RackWheel, outer_single_contact
 from geartrain.simulation.strength.formulas.root_section import ToothSide
 from geartrain.teeth import Involute
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 
 TWENTY = radians(20)

@@ -27,7 +27,7 @@ from geartrain.simulation.strength.formulas.iso_6336 import (
 )
 from geartrain.simulation.strength.formulas.root_section import ToothLoad, ToothSide, pin_stress
 from geartrain.teeth import Cycloidal, Involute
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 
 TWENTY = radians(20)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import load as load
     from geartrain.errors import GearTrainError as GearTrainError
     from geartrain.kinematics.answer import Answer as Answer
-    from geartrain.kinematics.verdict import Verdict as Verdict
+    from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.train.declaration_files import shipped as shipped
 
 __version__ = "0.1.0"
@@ -29,7 +29,7 @@ __getattr__ = lazy_names(
         "Answer": "kinematics.answer",
         "GearTrain": "analysis.gear_train",
         "GearTrainError": "errors",
-        "Verdict": "kinematics.verdict",
+        "Verdict": "kinematics.answer",
         "load": "analysis.gear_train",
         "shipped": "train.declaration_files",
     },

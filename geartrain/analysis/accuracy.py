@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion

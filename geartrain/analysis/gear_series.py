@@ -13,8 +13,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.train import State
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, final, overload
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
-from geartrain.numerics.result_picture import picture_maker
+from geartrain.numerics.results import picture_maker
 from geartrain.train import Train, declare
 from geartrain.wings import wing
 

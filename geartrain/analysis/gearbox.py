@@ -8,21 +8,18 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
-from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, find_circulation
-from geartrain.dynamics.torques.power_flow import find_power_flow
+from geartrain.dynamics.torques.power_flow import PowerNode, PowerStream, find_circulation, find_power_flow
 from geartrain.dynamics.torques.train_torques import solve_driven
 from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Result, Tabular
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Torques
     from geartrain.dynamics.torques.power_flow import PowerFlow
     from geartrain.dynamics.train_mechanics import TrainMechanics
-    from geartrain.kinematics.answer import Answer
-    from geartrain.kinematics.verdict import Verdict
+    from geartrain.kinematics.answer import Answer, Verdict
     from geartrain.train import Clutch, Train
 
 ElementKind = Literal["brake", "clutch"]

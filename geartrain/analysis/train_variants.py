@@ -12,8 +12,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.kinematics.formulas import Formulas, find_formulas
-from geartrain.numerics.plain_data import Result
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Result, Tabular
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints

@@ -234,7 +234,7 @@ def read_share(text: str, option: str) -> Fraction:
 
 def as_json(data: Any) -> str:
     """Results as this command prints them in JSON; characters that a terminal would obey are escaped, as JSON does."""
-    from geartrain.numerics.plain_data import plain
+    from geartrain.numerics.results import plain
 
     data = plain(data)
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)

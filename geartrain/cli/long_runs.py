@@ -56,7 +56,7 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
-    from geartrain.numerics.compilation import telling
+    from geartrain.numerics.kernels import telling
 
     columns = (*Progress.get_default_columns(), TimeElapsedColumn())
     hidden = not sys.stderr.isatty()

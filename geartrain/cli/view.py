@@ -27,7 +27,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.time_runs import Rate, Restitution, Skip, Steps, TimeRequest, ToothModel, run_in_time
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,7 +13,7 @@ from geartrain.drawing.backend import Axes, Circle, Figure, Polygon
 from geartrain.drawing.labels import text_width
 from geartrain.drawing.style import BLACK, FINE, GREY, SMALL, series_look, sheet, title_of, write
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import decimal, is_short
+from geartrain.numerics.exact import decimal, is_short
 from geartrain.scene import Pointer, Scene
 from geartrain.scene.dial_marks import engrave
 from geartrain.scene.dial_scale import DialScale, clock_point, plain_circle

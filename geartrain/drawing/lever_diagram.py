@@ -18,7 +18,7 @@ from geartrain.drawing.style import BLACK, BLUE, GREY, ORANGE, PALE, PURPLE, SMA
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers
-from geartrain.numerics.decimal_text import decimal, fraction_text, is_short
+from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):

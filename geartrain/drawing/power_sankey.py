@@ -12,7 +12,7 @@ from geartrain.drawing.sankey import BEND, DROP, TURN, BandSegment, ReturnBand, 
 from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WHITE, WIDTH
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
+from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 
 _FINEST = 0.7  # points: a band is never drawn narrower
 _MOST = 300  # nodes

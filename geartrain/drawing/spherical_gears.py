@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 
 from geartrain.drawing.backend import Figure, Patch, Polygon
 from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, headed
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 from geartrain.scene.palette import series_colour
 
 if TYPE_CHECKING:

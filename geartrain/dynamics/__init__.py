@@ -23,29 +23,29 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_model import Motion as Motion
     from geartrain.dynamics.motion.motion_model import TransmissionErrorCurve as TransmissionErrorCurve
     from geartrain.dynamics.motion.motion_run import MotionRun as MotionRun
-    from geartrain.dynamics.motion.order_spectrum import SpectrumLine as SpectrumLine
+    from geartrain.dynamics.motion.motion_run import SpectrumLine as SpectrumLine
     from geartrain.dynamics.motion.pair_impacts import ToothImpact as ToothImpact
     from geartrain.dynamics.motion.run_statistics import RunningStatistics as RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates as ErrorEstimates
-    from geartrain.dynamics.torques.member_torques import BearingTorque as BearingTorque
-    from geartrain.dynamics.torques.member_torques import HoldingTorque as HoldingTorque
-    from geartrain.dynamics.torques.member_torques import PairTorque as PairTorque
-    from geartrain.dynamics.torques.power_circulation import PowerNode as PowerNode
-    from geartrain.dynamics.torques.power_circulation import PowerStream as PowerStream
-    from geartrain.dynamics.torques.power_circulation import RecirculatingPower as RecirculatingPower
     from geartrain.dynamics.torques.power_flow import PowerFlow as PowerFlow
     from geartrain.dynamics.torques.power_flow import PowerLoss as PowerLoss
+    from geartrain.dynamics.torques.power_flow import PowerNode as PowerNode
+    from geartrain.dynamics.torques.power_flow import PowerStream as PowerStream
+    from geartrain.dynamics.torques.power_flow import RecirculatingPower as RecirculatingPower
     from geartrain.dynamics.torques.power_flow import find_power_flow as find_power_flow
+    from geartrain.dynamics.torques.torque_results import BearingTorque as BearingTorque
     from geartrain.dynamics.torques.torque_results import DrivenWay as DrivenWay
+    from geartrain.dynamics.torques.torque_results import HoldingTorque as HoldingTorque
     from geartrain.dynamics.torques.torque_results import NeglectedEffect as NeglectedEffect
+    from geartrain.dynamics.torques.torque_results import PairTorque as PairTorque
     from geartrain.dynamics.torques.torque_results import Torques as Torques
     from geartrain.dynamics.torques.torque_results import TorqueVerdict as TorqueVerdict
     from geartrain.dynamics.train_mechanics import TrainMechanics as TrainMechanics
-    from geartrain.dynamics.turn.cycle_parts import CycleEnergy as CycleEnergy
-    from geartrain.dynamics.turn.cycle_parts import PairCycle as PairCycle
-    from geartrain.dynamics.turn.cycle_parts import PlaceInRun as PlaceInRun
-    from geartrain.dynamics.turn.cycle_parts import TorqueExtreme as TorqueExtreme
+    from geartrain.dynamics.turn.torque_cycle import CycleEnergy as CycleEnergy
+    from geartrain.dynamics.turn.torque_cycle import PairCycle as PairCycle
+    from geartrain.dynamics.turn.torque_cycle import PlaceInRun as PlaceInRun
     from geartrain.dynamics.turn.torque_cycle import TorqueCycle as TorqueCycle
+    from geartrain.dynamics.turn.torque_cycle import TorqueExtreme as TorqueExtreme
     from geartrain.dynamics.turn.train_turn import find_torque_period as find_torque_period
 
 __all__ = [
@@ -85,16 +85,16 @@ _PLACES = {
     "ErrorSamples": "motion.error_composition",
     **dict.fromkeys(("Motion", "TransmissionErrorCurve"), "motion.motion_model"),
     "MotionRun": "motion.motion_run",
-    "SpectrumLine": "motion.order_spectrum",
+    "SpectrumLine": "motion.motion_run",
     "ToothImpact": "motion.pair_impacts",
     "RunningStatistics": "motion.run_statistics",
     "ErrorEstimates": "motion.superposition",
-    **dict.fromkeys(("BearingTorque", "HoldingTorque", "PairTorque"), "torques.member_torques"),
-    **dict.fromkeys(("PowerNode", "PowerStream", "RecirculatingPower"), "torques.power_circulation"),
+    **dict.fromkeys(("BearingTorque", "HoldingTorque", "PairTorque"), "torques.torque_results"),
+    **dict.fromkeys(("PowerNode", "PowerStream", "RecirculatingPower"), "torques.power_flow"),
     **dict.fromkeys(("PowerFlow", "PowerLoss", "find_power_flow"), "torques.power_flow"),
     **dict.fromkeys(("DrivenWay", "NeglectedEffect", "TorqueVerdict", "Torques"), "torques.torque_results"),
     "TrainMechanics": "train_mechanics",
-    **dict.fromkeys(("CycleEnergy", "PairCycle", "PlaceInRun", "TorqueExtreme"), "turn.cycle_parts"),
+    **dict.fromkeys(("CycleEnergy", "PairCycle", "PlaceInRun", "TorqueExtreme"), "turn.torque_cycle"),
     "TorqueCycle": "turn.torque_cycle",
     "find_torque_period": "turn.train_turn",
 }

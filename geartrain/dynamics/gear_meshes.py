@@ -21,7 +21,7 @@ from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
+    from geartrain.kinematics.buildability.pitch_distances import PairOutline
     from geartrain.teeth.pin_coupling import Coupling
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
@@ -146,7 +146,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
     """The pairs with real teeth and parallel axes as they are cut, by name."""
     from geartrain.dynamics.wheel_teeth import CHORD
-    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
+    from geartrain.kinematics.buildability.pitch_distances import PairOutline
 
     found, named = {}, {mesh.name: mesh for mesh in meshes}
     for name, size in find_sizes(meshes).items():

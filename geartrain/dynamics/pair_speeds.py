@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.units import RADIANS_PER_TURN
+from geartrain.numerics.quantity import RADIANS_PER_TURN
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

@@ -12,7 +12,7 @@ from geartrain.kinematics.buildability.build_check import check_build
 if TYPE_CHECKING:
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.kinematics.buildability import BuildFinding
-    from geartrain.kinematics.buildability.pitch_pairs import PairOutline
+    from geartrain.kinematics.buildability.pitch_distances import PairOutline
     from geartrain.train import Train
 
 

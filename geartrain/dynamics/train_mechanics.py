@@ -95,7 +95,7 @@ class TrainMechanics:
     def undriven(self) -> Mapping[str, GearMesh]:
         """The gear pairs with real teeth by name, whichever side drives, each made when it is first read."""
         from geartrain.dynamics.gear_meshes import find_meshes
-        from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+        from geartrain.kinematics.circuits.fundamental import shaft_angle
 
         # the mapping must not hold the train: the two would wait for the garbage collector
         train, tree, circuits = self.declaration, self.tree, {circuit.id: circuit for circuit in self.circuits}
@@ -193,8 +193,7 @@ class TrainMechanics:
         return self._settings[case.state]
 
     def _make_load_case(self, case: StateCase) -> LoadCase | None:
-        from geartrain.dynamics.torques.load_case import LoadCase
-        from geartrain.dynamics.torques.virtual_work import speed_forms
+        from geartrain.dynamics.torques.load_case import LoadCase, speed_forms
 
         own = self.kinematics
         solution = own.solution(case)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Protocol
 from geartrain.dynamics.gear_meshes import find_sizes
 from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
 from geartrain.errors import GearTrainError, Problem
-from geartrain.kinematics.relative_speeds import relative_speed
+from geartrain.kinematics.willis_system import relative_speed
 from geartrain.numerics.containers import FrozenDict
 from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh

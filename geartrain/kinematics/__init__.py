@@ -7,20 +7,19 @@ expected of them. `TrainKinematics` has all of it for one train, each part found
 The equation of the room is Willis': a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
 
 train_kinematics                 everything below for one train; remarks on a sound declaration
-circuits                         joint tree, axes, rigid bodies, fundamental circuits
-willis_equation, willis_system   the rows of the system, for all that solve it
+circuits                         joint tree with its axes and rigid bodies; fundamental circuits
+willis_equation, willis_system   the rows of the system, for all that solve it; relative speeds
 willis_matrix                    the same rows as a sparse matrix
 components                       ordinary trains of one carrier, and the reduced system between them
-speeds                           propagation, exact elimination, mobility, diagnosis, floats
+speeds                           propagation, exact elimination, diagnosis; mobility; floats
 formulas                         outputs as rational functions of tooth counts, and as an engineer writes them
-tooth_sensitivity                the effect of one tooth more or less
-relative_speeds, levers          the speed of one link seen from another; links as points of a lever
+levers                           links as points of a lever
 gridlock                         locked subgraphs, and the fewest meshes to take out
 phasing                          whether teeth meet when a train is put together
 buildability                     what of a declared train cannot be built, and what is unwise
 planet_copies                    one declared planet that stands for several
 graph                            the declared links, turning pairs and gear pairs as a networkx graph
-judged_outputs, answer, verdict  results
+judged_outputs, answer           results; the effect of one tooth more or less
 """
 
 from __future__ import annotations
@@ -31,6 +30,8 @@ from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer as Answer
+    from geartrain.kinematics.answer import Loop as Loop
+    from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
     from geartrain.kinematics.graph import adjacency_matrix as adjacency_matrix
     from geartrain.kinematics.graph import to_dot as to_dot
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
     from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
     from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
+    from geartrain.kinematics.judged_outputs import Sensitivity as Sensitivity
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
     from geartrain.kinematics.levers import Lever as Lever
     from geartrain.kinematics.levers import find_levers as find_levers
@@ -45,10 +47,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
-    from geartrain.kinematics.tooth_sensitivity import Sensitivity as Sensitivity
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
-    from geartrain.kinematics.verdict import Loop as Loop
-    from geartrain.kinematics.verdict import Verdict as Verdict
     from geartrain.kinematics.willis_equation import WillisEquation as WillisEquation
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
@@ -87,17 +86,17 @@ __getattr__ = lazy_names(
         "Gridlock": "gridlock.removal",
         "Lever": "levers",
         "LockedSubgraph": "gridlock.removal",
-        "Loop": "verdict",
+        "Loop": "answer",
         "LoopPhase": "phasing.mesh_phasing",
         "MeshPhasing": "phasing.mesh_phasing",
         "MeshRemoval": "gridlock.removal",
         "Mobility": "speeds.mobility",
         "OutputResult": "judged_outputs",
-        "Sensitivity": "tooth_sensitivity",
+        "Sensitivity": "judged_outputs",
         "TargetResult": "judged_outputs",
         "TrainKinematics": "train_kinematics",
-        "Verdict": "verdict",
-        "WillisEquation": "willis_equation",
+        "Verdict": "answer",
+        "WillisEquation": "willis_system",
         "WillisMatrix": "willis_matrix",
         "WillisSystem": "willis_system",
         "adjacency_matrix": "graph",

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.elimination import LinearForm, add_into
 from geartrain.numerics.factored_ratios import FactoredRatios

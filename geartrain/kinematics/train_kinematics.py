@@ -12,37 +12,39 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import isfinite
+from sys import float_info
 from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
 from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, check_choice, suggest
-from geartrain.kinematics.answer import Answer, SpeedAccuracy
+from geartrain.kinematics.answer import Answer, SpeedAccuracy, Verdict
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
-from geartrain.kinematics.judged_outputs import OutputResult, Relative, SpeedValue, judge_outputs
+from geartrain.kinematics.judged_outputs import (
+    OutputResult,
+    Relative,
+    Sensitivity,
+    SpeedValue,
+    judge_outputs,
+    sensitivity,
+)
 from geartrain.kinematics.planet_copies import check_copies, has_copies
-from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.speeds import (
     EXACT_BUDGET,
-    Mobility,
     Solution,
     determined_verdict,
     exact_verdict,
-    find_mobility,
     solve,
 )
-from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
-from geartrain.kinematics.verdict import Verdict
-from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.long_float import rounded, scaled
-from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.train import GearPair, StateCase, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
-    from geartrain.kinematics.speeds import FloatSpeeds
+    from geartrain.kinematics.speeds import FloatSpeeds, Mobility
 
 
 # ----------------------------------------------------------------------------------------------------------------- lint
@@ -195,6 +197,8 @@ class TrainKinematics:
     @cached_property
     def mobility(self) -> Mobility:
         """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        from geartrain.kinematics.speeds import find_mobility
+
         return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
 
     @cached_property
@@ -445,7 +449,7 @@ class TrainKinematics:
             return None if speed is None else _nearest(speed)
 
         floats = {link: _nearest(speed) for link, speed in solution.speeds.items()}
-        accuracy = {link: SpeedAccuracy(abs(speed) * UNIT_ROUNDOFF, None) for link, speed in floats.items()}
+        accuracy = {link: SpeedAccuracy(abs(speed) * float_info.epsilon / 2, None) for link, speed in floats.items()}
         return self._judged(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
 
     def _judged(
@@ -489,7 +493,7 @@ class TrainKinematics:
 
     @cached_property
     def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:
-        from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side
+        from geartrain.kinematics.circuits.fundamental import bevels_on_one_side
 
         return tuple(bevels_on_one_side(self.declaration, self.circuits, self.is_rotation))
 

@@ -5,29 +5,27 @@ results of tasks in their order. Most of it is for the rooms above; a user meets
 labelled arrays and long floats in answers, and runs long questions with an executor and a journal.
 
 Exact numbers
-    exact, decimal_text, factored_ratios  integers and Fractions of any length, and their text
+    exact, factored_ratios                integers and Fractions of any length, and their text
     elimination                           sparse linear forms over the rationals
     integer_lattice                       integer rows in a rational span
     rational_angles                       angles as parts of a turn
-    calendar_dates                        dates and Julian days in the Julian and the Gregorian calendar
 Floats
-    long_float, error_free                floats with an exponent of their own; sums and products with their error
-    rounding_bounds, bounded_polynomials  a priori bounds on rounding; polynomials in float64 with such bounds
+    long_float                            floats with an exponent of their own
+    rounding_bounds, bounded_polynomials  error-free transformations and a priori bounds; polynomials with such bounds
     sparse_least_squares                  least squares with a few entries a row
-    roots, simultaneous_roots             bracketed roots, one by one and many at once
-    range_extremes                        extremes of runs of a row
+    roots                                 bracketed roots, one by one and many at once
     chebyshev, polynomial_pieces          functions as series and as pieces of polynomials
     confidence_intervals                  confidence intervals of means and probabilities
     vectors, polylines                    vectors in space, exact where they are; lines of points
-    kernels, compilation                  functions in plain Python that can be compiled; the time in which they are
+    kernels                               functions in plain Python that numba can compile
 Graphs
     graphs, lazy_graph                    paths in a rooted forest, groups of what is joined; a graph of networkx
     block_triangular                      matching, then strongly connected components (Dulmage and Mendelsohn)
 Values with names and units, and their forms
-    quantity, quantity_bounds, units      values with a unit, their limits, and the number as it was written
-    arrays, labelled_array, named_arrays  arrays with names on their axes; arrays in named tuples
-    plain_data, tabular, result_picture   results as JSON, as tables, as pictures
-    containers, packing                   mappings that cannot change; arrays as text
+    quantity                              values with a unit, their limits, and the number as it was written
+    arrays, labelled_array                types of arrays, named tuples of arrays; arrays with names on their axes
+    results                               results as JSON, as tables, as pictures
+    containers                            mappings that cannot change
     markdown_text                         text that Markdown takes literally
 Files, work, modules
     files                                 finished text and tables out, atomically

@@ -1,6 +1,10 @@
-"""Names for the arrays of numpy that the package passes about; imported for types only."""
+"""Types of numpy arrays, named tuples of arrays, and arrays as text that JSON can hold."""
 
 from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,3 +13,25 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Indices = NDArray[np.intp]
+
+
+def packed(values: NDArray[Any], kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> str:
+    """Base64 of little-endian numbers, row by row: every digit of the kind, in a third of the letters of decimals."""
+    return b64encode(values.astype(kind).tobytes()).decode("ascii")
+
+
+NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
+
+
+def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
+    """Those that are numbered, or flagged, in `which`."""
+    kind: Any = type(columns)
+    found: NamedArrays = kind(*(each[..., which] for each in columns))
+    return found
+
+
+def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
+    """Several sets, one after another."""
+    kind: Any = type(sets[0])
+    found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
+    return found

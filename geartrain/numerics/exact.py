@@ -1,9 +1,13 @@
-"""Fractions of long integers without the gcds that their making would cost, their multiples, and the nearest floats."""
+"""Integers and Fractions of any length: products without needless gcds, the nearest floats, and their text.
+
+Text is in decimal, in full or abridged. The limit that Python sets to the digits of an integer is neither met nor
+moved."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from decimal import MAX_EMAX, MAX_PREC, Context, Decimal, Inexact, localcontext
 from fractions import Fraction
 
 
@@ -65,3 +69,173 @@ def as_float(value: Fraction | float) -> float | None:
     if value and abs(number) < 2.2250738585072014e-308:  # subnormal: its last digits are lost
         return None
     return number
+
+
+def decimal(value: Fraction, digits: int = 10) -> str:
+    """`value` in decimal, rounded to `digits` significant digits, for numbers of any size.
+
+    >>> decimal(Fraction(254, 19), 6), decimal(Fraction(-1, 3) ** 700, 4)
+    ('13.3684', '1.035e-334')
+    """
+    number = as_float(value)
+    if number is not None:
+        return f"{number:.{digits}g}"
+    exponent = math.floor(log10(value))
+    mantissa = str(_scaled(abs(value), digits - 1 - exponent, digits))
+    # rounding may carry, and the logarithm be off beside a power of ten: the digits tell
+    exponent += len(mantissa) - digits
+    sign = "-" if value < 0 else ""
+    rest = f".{mantissa[1:digits]}" if digits > 1 else ""
+    return f"{sign}{mantissa[0]}{rest}e{exponent:+d}"
+
+
+def _scaled(value: Fraction, power: int, digits: int) -> int:
+    """round(value * 10**power), a number of some `digits`, from the leading bits alone where they decide it."""
+    with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
+        near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
+        off = near - near.to_integral_value()
+        # 30 digits more than are asked for: `off` is good to far less than 1e-10
+        if abs(abs(off) - Decimal("0.5")) > Decimal("1e-10"):
+            return int(near.to_integral_value())
+    exact: Fraction = value * Fraction(10) ** power
+    return round(exact)  # a tie, or as good as one: all digits are needed
+
+
+def _leading(number: int) -> Decimal:
+    """A long positive integer to the precision of the context."""
+    cut = max(number.bit_length() - 1024, 0)
+    return Decimal(number >> cut) * Decimal(2) ** cut
+
+
+_PLAIN, _SHORT = 2000, 600
+"""Bits and digits of integers that Python itself writes and reads under any limit: none is below 640 digits."""
+
+
+def fraction_text(value: Fraction | int) -> str:
+    """All digits of a number, as `str` gives them, for numbers of any size.
+
+    Python refuses to write integers past 4300 digits, for it takes the square of their length. Decimals are put
+    together from halves instead, in little more than linear time; the limit of the process is neither met nor moved.
+
+    >>> fraction_text(Fraction(-254, 19)), len(fraction_text(7**20_000))
+    ('-254/19', 16902)
+    """
+    top, bottom = value.numerator, value.denominator
+    return _digits(top) if bottom == 1 else f"{_digits(top)}/{_digits(bottom)}"
+
+
+def read_fraction(text: str) -> Fraction:
+    """The number that `fraction_text` wrote, of any size.
+
+    >>> read_fraction("-254/19"), read_fraction(fraction_text(7**20_000)) == 7**20_000
+    (Fraction(-254, 19), True)
+    """
+    top, _, bottom = text.partition("/")
+    if max(len(top), len(bottom)) <= _SHORT:
+        return Fraction(text)
+    sign, top = (-1, top[1:]) if top.startswith("-") else (1, top)
+    return coprime(sign * _integer(top), _integer(bottom or "1"))
+
+
+def abridged_text(value: Fraction | int, most: int = 40) -> str:
+    """All digits of a number up to `most` characters, above that their count.
+
+    >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
+    ('161051/100000', '(5207 digits)/(5001 digits)')
+    """
+    if is_short(value, most):
+        return fraction_text(value)
+    top, bottom = value.numerator, value.denominator
+    return f"({count_digits(top)} digits)" + (f"/({count_digits(bottom)} digits)" if bottom != 1 else "")
+
+
+_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
+
+
+def watts_text(power: float) -> str:
+    """Watts with the prefix that keeps the number short.
+
+    >>> watts_text(0.0025), watts_text(0)
+    ('2.5 mW', '0 W')
+    """
+    for size, prefix in _PREFIXES:
+        if abs(power) >= size:
+            return f"{power / size:.4g} {prefix}W"
+    return f"{power * 1e9:.4g} nW" if power else "0 W"
+
+
+def percent_text(part: Fraction | float, digits: int = 4) -> str:
+    """A share in percent; from ten times the whole on, as a multiple of it.
+
+    >>> percent_text(Fraction(46, 47)), percent_text(Fraction(2588, 10))
+    ('97.87 %', '258.8 times')
+    """
+    return f"{float(100 * part):.{digits}g} %" if abs(float(part)) < 10 else f"{float(part):.{digits}g} times"
+
+
+def percent_of_text(part: Fraction, whole: str) -> str:
+    """A share of something named.
+
+    >>> percent_of_text(Fraction(1, 2), "the power in"), percent_of_text(Fraction(2588, 10), "the power in")
+    ('50 % of the power in', '258.8 times the power in')
+    """
+    return f"{percent_text(part)} of {whole}" if abs(part) < 10 else f"{percent_text(part)} {whole}"
+
+
+def plural(count: int, noun: str) -> str:
+    """`1 loop`, `2 loops`."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def is_short(value: Fraction | int, most: int) -> bool:
+    """True if all digits of a number take at most so many characters."""
+    bits = value.numerator.bit_length() + value.denominator.bit_length()
+    return bits < 4 * most + 8 and len(fraction_text(value)) <= most
+
+
+def count_digits(number: int) -> int:
+    """How many decimal digits an integer has, without writing it."""
+    number = abs(number)
+    if number < 10:
+        return 1
+    power = math.log10(number)
+    nearest = round(power)
+    if abs(power - nearest) > 1e-9:  # the logarithm is good to 1e-15 of numbers of a million digits
+        return math.floor(power) + 1
+    ten: int = 10**nearest
+    return nearest + (number >= ten)
+
+
+def _integer(digits: str) -> int:
+    if len(digits) <= _SHORT:
+        return int(digits)
+    half = len(digits) // 2
+    ten: int = 10**half
+    return _integer(digits[:-half]) * ten + _integer(digits[-half:])
+
+
+def _digits(number: int) -> str:
+    if number.bit_length() <= _PLAIN:
+        return str(number)
+    # `Inexact` is trapped: a digit lost would raise, and not be printed
+    with localcontext(Context(prec=MAX_PREC, Emax=MAX_EMAX, Emin=-MAX_EMAX, traps=[Inexact])):
+        return ("-" if number < 0 else "") + str(_joined(abs(number), abs(number).bit_length(), {}))
+
+
+def _joined(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
+    """Divide and conquer: an integer of so many bits as a decimal, from its halves."""
+    if bits <= _PLAIN:
+        return Decimal(number)
+    half = bits >> 1
+    if half not in powers:
+        powers[half] = _power_of_two(half, powers)
+    upper = _joined(number >> half, bits - half, powers)
+    return upper * powers[half] + _joined(number & ((1 << half) - 1), half, powers)
+
+
+def _power_of_two(exponent: int, powers: dict[int, Decimal]) -> Decimal:
+    if exponent <= _PLAIN:
+        return Decimal(1 << exponent)
+    half = exponent >> 1
+    root = powers.get(half) or _power_of_two(half, powers)
+    return root * root * (1 << exponent % 2)

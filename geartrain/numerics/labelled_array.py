@@ -10,8 +10,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from geartrain.numerics.plain_data import Result
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Result, Tabular
 
 _MOST = 40  # labels of an axis that are shown whole
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 from numbers import Rational
 from typing import Any, Self
 
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 
 LOWEST, HIGHEST = -1021, 1024
 """Exponents of mantissas from 1/2 to 1 that float64 holds with all its bits."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.report.document import Document, Section, Table
 
 _LEAD = "Times are the best of repeats on this machine: compare them within a stage. `prepared` comes once, before."

@@ -8,12 +8,11 @@ from itertools import islice
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.judged_outputs import OutputResult, magnitude
-from geartrain.kinematics.tooth_sensitivity import Sensitivity
+from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, magnitude
 from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.report.speeds_text import why_floats
 from geartrain.train import Train
-from geartrain.train.dials import looks_away
+from geartrain.train.outputs import looks_away
 
 _YEAR = 300  # days, less than any year
 _SPANS = (("d", Fraction(1)), ("h", Fraction(1, 24)), ("min", Fraction(1, 1440)), ("s", Fraction(1, 86400)))  # in days

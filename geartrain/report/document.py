@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
+from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.result_picture import picture_maker
+from geartrain.numerics.results import picture_maker
 
 
 class ExactText(str):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.formulas.speed_formulas import OutputFormula, speed_formulas
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.report.document import Document, Section, Table, exact
 
 if TYPE_CHECKING:

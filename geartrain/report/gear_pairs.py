@@ -9,7 +9,7 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Section, Table
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PinFigures, pin_figures

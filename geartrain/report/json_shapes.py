@@ -1,6 +1,6 @@
 """The shapes of JSON answers as JSON Schema (draft 2020-12), read off the results that are told.
 
-Keys are those of `geartrain.numerics.plain_data`, kinds of values come from annotations, and words from docstrings.
+Keys are those of `geartrain.numerics.results`, kinds of values come from annotations, and words from docstrings.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, U
 from pydantic.json_schema import GenerateJsonSchema
 
 from geartrain.numerics.long_float import LongFloat
-from geartrain.numerics.plain_data import Key, Result, keys_of, whole
 from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.numerics.results import Key, Result, keys_of, whole
 from geartrain.wings import WingResult
 
 Schema = dict[str, Any]

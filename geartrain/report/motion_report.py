@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.decimal_text import abridged_text
+from geartrain.numerics.exact import abridged_text
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion, ripples
 from geartrain.wings import wing

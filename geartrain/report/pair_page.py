@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import fault_text, joined_table
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh

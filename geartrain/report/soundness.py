@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.buildability import build_errors
-from geartrain.kinematics.relative_speeds import relative_speed
+from geartrain.kinematics.willis_system import relative_speed
 from geartrain.report.answers import expectations_met, result_words
 from geartrain.report.document import exact, figure, ppm
 

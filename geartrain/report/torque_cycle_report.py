@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.decimal_text import percent_text
+from geartrain.numerics.exact import percent_text
 from geartrain.report.document import Section, Table, cut, figure
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
+from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.report.torque_figures import DrivenWays, TorqueFigures, TorqueReport
 from geartrain.wings import wing

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.wings import WingResult, has_wing
 
 if TYPE_CHECKING:
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from geartrain.kinematics.buildability import BuildFinding
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.gridlock.removal import Gridlock
+    from geartrain.kinematics.judged_outputs import Sensitivity
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
-    from geartrain.kinematics.tooth_sensitivity import Sensitivity
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_figures import TorqueFigures

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.answer import Answer, Loop, abridged_names
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE
-from geartrain.kinematics.verdict import Loop, abridged_names
-from geartrain.numerics.decimal_text import abridged_text, plural
+from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
 from geartrain.report.formula_report import formula_section

@@ -15,7 +15,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.formulas import Formula, Formulas, find_formulas
 from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas

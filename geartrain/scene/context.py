@@ -10,8 +10,8 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import decimal, fraction_text
-from geartrain.numerics.units import turns_in
+from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.quantity import turns_in
 from geartrain.numerics.vectors import Vector, dot, unit_or_z
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.judged_outputs import SpeedValue
-from geartrain.kinematics.relative_speeds import axis_sense, relative_speed
+from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
@@ -29,7 +29,7 @@ from geartrain.scene.layout import WheelPlace
 from geartrain.scene.sky import find_targets
 from geartrain.scene.stroke_letters import Stroke
 from geartrain.scene.train_scene import DialFace, Pointer
-from geartrain.train.dials import looks_away
+from geartrain.train.outputs import looks_away
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit

@@ -11,7 +11,7 @@ from math import cos, floor, pi, sin
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from geartrain.train.dials import Dial, Graduation
+    from geartrain.train.outputs import Dial, Graduation
 
 Point = tuple[float, float]
 

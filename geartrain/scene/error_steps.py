@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
-from geartrain.numerics.packing import packed
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.arrays import packed
+from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -13,8 +13,8 @@ from geartrain.scene.movement import MovementStart
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Loop
     from geartrain.kinematics.circuits import Circuit
-    from geartrain.kinematics.verdict import Loop
     from geartrain.teeth.pin_coupling import Coupling as Declared
 
 

@@ -9,8 +9,8 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.plain_data import plain
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import plain
 from geartrain.scene.context import SceneContext
 from geartrain.scene.error_steps import ErrorLawTable, ErrorSource, ErrorStep, Movement
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.decimal_text import read_fraction
+from geartrain.numerics.exact import read_fraction
 from geartrain.scene.error_steps import ErrorLawTable, ErrorSource, ErrorStep
 from geartrain.scene.train_scene import Scene
 

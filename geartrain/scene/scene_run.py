@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
 
-from geartrain.numerics.packing import packed
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.arrays import packed
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.vectors import Vector
 from geartrain.wings import WingResult
 

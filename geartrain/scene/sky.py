@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from geartrain.kinematics.judged_outputs import goal_of
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.scene.context import SceneContext
 from geartrain.scene.train_scene import PointerTarget, SceneEpoch
 

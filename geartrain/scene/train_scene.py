@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
-from geartrain.numerics.plain_data import plain
+from geartrain.numerics.results import plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.built_elements import SceneHanger, ScenePart
 from geartrain.scene.count_formulas import SceneFormulas

@@ -14,7 +14,7 @@ from heapq import nsmallest
 from itertools import islice, product
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 from geartrain.search.search_outcome import GearStages
 from geartrain.search.stern_brocot import nearest_first
 from geartrain.search.target_ratio import TargetRatio

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 
 @dataclass(frozen=True, slots=True)

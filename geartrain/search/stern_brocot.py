@@ -16,7 +16,7 @@ from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import coprime
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.target_ratio import TargetRatio
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]

@@ -10,11 +10,9 @@ from typing import Literal
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import decimal, fraction_text
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.quantity import Figure, Quantity
-from geartrain.numerics.units import UNITS
+from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.quantity import UNITS, Figure, Quantity
+from geartrain.numerics.results import Key, Result
 from geartrain.train.periods import period_table, suggested_period
 
 TargetKind = Literal["number", "things", "time", "speed", "count"]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.spherical.configuration import (
     Configuration,
     kinds_in_order,

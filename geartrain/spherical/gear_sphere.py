@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.spherical.configuration import Configuration, kinds_in_order, mesh_kinds, to_train
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
 from geartrain.spherical.pitch_cones import wheel_radius

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.spherical.axis_adjustment import (
     AxisAdjustment,
     LoopCorners,

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.spherical.configuration import Configuration
 from geartrain.spherical.polyhedra import Polyhedron, from_the_top, polyhedron, solid
 from geartrain.spherical.symmetric_displacement import SymmetricFreedom, equal_pitch

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.spherical.configuration import (
     Configuration,
     MeshKind,

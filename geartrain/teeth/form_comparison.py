@@ -12,7 +12,7 @@ from math import nan
 from typing import TYPE_CHECKING, get_args
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.teeth.any_tooth_form import Involute, tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.pair_results import ToothFault

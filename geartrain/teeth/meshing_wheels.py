@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.teeth.friction_law import FrictionLaw

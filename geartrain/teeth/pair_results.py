@@ -12,7 +12,7 @@ from math import degrees
 from typing import TYPE_CHECKING, ClassVar
 
 from geartrain.errors import Problem
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinTransmission

@@ -10,8 +10,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.quantity import Figure, Length, Quantity
-from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
+from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh

@@ -6,10 +6,10 @@ out here; `geartrain.GearTrain` does that.
 
 declaration                      the whole model, and what follows from it alone: friction in force, epoch
 mechanism                        links, wheels, axes, pairs; doubtful tooth counts, efficiencies, bearing friction
-outputs, dials, states, drives   what is requested and shown; clutches and cases; what drives a train in time
-manufacturing, materials, wheel_stock, reconstruction   errors of cutting, materials, blanks; what may be added
-fields, validation, references   strictness, problems in words, names and units that do not go together
-yaml_nodes, short_forms, declaration_style   YAML with line numbers; pairs in short and in long form
+outputs, states                  outputs, dials and targets; clutches, cases, and what drives a train in time
+manufacturing, wheel_stock, reconstruction   materials and errors of cutting; blanks; what may be added
+fields, validation, references   strict fields, short forms and problems, names and units that conflict
+yaml_nodes, declaration_style    YAML with line numbers; the style in which declarations are written
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and other values of a declaration
 periods, trade_words             the table of periods of the sky; words of makers and historians
 """
@@ -17,13 +17,21 @@ periods, trade_words             the table of periods of the sky; words of maker
 from __future__ import annotations
 
 from geartrain.train.declaration import Epoch, FrictionInForce, Train
-from geartrain.train.dials import Dial, DialName, DialNumerals, DialRing
-from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
-from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import ArborSizes, Material, material_table
+from geartrain.train.manufacturing import ArborSizes, Material, PairMounting, WheelManufacture, material_table
 from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
-from geartrain.train.outputs import Expect, Output, Published, SpeedUnit, Target, View
-from geartrain.train.states import Clutch, State, StateCase
+from geartrain.train.outputs import (
+    Dial,
+    DialName,
+    DialNumerals,
+    DialRing,
+    Expect,
+    Output,
+    Published,
+    SpeedUnit,
+    Target,
+    View,
+)
+from geartrain.train.states import Clutch, Drive, Escapement, HandDrive, SpringDrive, State, StateCase
 from geartrain.train.validation import declare
 
 __all__ = [

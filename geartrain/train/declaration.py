@@ -16,14 +16,9 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, PrivateAttr, 
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
-from geartrain.numerics.calendar_dates import CalendarDate, julian_day, read_date
-from geartrain.numerics.quantity import Figure, Quantity, Speed, Torque, in_unit
-from geartrain.numerics.quantity_bounds import PairDamping, PairStiffness
-from geartrain.numerics.units import same_kind
+from geartrain.numerics.quantity import Figure, PairDamping, PairStiffness, Quantity, Speed, Torque, in_unit, same_kind
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.pin_coupling import Coupling
-from geartrain.train.dials import Dial
-from geartrain.train.drives import Drive, Escapement
 from geartrain.train.fields import (
     ByName,
     Declared,
@@ -35,13 +30,12 @@ from geartrain.train.fields import (
     also,
     short_for,
 )
-from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import FaceWidth, Material
+from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, MaterialDensity, Revolutes, Source, Thickness, Wheel
-from geartrain.train.outputs import Output, SpeedUnit, View
-from geartrain.train.periods import period_table
+from geartrain.train.outputs import Dial, Output, SpeedUnit, View
+from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
-from geartrain.train.states import Clutch, Erratum, Remove, State, StateCase
+from geartrain.train.states import Clutch, Drive, Erratum, Escapement, Remove, State, StateCase
 
 if TYPE_CHECKING:
     from geartrain.teeth.friction_law import FrictionLaw

@@ -19,9 +19,7 @@ from typing import Any
 
 from geartrain.errors import DeclarationError, Loc, Problem, suggest
 from geartrain.train.declaration import Train
-from geartrain.train.inheritance import merge_parent
-from geartrain.train.short_forms import has_short_forms, written_out
-from geartrain.train.validation import declare
+from geartrain.train.validation import declare, has_short_forms, written_out
 from geartrain.train.yaml_nodes import MOST_DEPTH, MOST_VALUES, YamlNode, as_yaml, node_from_data, parse_yaml
 
 # ------------------------------------------------------------------------------------------------------------ json text
@@ -234,6 +232,8 @@ def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Yam
     """The child laid over its parent, which is laid over its own before."""
     line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
     result = line.pop()
+    if line:
+        from geartrain.train.inheritance import merge_parent
     while line:
         result = merge_parent(result, line.pop())
     return result

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import DeclarationError, Loc, Problem, suggest
-from geartrain.train.short_forms import written_out
-from geartrain.train.validation import declare
+from geartrain.train.validation import declare, written_out
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 if TYPE_CHECKING:

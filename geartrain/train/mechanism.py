@@ -30,17 +30,15 @@ from geartrain.numerics.quantity import (
     Length,
     Mass,
     MeasuredLength,
+    PairDamping,
+    PairStiffness,
     Quantity,
     Share,
     Torque,
     TorsionalDamping,
-    millimetres,
-)
-from geartrain.numerics.quantity_bounds import (
-    PairDamping,
-    PairStiffness,
     above_zero,
     below_right_angle,
+    millimetres,
     not_below_zero,
 )
 from geartrain.numerics.vectors import Vector, unit
@@ -60,11 +58,16 @@ from geartrain.train.fields import (
     short_for,
     side,
 )
-from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.materials import ArborSizes, FaceWidth
-from geartrain.train.short_forms import JOINT_SCHEMA
+from geartrain.train.manufacturing import ArborSizes, FaceWidth, PairMounting, WheelManufacture
 
 # ----------------------------------------------------------------------------------------------------- bearing friction
+
+
+_JOINT_SCHEMA = {
+    "type": "object",
+    "additionalProperties": {"type": "array", "items": {"type": ["string", "number"]}, "minItems": 2},
+}
+"""JSON Schema of the short form of `revolutes`."""
 
 
 def _not_negative(torque: Quantity) -> Quantity:
@@ -510,7 +513,7 @@ class Revolute(Declared):
     note: str | None = Field(None, description="A remark for the reader")
 
 
-Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(JOINT_SCHEMA)]
+Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
 def _positive(figure: Figure) -> Figure:

@@ -1,8 +1,13 @@
-"""The shipped table of astronomical periods, speeds and counts, each with its source (`periods.csv`)."""
+"""Astronomical periods, speeds and counts with their sources (`periods.csv`); calendar dates and Julian days.
+
+Years are counted as astronomers count them: 0 is 1 BC, -204 is 205 BC. The Julian and the Gregorian calendar are both
+proleptic: their rules hold for every year.
+"""
 
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,6 +17,94 @@ from types import MappingProxyType
 from typing import Literal
 
 from geartrain.errors import suggest
+
+Calendar = Literal["julian", "gregorian"]
+
+REFORM = Fraction(4598321, 2)
+"""Julian day of 1582-10-15 (Gregorian) at midnight, the day after 1582-10-04 (Julian)."""
+
+MOST_YEARS = 10**9
+_MARCH = {"julian": Fraction(3442235, 2), "gregorian": Fraction(3442239, 2)}
+"""Julian day of the midnight that begins March 1 of the year 0."""
+_PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{2})(?::(\d{2}))?)?")
+
+
+@dataclass(frozen=True, slots=True)
+class CalendarDate:
+    """A day of a calendar, and the part of it that has passed: 1/2 at noon.
+
+    year      astronomical: 0 is 1 BC
+    month     1 to 12
+    day       1 to 31
+    part      0 to less than 1
+    """
+
+    year: int
+    month: int
+    day: int
+    part: Fraction
+    calendar: Calendar
+
+    def __str__(self) -> str:
+        sign = "-" if self.year < 0 else ""
+        return f"{sign}{abs(self.year):04d}-{self.month:02d}-{self.day:02d}"
+
+
+def julian_day(date: CalendarDate) -> Fraction:
+    """The Julian day of a date, whatever the days of its month: day 31 of a month of 30 is the first of the next."""
+    month = (date.month - 3) % 12
+    year = date.year - (date.month < 3)
+    days = 365 * year + year // 4 + (153 * month + 2) // 5 + date.day - 1
+    if date.calendar == "gregorian":
+        days += year // 400 - year // 100
+    return _MARCH[date.calendar] + days + date.part
+
+
+def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
+    """The date of a Julian day; without a calendar Julian before `REFORM` and Gregorian from then on."""
+    calendar = calendar or ("julian" if day < REFORM else "gregorian")
+    since = day - _MARCH[calendar]
+    whole = since // 1
+    year, rest = _split_gregorian(whole) if calendar == "gregorian" else _split_julian(whole)
+    month = (5 * rest + 2) // 153
+    return CalendarDate(
+        year + (month > 9), (month + 2) % 12 + 1, rest - (153 * month + 2) // 5 + 1, since - whole, calendar
+    )
+
+
+def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
+    """A date such as `-204-05-12` or `2000-01-01 18:30`; noon where no hour is given. Raises `ValueError` for none.
+
+    calendar   without one, Julian before 1582-10-15 and Gregorian from then on; the ten days between are none
+    """
+    found = _PATTERN.fullmatch(text.strip())
+    if found is None:
+        raise ValueError(f"'{text[:40]}' is no date")
+    year, month, day = (int(found[at]) for at in (1, 2, 3))
+    hour, minute, second = (int(found[at] or 0) for at in (4, 5, 6))
+    if abs(year) > MOST_YEARS or hour > 23 or minute > 59 or second > 59:
+        raise ValueError(f"'{text}' is no date")
+    part = Fraction(3600 * hour + 60 * minute + second, 86400) if found[4] else Fraction(1, 2)
+    chosen = calendar or ("julian" if (year, month, day) < (1582, 10, 15) else "gregorian")
+    date = CalendarDate(year, month, day, part, chosen)
+    if date_of(julian_day(date), calendar) != date:
+        raise ValueError(f"there is no {date} in the {chosen} calendar{' of its time' if calendar is None else ''}")
+    return date
+
+
+def _split_julian(days: int) -> tuple[int, int]:
+    """Years that begin in March, and days left over; 1461 days are four years, the last of them the longest."""
+    fours, rest = divmod(days, 1461)
+    years = min(rest // 365, 3)
+    return 4 * fours + years, rest - 365 * years
+
+
+def _split_gregorian(days: int) -> tuple[int, int]:
+    """The same; 146097 days are 400 years, and of their four centuries the last is the longest."""
+    rounds, rest = divmod(days, 146097)
+    hundreds = min(rest // 36524, 3)
+    year, rest = _split_julian(rest - 36524 * hundreds)
+    return 400 * rounds + 100 * hundreds + year, rest
 
 
 @dataclass(frozen=True, slots=True)

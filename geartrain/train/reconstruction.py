@@ -8,8 +8,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share
-from geartrain.numerics.quantity_bounds import above_zero
+from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share, above_zero
 from geartrain.train.fields import Boolean, Count, Declared, Id
 
 MOST_ADDED = 1000

@@ -7,11 +7,11 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
-from geartrain.train.drives import Drive
-from geartrain.train.materials import material_table
+from geartrain.train.manufacturing import material_table
 from geartrain.train.outputs import Output, Target
 from geartrain.train.periods import period_table, suggested_period
 from geartrain.train.reconstruction import NEW_ARBOR
+from geartrain.train.states import Drive
 
 # ----------------------------------------------------------------------------------------------------- unit consistency
 

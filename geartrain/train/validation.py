@@ -1,11 +1,15 @@
-"""From raw data to a `Train`, with every problem in words a person can act on."""
+"""From plain data to a `Train`: short forms written out, then validation, every problem with place, cause and remedy.
+
+`revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the others.
+`gears: [s ~ p]`: a pair of two wheels.
+"""
 
 from __future__ import annotations
 
 import types
 from collections.abc import Iterator, Mapping
 from functools import cache
-from itertools import islice
+from itertools import chain, islice
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
@@ -26,8 +30,7 @@ from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
-from geartrain.train.short_forms import has_short_forms, written_out
-from geartrain.train.yaml_nodes import node_from_data
+from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 
 @collector_paused()
@@ -257,3 +260,86 @@ def _models_in(annotation: Any) -> Iterator[Any]:
     elif get_origin(annotation) in (Union, types.UnionType, dict, tuple):
         for inner in get_args(annotation):
             yield from _models_in(inner)
+
+
+# ------------------------------------------------------------------------------------------------------- short forms
+
+_MARK = "~"
+"""Between the two wheels of a gear pair in its short form."""
+
+
+def has_short_forms(data: Mapping[str, Any]) -> bool:
+    """True of plain data with any, and of data with lists where a pair belongs."""
+    pairs = (each for key in ("gears", "revolutes") if isinstance(data.get(key), list | tuple) for each in data[key])
+    return isinstance(data.get("revolutes"), Mapping) or any(isinstance(each, str | list | tuple) for each in pairs)
+
+
+def written_out(root: YamlNode) -> YamlNode:
+    """A declaration in long forms only, whose parts have the places of the short ones.
+
+    Raises `DeclarationError` for short forms that declare nothing.
+    """
+    joints, gears = root.mapping.get("revolutes"), root.mapping.get("gears")
+    short_joints = joints if joints is not None and isinstance(joints.value, dict) else None
+    short_gears = [each for each in gears.items if isinstance(each.value, str)] if gears is not None else []
+    _check_short_forms(joints, gears, short_joints, short_gears)
+    changed: dict[str, YamlNode] = {}
+    if short_joints is not None:
+        changed["revolutes"] = YamlNode(list(_joints(short_joints)), short_joints.place)
+    if gears is not None and short_gears:
+        pairs = [_pair(each) if isinstance(each.value, str) else each for each in gears.items]
+        changed["gears"] = YamlNode(pairs, gears.place)
+    return YamlNode({**root.mapping, **changed}, root.place, root.keys) if changed else root
+
+
+def _check_short_forms(
+    joints: YamlNode | None, gears: YamlNode | None, short_joints: YamlNode | None, short_gears: list[YamlNode]
+) -> None:
+    """Raise `DeclarationError` where a pair is a bare list, or a short form has too few or too many parts."""
+    lists = [*_lists("gears", gears, "{} ~ {}"), *_lists("revolutes", joints, "{{pair: [{}, {}], axis: A}}")]
+    axes = short_joints.mapping if short_joints is not None else {}
+    single = [axis for axis, links in axes.items() if len(links.items) < 2]
+    wrong = [gear for gear in short_gears if len(names := _wheels(gear)) != 2 or not all(names)]
+    if short_joints is not None and single:
+        lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
+    if lists or wrong:  # only the problems that are shown are put into words
+        raise DeclarationError(first_problems(chain(lists, map(_no_pair, wrong)), len(lists) + len(wrong)))
+
+
+def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
+    """One problem for all pairs that are written as bare lists."""
+    listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
+    if listed:
+        names = [*texts(listed[0]), "a", "b"][:2]
+        several = len(listed) > 1
+        what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
+        fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
+        yield Problem(what, "a pair has its own form", fix, listed[0].place)
+
+
+def _single_link(axis: str, place: str) -> Problem:
+    why = "its links are a list that begins with the one that carries the others"
+    return Problem(f"axis '{axis}' joins nothing", why, f"write for example `{axis}: [frame, arbor]`", place)
+
+
+def _joints(joints: YamlNode) -> Iterator[YamlNode]:
+    for axis, links in joints.mapping.items():
+        place = joints.keys.get(axis, joints.place)
+        first, *others = links.items
+        for other in others:
+            parts = {"pair": YamlNode([first, other], other.place), "axis": YamlNode(axis, place)}
+            yield YamlNode(parts, other.place, dict.fromkeys(parts, other.place))
+
+
+def _wheels(gear: YamlNode) -> list[str]:
+    return [name.strip() for name in gear.value.split(_MARK)]
+
+
+def _no_pair(gear: YamlNode) -> Problem:
+    why = "a pair in short is two wheels with a tilde between them"
+    return Problem(f"'{gear.value}' is no gear pair", why, "write for example `sun ~ planet`", gear.place)
+
+
+def _pair(gear: YamlNode) -> YamlNode:
+    wheels = YamlNode([YamlNode(name, gear.place) for name in _wheels(gear)], gear.place)
+    return YamlNode({"pair": wheels}, gear.place, {"pair": gear.place})

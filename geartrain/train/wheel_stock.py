@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.train.materials import Material, material_table
+from geartrain.train.manufacturing import Material, material_table
 
 if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity

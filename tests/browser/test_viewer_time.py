@@ -11,8 +11,7 @@ import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
 
-from geartrain.numerics.calendar_dates import date_of, julian_day, read_date
-from geartrain.train.periods import period_table
+from geartrain.train.periods import date_of, julian_day, period_table, read_date
 
 YEAR = period_table()["year_tropical_J2000"].value
 LUNAR = read_date("-204-05-12")  # the full Moon of month 1, half a month after the Saros pointer's start

@@ -10,7 +10,7 @@ from commands import call
 
 from geartrain import load
 from geartrain.scene import build_scene
-from geartrain.train.drives import GRAVITY
+from geartrain.train.states import GRAVITY
 from geartrain.workshop import BudgetQuestion, find_budget
 
 CASE = Path(__file__).parents[1] / "data/public_cases/02-escapement-carried-round.yaml"

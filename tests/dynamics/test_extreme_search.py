@@ -10,8 +10,7 @@ import pytest
 from geartrain import load
 from geartrain.dynamics import Motion, MotionRun
 from geartrain.dynamics.motion.extreme_search import ExtremeSearch, signed
-from geartrain.dynamics.motion.rate_bounds import RateBounds
-from geartrain.numerics.range_extremes import RangeExtremes
+from geartrain.dynamics.motion.rate_bounds import RangeExtremes, RateBounds
 
 FREETH = ("moon", "mars", "saturn", "draconic month", "mercury")
 

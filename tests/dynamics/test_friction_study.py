@@ -6,8 +6,7 @@ import pytest
 from turning_chains import random_chain
 
 from geartrain import GearTrain, load
-from geartrain.dynamics.turn.friction_study import FrictionStudy, drivers_are_certain
-from geartrain.dynamics.turn.train_turn import study_friction
+from geartrain.dynamics.turn.train_turn import FrictionStudy, drivers_are_certain, study_friction
 from geartrain.train.declaration import FrictionInForce
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction, find_friction_plan, work_frictions
 

@@ -15,8 +15,8 @@ from scipy.optimize import brentq, fsolve
 
 from geartrain import GearTrainError, load
 from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
-from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.error_composition import ErrorComposition
+from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve

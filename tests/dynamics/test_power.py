@@ -26,7 +26,7 @@ from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.dynamics.torques.load_case import input_and_output
 from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.dynamics.torques.train_torques import drive_both_ways
-from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
+from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 from geartrain.report import Document, collect_torque_report, describe_torques, to_markdown
 from geartrain.report.torque_figures import collect_torques
 from geartrain.report.torque_report import torque_sections

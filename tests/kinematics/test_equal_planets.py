@@ -9,7 +9,7 @@ from math import acos, asin, atan, ceil, cos, floor, hypot, pi, radians, sin, sq
 import pytest
 
 from geartrain import GearTrain, load
-from geartrain.kinematics.buildability.planet_assembly import bezout
+from geartrain.kinematics.buildability.equal_planets import bezout
 
 
 def planets(

@@ -22,8 +22,8 @@ from geartrain.kinematics import FloatSpeeds
 from geartrain.kinematics.speeds import EXACT_BUDGET, solve
 from geartrain.kinematics.speeds.float_speeds import solve_floats
 from geartrain.numerics import LongFloat
-from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.elimination import TooDenseError
+from geartrain.numerics.exact import decimal
 from geartrain.numerics.long_float import scaled
 
 EPS = Fraction(1, 2**53)

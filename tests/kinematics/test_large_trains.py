@@ -13,7 +13,7 @@ from studies.train_families import FAMILIES, grid
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.kinematics.speeds import exact_speeds
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 
 Data = dict[str, Any]
 

@@ -12,7 +12,7 @@ from fitters import passed, rules_of
 import geartrain
 from geartrain.dynamics.torques.train_torques import solve
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.kinematics.relative_speeds import relative_speed
+from geartrain.kinematics.willis_system import relative_speed
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.simulation import find_link_inertias
 from geartrain.simulation.time.time_report import collect_time_report

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.numerics.calendar_dates import REFORM, date_of, julian_day, read_date
+from geartrain.train.periods import REFORM, date_of, julian_day, read_date
 
 # J. Meeus, Astronomical Algorithms, 2nd edition, 1998, p. 61 f.; the decimals are those of the day
 MEEUS = [

@@ -11,8 +11,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from geartrain.numerics.compilation import compilation, telling
-from geartrain.numerics.kernels import Kernel, kernel
+from geartrain.numerics.kernels import Kernel, compilation, kernel, telling
 
 
 def _line(x: float) -> float:

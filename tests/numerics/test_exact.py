@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 from reference_solver import echelon
 from scipy.optimize import linprog
 
-from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.elimination import PRIME, TooDenseError, add_into, eliminate, feasible, rank_modulo, residues
-from geartrain.numerics.exact import as_float, coprime, log10
+from geartrain.numerics.exact import as_float, coprime, decimal, log10
 
 SAMPLE = 30 if settings().derandomize else 60  # systems of each law; `--slow` draws new ones, and twice as many
 coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)

@@ -16,8 +16,15 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import RangeError
-from geartrain.numerics.decimal_text import abridged_text, count_digits, decimal, fraction_text, is_short, read_fraction
-from geartrain.numerics.exact import as_float
+from geartrain.numerics.exact import (
+    abridged_text,
+    as_float,
+    count_digits,
+    decimal,
+    fraction_text,
+    is_short,
+    read_fraction,
+)
 
 LEAST = 640  # digits: no process can set its limit lower, but for none at all
 PAIRS = 60

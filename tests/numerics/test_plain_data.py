@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from geartrain.numerics import LongFloat
-from geartrain.numerics.plain_data import Key, Result, group, plain
+from geartrain.numerics.results import Key, Result, group, plain
 
 
 class Place(NamedTuple):

@@ -13,7 +13,7 @@ import shipped
 import geartrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import QuestionError
-from geartrain.numerics.result_picture import Pictured
+from geartrain.numerics.results import Pictured
 
 drawing = pytest.importorskip("geartrain.drawing")
 pytest.importorskip("matplotlib")

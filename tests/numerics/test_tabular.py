@@ -12,7 +12,7 @@ import geartrain
 from geartrain.analysis import find_gears
 from geartrain.errors import MissingExtraError
 from geartrain.numerics.labelled_array import labelled_array
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Tabular
 
 
 def tables() -> dict[str, Tabular]:

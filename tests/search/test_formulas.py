@@ -24,9 +24,8 @@ from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.kinematics.formulas import laurent
 from geartrain.kinematics.formulas.laurent import Laurent, Term
-from geartrain.kinematics.formulas.monomial_groups import MonomialGroup
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas, with_counts
-from geartrain.kinematics.formulas.rational_functions import Formula, make_formula
+from geartrain.kinematics.formulas.rational_functions import Formula, MonomialGroup, make_formula
 from geartrain.train import Train, declare
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more

@@ -12,10 +12,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from geartrain.kinematics.formulas import laurent
-from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, minors
-from geartrain.kinematics.formulas.monomial_groups import find_grouping
-from geartrain.kinematics.formulas.polynomial_gcd import common_divisor, divide
-from geartrain.kinematics.formulas.symbolic_elimination import GIVEN, solve_rows
+from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, common_divisor, divide, minors
+from geartrain.kinematics.formulas.output_formulas import GIVEN, solve_rows
+from geartrain.kinematics.formulas.rational_functions import find_grouping
 
 WIDTH = 3
 

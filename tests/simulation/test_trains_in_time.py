@@ -15,7 +15,7 @@ from geartrain.simulation import TimeRun, find_separation, step_to_separation
 from geartrain.simulation.steps.simulation import StepPlan, simulate
 from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 from geartrain.simulation.time.train_in_time import model_in_time
-from geartrain.train.drives import GRAVITY
+from geartrain.train.states import GRAVITY
 
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}
 

@@ -8,7 +8,7 @@ import pytest
 
 from geartrain.errors import DeclarationError
 from geartrain.train import Dial, declare
-from geartrain.train.dials import looks_away
+from geartrain.train.outputs import looks_away
 
 
 def dial(**keys: object) -> Dial:

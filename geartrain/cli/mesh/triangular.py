@@ -296,7 +296,7 @@ def _check_one_pair(files: Mapping[str, Path | None]) -> None:
 
 def _operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
     from geartrain.dynamics.motion.pair_impacts import PairOperation
-    from geartrain.numerics.units import RADIANS_PER_TURN
+    from geartrain.numerics.quantity import RADIANS_PER_TURN
 
     return PairOperation(
         None if inertia is None else quantity("--inertia", inertia, "inertia", least="above 0"),

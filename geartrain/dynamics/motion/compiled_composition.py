@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
-from geartrain.numerics.error_free import SPLITTER, split
+from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.numerics.kernels import is_fast, kernel
+from geartrain.numerics.rounding_bounds import SPLITTER, split
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.transmission_table import join_transmission_tables, law_along, make_transmission_table
 
@@ -301,7 +301,7 @@ def _phase(
     for at in range(len(turns)):
         turned = turns[at]
         product = turned * factor
-        # Dekker's product of two floats, as `error_free.split` and `InputPhase.cycles` have it
+        # Dekker's product of two floats, as `rounding_bounds.split` and `InputPhase.cycles` have it
         wide = SPLITTER * turned
         left = wide - (wide - turned)
         right = turned - left

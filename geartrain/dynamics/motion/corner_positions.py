@@ -17,7 +17,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, SeenLink
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.simultaneous_roots import roots_by_false_position
+from geartrain.numerics.roots import roots_by_false_position
 from geartrain.teeth.transmission_table import folded_corners
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
-from geartrain.numerics.error_free import split
+from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
+from geartrain.numerics.rounding_bounds import split
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_propagation import ErrorPropagation, PropagationBlock

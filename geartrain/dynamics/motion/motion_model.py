@@ -23,9 +23,8 @@ from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
-from geartrain.kinematics.relative_speeds import axis_sense
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.result_picture import picture_maker
+from geartrain.kinematics.willis_system import axis_sense
+from geartrain.numerics.results import Key, Result, picture_maker
 
 if TYPE_CHECKING:
     from numpy.random import Generator

@@ -9,11 +9,10 @@ from itertools import permutations
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import SolvedPart
-from geartrain.kinematics.relative_speeds import relative_speed
-from geartrain.kinematics.verdict import Loop
-from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.containers import ItemwiseMapping
 
 if TYPE_CHECKING:

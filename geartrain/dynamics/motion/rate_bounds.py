@@ -16,12 +16,42 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, InputPhase, SeenLink
-from geartrain.numerics.range_extremes import RangeExtremes
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep, PairErrorSource
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.transmission import TransmissionFunction
+
+
+class RangeExtremes:
+    """Extremes of runs of cells, each with a least and a greatest value, (n,), the first following the last."""
+
+    def __init__(self, least: Floats, most: Floats) -> None:
+        self.count = len(least)
+        self._first = least, most
+
+    @cached_property
+    def _levels(self) -> tuple[Floats, Floats]:
+        """Extremes of the 2^k cells from each one on, (levels, n)."""
+        least, most = [self._first[0]], [self._first[1]]
+        length = 1
+        while 2 * length <= self.count:
+            least.append(np.minimum(least[-1], np.roll(least[-1], -length)))
+            most.append(np.maximum(most[-1], np.roll(most[-1], -length)))
+            length *= 2
+        return np.stack(least), np.stack(most)
+
+    def over(self, first: Ints, last: Ints) -> tuple[Floats, Floats]:
+        """Least and greatest value over cells `first` to `last`, any whole numbers, first <= last."""
+        length = np.clip(last - first + 1, 1, self.count)
+        level = np.frexp(length)[1] - 1
+        one, other = first % self.count, (first + length - (1 << level)) % self.count
+        least, most = self._levels
+        return (
+            np.minimum(least[level, one], least[level, other]),
+            np.maximum(most[level, one], most[level, other]),
+        )
+
 
 _CELLS = 1024  # of a period, of a table of the speed ratio
 _A_CORNER = 64  # cells for each corner of a law, where that is more

@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import as_float, log10
-from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.results import Key, Result, group
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples

@@ -18,7 +18,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
-from geartrain.numerics.plain_data import Key, Result, group
+from geartrain.numerics.results import Key, Result, group
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorComposition

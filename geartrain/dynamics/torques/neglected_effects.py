@@ -18,9 +18,8 @@ from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
-from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.elimination import LinearForm, eliminate
-from geartrain.numerics.exact import as_float
+from geartrain.numerics.exact import as_float, decimal
 
 if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction

@@ -1,30 +1,265 @@
-"""From a declared train in one case to the contacts of all its pairs: which law, which friction, which side drives."""
+"""From a declared train in one case to the contacts of all its pairs: which law, which friction, which side drives.
+
+Section 17 of docs/torques.md. The multiplier x of a pair is the torque that presses its driven side forward: at x >= 0
+the drive flanks touch, at x <= 0 the coast flanks. With tau the ratio of that flank at this position the driven side
+gets x n and the driver gives x tau d, where n and d are 1 without friction. Friction turns round with the sliding, so
+that of one flank eta'(f) = 1/eta(-f) when it is turned the other way (23).
+"""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from geartrain.dynamics.pair_speeds import pitch_line_speed, radians_per_second
 from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 from geartrain.dynamics.torques.power_flow import has_torque_units
-from geartrain.dynamics.turn.pair_contact import (
-    BasicEfficiency,
-    ContactLosses,
-    NoLosses,
-    PairContact,
-    PinFriction,
-    ToothFriction,
-)
 from geartrain.teeth.friction_law import PairFriction
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.turn.position_motion import PositionMotion
     from geartrain.kinematics.circuits import Circuit
+    from geartrain.numerics.arrays import Bools, Floats
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.transmission import TransmissionFunction
+
+
+class ContactTorques(NamedTuple):
+    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in their forward senses.
+
+    barred   where no power can pass; None for nowhere
+    """
+
+    driven: Floats
+    driver: Floats
+    barred: Bools | None = None
+
+
+class PairForce(NamedTuple):
+    """Torques on a circuit's first and second link for a unit of the multiplier, about the parallels' direction, (n,).
+
+    barred   where no power can pass; None for nowhere
+    """
+
+    first: Floats
+    second: Floats
+    barred: Bools | None
+
+
+class DriverState(NamedTuple):
+    """How a pair stands and turns at some positions, (n,) each.
+
+    S         forward angle of the law's driver (rad); empty where nothing of the pair depends on it
+    turning   its forward speed, seen from the carrier, over the input's
+    """
+
+    S: Floats
+    turning: Floats
+
+
+class ContactLosses(ABC):
+    """What friction does to the torques of a contact."""
+
+    @property
+    def rubs(self) -> bool:
+        """True if something is lost."""
+        return True
+
+    @property
+    def starts_harder(self) -> bool:
+        """True if friction at rest is another than in motion."""
+        return False
+
+    @abstractmethod
+    def torques(
+        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+    ) -> ContactTorques:
+        """Torques per unit of the multiplier.
+
+        tau   ratio of the flank that touches, and `law` what gives it
+        way   1 where the law's driver drives, -1 where the other side does, 0 where they do not turn against each other
+        """
+
+    def kinks(self, at: DriverState) -> Floats | None:
+        """Something whose sign changes where torques have a kink of which the law does not tell; None by default."""
+        del at
+        return None
+
+
+class NoLosses(ContactLosses):
+    """Nothing is lost."""
+
+    @property
+    def rubs(self) -> bool:
+        """False."""
+        return False
+
+    def torques(
+        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+    ) -> ContactTorques:
+        """As the ratio has it."""
+        del law, at, way, static
+        return ContactTorques(np.ones_like(tau), tau)
+
+
+@dataclass(frozen=True)
+class BasicEfficiency(ContactLosses):
+    """A declared efficiency: with the law's driver driving, and with the other side driving. 0 or less locks."""
+
+    driver: float
+    driven: float
+
+    def torques(
+        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+    ) -> ContactTorques:
+        """The part that arrives."""
+        del law, at, static
+        ahead, back = way > 0, way < 0
+        barred = (ahead & (self.driver <= 0)) | (back & (self.driven <= 0))
+        arrives = np.where(ahead, self.driver if self.driver > 0 else 1.0, 1.0)
+        returns = np.where(back, self.driven if self.driven > 0 else 1.0, 1.0)
+        return ContactTorques(arrives, tau * returns, barred if barred.any() else None)
+
+
+@dataclass(frozen=True)
+class ToothFriction(ContactLosses):
+    """Friction of real teeth: each contact passes (1 + f out)/(1 + f into), f < 0 where its flanks slide back.
+
+    sliding   coefficient in motion, at any speed; or at a speed of sliding over that of the pitch line, and the
+              driver's speed over the input's
+    static    coefficient at rest
+    """
+
+    sliding: float | Callable[[Floats, Floats], Floats]
+    static: float
+
+    @property
+    def starts_harder(self) -> bool:
+        """True if there is another coefficient at rest."""
+        return self.sliding != self.static
+
+    def torques(
+        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+    ) -> ContactTorques:
+        """Contacts at once take equal shares of the torque of the side that drives."""
+        assert law is not None
+        sliding, into, out = law.rubbing(at.S)
+        touching = ~np.isnan(out)
+        f = (self.static if static else self._coefficient(sliding, at.turning)) * way
+        with np.errstate(divide="ignore", invalid="ignore"):
+            into, out = 1 + f * into, 1 + f * out
+            # the side that drives: a contact whose force it cannot press together locks the pair
+            driving = np.where(way > 0, into, out)
+            given = np.where(way > 0, out, into) / driving
+        locks = (touching & (driving <= 0)).any(axis=0) | ((way > 0) & (touching & (given <= 0)).any(axis=0))
+        count = touching.sum(axis=0)
+        share = np.where(touching, given, 0.0).sum(axis=0) / np.maximum(count, 1)
+        share = np.where((count > 0) & ~locks, share, 1.0)
+        barred = locks if locks.any() else None
+        return ContactTorques(np.where(way > 0, share, 1.0), tau * np.where(way < 0, share, 1.0), barred)
+
+    def _coefficient(self, sliding: Floats, turning: Floats) -> Floats | float:
+        return self.sliding(sliding, np.abs(turning)) if callable(self.sliding) else self.sliding
+
+
+@dataclass(frozen=True)
+class PinFriction(ContactLosses):
+    """Friction of a pin along its slot: T_p = (r/rho)(T_s cos d + f |T_s sin d| sgn S'), equation (25)."""
+
+    law: PinTransmission
+    sliding: float
+    static: float
+
+    @property
+    def rubs(self) -> bool:
+        """True if there is friction at all."""
+        return bool(self.sliding or self.static)
+
+    @property
+    def starts_harder(self) -> bool:
+        """True if there is another coefficient at rest."""
+        return self.static != self.sliding
+
+    def torques(
+        self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
+    ) -> ContactTorques:
+        """By arms, which hold through dead points too."""
+        del law
+        r, e = self.law.r, self.law.e
+        half = np.sin(at.S / 2)
+        # rho^2 as a sum: near r = e the difference would cancel
+        square = (r - e) ** 2 + 4 * r * e * half**2
+        arm = r * e * np.abs(np.sin(at.S)) / square
+        return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
+
+    def kinks(self, at: DriverState) -> Floats | None:
+        """The pin on the line through both axes: there its sliding turns round."""
+        return np.sin(at.S) if self.rubs else None
+
+
+@dataclass(frozen=True)
+class PairContact:
+    """One gear pair or coupling as torque passes through it.
+
+    first    True where the law's driver is the circuit's first link
+    way      sense of its mean motion seen from the carrier, about the parallels' direction; `sense`, the driven side's
+    ratio    constant ratio, driven over driver without sign, where there is no source
+    source   of the error of its law; None for a pair of constant ratio, whose position does not matter
+    """
+
+    circuit: Circuit
+    first: bool
+    way: int
+    sense: int
+    ratio: float
+    losses: ContactLosses
+    source: PairErrorSource | None = None
+
+    @property
+    def name(self) -> str:
+        """The pair's."""
+        return self.circuit.id
+
+    @property
+    def kind(self) -> str:
+        """`mesh` or `pin`."""
+        return "mesh" if self.circuit.kind == "gear" else "pin"
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """The law's driver, and the driven side."""
+        i, j = self.circuit.i, self.circuit.j
+        return (i, j) if self.first else (j, i)
+
+    @property
+    def two_sided(self) -> bool:
+        """True if its flanks differ, or friction makes it matter who drives."""
+        return self.losses.rubs or self.has_flanks
+
+    @property
+    def has_flanks(self) -> bool:
+        """True for teeth with play: a pin has none."""
+        return self.source is not None and self.source.law.turned_back() is not self.source.law
+
+    def torques(self, side: int, at: DriverState, static: bool = False) -> PairForce:
+        """What a unit of the multiplier does.
+
+        side   1 for the drive flanks, -1 for the coast flanks
+        """
+        law = None if self.source is None else self.source.law if side > 0 else self.source.law.turned_back()
+        tau = np.full(len(at.turning), self.ratio) if law is None else law.speed(at.S)
+        found = self.losses.torques(tau, law, at, side * np.sign(at.turning), static)
+        driven, driver = self.sense * found.driven, -self.way * found.driver
+        return PairForce(driver, driven, found.barred) if self.first else PairForce(driven, driver, found.barred)
 
 
 def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]:

@@ -15,9 +15,15 @@ from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
-from geartrain.dynamics.turn.cycle_parts import CycleEnergy, CycleFigures, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
-from geartrain.dynamics.turn.torque_cycle import TorqueCycle
+from geartrain.dynamics.turn.torque_cycle import (
+    CycleEnergy,
+    CycleFigures,
+    PairCycle,
+    PlaceInRun,
+    TorqueCycle,
+    TorqueExtreme,
+)
 from geartrain.dynamics.turn.train_contacts import (
     dragging_links,
     find_bearings,

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.arrays import joined, some
 
 if TYPE_CHECKING:
     from geartrain.dynamics.turn.turn_balance import PositionTorques, TurnBalance

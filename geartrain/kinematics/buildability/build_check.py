@@ -16,18 +16,21 @@ from typing import TYPE_CHECKING
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding
 from geartrain.kinematics.buildability.equal_planets import check_planets
-from geartrain.kinematics.buildability.pitch_distances import PitchDistances
-from geartrain.kinematics.buildability.pitch_pairs import SLACK, PairOutline, PitchPair, pitch_pairs
-from geartrain.kinematics.buildability.ring_mates import check_rings
+from geartrain.kinematics.buildability.pitch_distances import (
+    SLACK,
+    PairOutline,
+    PitchDistances,
+    PitchPair,
+    check_rings,
+    pitch_pairs,
+)
 from geartrain.kinematics.circuits import Axes, find_circuits, find_tree, rigid_across_axes, rigid_place
-from geartrain.kinematics.circuits.shaft_angles import bevels_on_one_side, passing_distance
+from geartrain.kinematics.circuits.fundamental import bevels_on_one_side, passing_distance
 from geartrain.kinematics.planet_copies import has_copies, with_copies
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.pitch_distances import PitchDistances
-    from geartrain.kinematics.buildability.pitch_pairs import PitchPair
     from geartrain.kinematics.circuits import Circuit, Tree
-    from geartrain.kinematics.circuits.rigid_bodies import Rigid
+    from geartrain.kinematics.circuits.joint_tree import Rigid
     from geartrain.train import StateCase, Train
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from geartrain.errors import Problem
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 BuildLevel = Literal["error", "note"]
 """An error cannot be built; a note can, and is unwise or open."""

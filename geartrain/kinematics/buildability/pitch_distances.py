@@ -1,30 +1,281 @@
-"""Whether wheels that mesh have one pitch, and axes the distances that their wheels ask for.
+"""Whether wheels in mesh have one pitch, and axes the distances that their wheels require.
 
 Modules and distances are known as multiples of one another: wheels in mesh share a module (1), the distance of two axes
 is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2), and declared modules, positions
-and offsets give some in mm. A weighted union-find in exact fractions holds what is said; each thing said of what is
-known already is judged.
+and offsets give some in mm. A weighted union-find in exact fractions holds these statements; a statement about a
+quantity that is known already is judged.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from math import acos, atan, cos, sqrt, tan
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from itertools import count
+from math import acos, asin, atan, cos, inf, radians, sqrt, tan
+from typing import TYPE_CHECKING, NamedTuple
 
-from geartrain.errors import Problem
+from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.buildability.build_findings import BuildFinding, BuildLevel
-from geartrain.kinematics.buildability.pitch_pairs import SLACK, PitchPair
-from geartrain.kinematics.buildability.ring_mates import PRESSURE
-from geartrain.kinematics.circuits import Tree
+from geartrain.kinematics.circuits import Axes, Circuit, Tree
 from geartrain.numerics.graphs import RatioSets
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import cross, dot, minus
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.circuits import Circuit
-    from geartrain.train import Train
+    from geartrain.teeth.tooth_form import ToothForm
+    from geartrain.train import Train, Wheel
+
+PRESSURE = radians(20)
+"""Pressure angle (rad) of standard teeth, where none is declared."""
+
+
+@lru_cache(maxsize=4096)
+def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+    """Angle by which the corner of a planet's tooth passes that of a ring's on its way out (rad, about the ring).
+
+    z1, z2     teeth of the planet and the ring; z2 > z1
+    pressure   rad; h1, h2 addenda in modules. Teeth without play; negative where the corners meet
+    Known as trochoid interference (Elements of Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the
+    planet's corner stands on the ring's tip circle, at theta1 about its own axis and theta2 about the ring's (both from
+    the line of centres), the planet has turned from where its flank met the pitch point by
+    phi = theta1 + inv(alpha_a1) - inv(alpha), for the tooth is thinner at its tip, and the ring by phi z1/z2; the
+    corner of the ring's tooth ahead is then at phi z1/z2 + inv(alpha) - inv(alpha_a2).
+    -inf where the ring's tip circle lies within its base circle, or within the planet's tip circle. At 20 degrees and
+    full depth a ring of 34 to 77 teeth wants 9 more than the planet, a larger one 8; the source says "larger than 9".
+    """
+    r1, r2, a = z1 / 2 + h1, z2 / 2 - h2, (z2 - z1) / 2
+    if a <= 0:
+        return -inf
+    out = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1)
+    if out > 1:  # a planet whose tips never reach the ring's tip circle has nothing to pass
+        return inf
+    if r2 <= r1 - a or 2 * r2 < z2 * cos(pressure):
+        return -inf
+    theta1 = acos(max(out, -1.0))
+    theta2 = acos(max(-1.0, min((a * a + r2 * r2 - r1 * r1) / (2 * a * r2), 1.0)))
+    tip1, tip2 = acos(z1 * cos(pressure) / (2 * r1)), acos(min(z2 * cos(pressure) / (2 * r2), 1.0))
+    phi = theta1 + _involute(tip1) - _involute(pressure)
+    return phi * z1 / z2 + _involute(pressure) - _involute(tip2) - theta2
+
+
+@lru_cache(maxsize=4096)
+def radial_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+    """Angle by which a planet's teeth clear the ring's when it is put in across its axis (rad, about the planet).
+
+    Arguments as of `tip_room`; negative where tips meet on the way (trimming interference, SDP/SI equations 5-9 to
+    5-11). At 20 degrees and full depth a ring wants 17 teeth more than the planet, one of 80 or 100 teeth 16.
+    """
+    tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
+    lean = cos(tip2) / cos(tip1)
+    outer = asin(sqrt(min(max((1 - lean**-2) / (1 - (z1 / z2) ** 2), 0.0), 1.0)))
+    inner = asin(sqrt(min(max((lean**2 - 1) / ((z2 / z1) ** 2 - 1), 0.0), 1.0)))
+    start = _involute(pressure)
+    return outer + _involute(tip1) - start - z2 / z1 * (inner + _involute(tip2) - start)
+
+
+def _involute(angle: float) -> float:
+    return tan(angle) - angle
+
+
+def least_ring(planet: int) -> int:
+    """Teeth of the smallest ring in which standard teeth of a planet pass the ring's tips."""
+    # a ring of fewer than 34 teeth has its tip circle within its base circle
+    first = max(planet + 1, 34)
+    return next(z for z in count(first) if tip_room(planet, z, PRESSURE, 1.0, 1.0) > 0)
+
+
+def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
+    """Rules R1 to R3: a ring has more teeth than its mate, and standard ones of a rigid mate enough more."""
+    for pair in pairs:
+        if pair.ring is None or set(pair.kinds) != {"spur"}:
+            continue
+        ring, planet = pair.counts[pair.ring], pair.counts[1 - pair.ring]
+        name, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
+        # a bent wheel's teeth go in and out along the radius, and clear the ring's on its short side
+        judged = pair.form is None and not pair.declared[1 - pair.ring].flexible
+        if ring <= planet:
+            why = (
+                f"the distance of their axes would be ({ring} - {planet})/2 modules, and a ring is larger than its mate"
+            )
+            fix = f"make the other wheel the ring, or write a ring of at least {least_ring(planet)}"
+            what = f"pair '{pair.name}': ring '{name}' {ring} does not hold '{mate}' {planet}"
+            yield BuildFinding("R1", "error", Problem(what, why, fix, pair.place))
+        elif judged and 33 < ring < least_ring(planet):
+            what = f"pair '{pair.name}': tips of '{mate}' {planet} run into tips of the ring '{name}' {ring}"
+            why = "standard teeth of 20 degrees cross outside the mesh (trochoid interference)"
+            fix = (
+                f"declare a tooth form with shorter addenda or a larger angle, or write a ring of {least_ring(planet)}"
+            )
+            yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
+        elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
+            what = f"pair '{pair.name}': '{mate}' {planet} must be pushed into the ring '{name}' {ring} along its axis"
+            why = "across it tips of standard teeth run into each other (trimming interference)"
+            fix = f"leave a way in from the side, or write a ring of {_radial_ring(planet)}"
+            yield BuildFinding("R3", "note", Problem(what, why, fix, pair.place))
+
+
+def _radial_ring(planet: int) -> int:
+    """Teeth of the smallest ring that a planet with standard teeth is put into across its axis."""
+    return next(z for z in count(max(least_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)
+
+
+SLACK = Fraction(1, 50)
+"""Modules by which a distance may be off in any mesh: less than the play of any teeth that are cut."""
+
+SHIFT = Fraction(1, 2)
+"""Modules that shifted profiles gain or take without spoiling a pair of involute wheels."""
+
+_FREE = Fraction(
+    1, 40
+)  # of a distance: what wheels of no declared size may differ by, as if cut at pitches of their own
+_LOOSE = Fraction(1, 20)  # of a distance: teeth that run at any distance and have sizes of their own
+
+
+class PairOutline(NamedTuple):
+    """A pair with declared teeth as it is cut: distance of its axes, tip radius by wheel (transverse modules)."""
+
+    distance: float
+    tips: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class PitchPair:
+    """A gear pair with what its declaration says of sizes. Pairs hold what belongs to the first and the second wheel.
+
+    axes      labels, as the carrier sees them
+    parallel  True if those have one direction
+    ring      index of the wheel that is a ring; None for an external pair
+    form      its teeth, its own or the train's; None where none are declared, or ideal ones
+    """
+
+    name: str
+    place: str
+    wheels: tuple[str, str]
+    declared: tuple[Wheel, Wheel]
+    axes: tuple[str, str]
+    parallel: bool
+    ring: int | None
+    form: ToothForm | None
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Tooth counts."""
+        return self.declared[0].count or 0, self.declared[1].count or 0
+
+    @property
+    def kinds(self) -> tuple[str, str]:
+        """How the teeth of the two stand."""
+        return self.declared[0].kind, self.declared[1].kind
+
+    @property
+    def is_crossed(self) -> bool:
+        """True for spur wheels on axes that are not parallel, one at least with a helix angle: crossed helical ones."""
+        return not self.parallel and any(wheel.is_helical for wheel in self.declared)
+
+    @property
+    def modules(self) -> tuple[Fraction | None, Fraction | None]:
+        """Declared modules (mm)."""
+        first, second = (None if wheel.module is None else millimetres(wheel.module) for wheel in self.declared)
+        return first, second
+
+    @property
+    def axis_pair(self) -> tuple[str, str]:
+        """Its axes, the same for all pairs between them."""
+        return min(self.axes), max(self.axes)
+
+    @property
+    def has_distance(self) -> bool:
+        """True for spur wheels on parallel axes: module and tooth counts give the distance of these."""
+        return self.parallel and self.kinds == ("spur", "spur") and self.touching > 0
+
+    @property
+    def touching(self) -> Fraction:
+        """Distance (modules) at which pitch circles touch: (z1 + z2)/2, or the ring's z less its mate's, over 2.
+
+        Over the cosine of the helix angle, where there is one.
+        """
+        first, second = (Fraction(wheel.count or 0, 2) for wheel in self.declared)
+        if self.declared[0].is_helical:  # a module is that of the section across the teeth
+            first, second = (half * Fraction(self.declared[0].slant) for half in (first, second))
+        if self.ring is None:
+            return first + second
+        return first - second if self.ring == 0 else second - first
+
+    @property
+    def distance(self) -> Fraction:
+        """Distance (modules) that the teeth are designed for: where they touch, unless their form says another."""
+        form = self.form
+        own = getattr(form, "centre_distance", None) if form is not None and form.conjugate else None
+        module = self.modules[0] or self.modules[1]
+        if own is not None and (own.unit is None or module):
+            return own.value if own.unit is None else millimetres(own) / (module or 1)
+        return self.touching if form is None else _shifted(self, form)
+
+    @property
+    def bounds(self) -> tuple[Fraction, Fraction]:
+        """Least and greatest distance (modules) at which such teeth can be made to run, if not as well.
+
+        Where no teeth are declared, their profiles may be shifted; and where no size is declared either, wheels of
+        nearly one size have been cut at pitches of their own. Declared involutes run where they have more play.
+        """
+        wanted, form = self.distance, self.form
+        low = high = SLACK
+        if form is None:
+            sized = self.modules != (None, None)
+            low = high = low + (SHIFT if sized else max(SHIFT, _FREE * wanted))
+        elif form.any_distance and form.conjugate:
+            low, high = (low + SHIFT, high) if self.ring is not None else (low, high + SHIFT)
+        elif form.any_distance:
+            low = high = _LOOSE * wanted
+        return wanted - low, wanted + high
+
+
+def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
+    """Distance (modules) without play: that of the pitch circles, but for involutes whose profiles are shifted."""
+    from geartrain.teeth.involute import Involute
+
+    if not isinstance(form, Involute) or not any(figure.value for figure in form.shift):
+        return pair.touching
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+
+    lean = pair.declared[0].helix if pair.declared[0].is_helical else 0.0
+    counts = pair.counts[::-1] if pair.ring == 0 else pair.counts
+    unplaced = form.model_copy(update={"centre_distance": None})
+    try:
+        wheels, slant = WheelPair(*counts, internal=pair.ring is not None, helix=abs(lean)), pair.declared[0].slant
+        return Fraction(unplaced.involutes(wheels).distance * slant)
+    except GearTrainError:  # there are no such teeth, as is said of them
+        return pair.touching
+
+
+def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[PitchPair, ...]:
+    """All gear pairs, in the order declared."""
+    axes = Axes(train, tree)
+    gears = {gear.name: (at, gear) for at, gear in enumerate(train.gears)}
+    found = []
+    for circuit in circuits:
+        if circuit.kind != "gear":
+            continue
+        at, gear = gears[circuit.id]
+        first, second = (train.wheels[wheel][1] for wheel in circuit.wheels)
+        form = train.form_of(gear)
+        labels = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
+        found.append(
+            PitchPair(
+                circuit.id,
+                train.place("gears", at),
+                circuit.wheels,
+                (first, second),
+                labels,
+                axes.are_parallel(labels),
+                0 if first.internal else 1 if second.internal else None,
+                None if form is None or form.form == "ideal" else form,
+            )
+        )
+    return tuple(found)
+
 
 _EQUAL = Fraction(1, 10**6)  # of a distance: positions are rounded as they are written
 _MM = ("mm",)

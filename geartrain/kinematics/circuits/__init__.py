@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from geartrain.kinematics.circuits.axes import Axes
 from geartrain.kinematics.circuits.fundamental import Circuit, find_circuits
-from geartrain.kinematics.circuits.joint_tree import Tree, find_tree
-from geartrain.kinematics.circuits.rigid_bodies import close_joints, rigid_across_axes, rigid_place
+from geartrain.kinematics.circuits.joint_tree import Axes, Tree, close_joints, find_tree, rigid_across_axes, rigid_place
 
 __all__ = [
     "Axes",

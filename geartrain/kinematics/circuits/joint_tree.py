@@ -1,15 +1,31 @@
-"""The turning pairs as a tree rooted at the frame."""
+"""The turning pairs as a tree rooted at the frame; directions and positions of the axes, and the signs of meshes.
+
+For helical wheels in mesh: whether their teeth fit together, and which way one drives the other.
+
+Rigid bodies: two links are one body if the twist of the one relative to the other vanishes, which is the sum of joint
+rates times screws of the axes on the way between them. Screws of two or three different lines are independent, so every
+joint on the way is closed, and not the sum of their rates alone (docs/theory.md, section 4). Four axes and more may
+make a linkage, whose ratio varies as it turns: it is refused, unless positions are declared and show that it cannot
+move.
+"""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations
+from math import atan2, degrees, pi, remainder
+from typing import Any
 
-from geartrain.errors import DeclarationError, Problem
+from geartrain.errors import DeclarationError, GearTrainError, Loc, Problem
 from geartrain.numerics.containers import FrozenFields, collector_paused
-from geartrain.numerics.graphs import ways_to_common_ancestor
-from geartrain.train import Train
+from geartrain.numerics.elimination import eliminate
+from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
+from geartrain.numerics.quantity import Figure
+from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel, size
+from geartrain.train import StateCase, Train, Wheel
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,3 +142,437 @@ def _loose(train: Train, link: str) -> Problem:
         f"add a turning pair for '{link}' to `revolutes`",
         train.place("links", link),
     )
+
+
+# -------------------------------------------------------------------------------------------------------- helical pairs
+
+
+_SAME = 1e-6  # rad: angles as near as this are equal, for they are rounded as written
+
+
+def check_parallel(first: Wheel, second: Wheel) -> None:
+    """Raises `GearTrainError` for wheels on parallel axes whose teeth do not lean alike.
+
+    Seen from without, teeth that touch lie along each other: hands are opposite, but the same in a ring. A hand that is
+    not declared is the one that fits.
+    """
+    angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
+    if abs(angles[0] - angles[1]) > _SAME:
+        told = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
+        what = f"teeth that lean by {told} deg on parallel axes"
+        fix = "give both wheels the same `helix_angle`, or `axes` that cross"
+        raise GearTrainError(Problem(what, "they would touch at their corners only", fix))
+    ring = first.internal or second.internal
+    if first.hand and second.hand and (first.hand == second.hand) != ring:
+        what = f"a {first.hand} hand in mesh with a {second.hand} hand"
+        why = "teeth of a ring and its wheel lean the same way" if ring else "on parallel axes teeth lean opposite ways"
+        raise GearTrainError(Problem(what, why, f"make one of them {'right' if first.hand == 'left' else 'left'}"))
+
+
+def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
+    """1 where two helical wheels on skew axes turn against each other as spur wheels do, else -1; and a note.
+
+    With the helix angles b of both (right hands above 0) and the angle S from the first axis to the second about the
+    way from the second to the first, teeth lie along each other where b1 + b2 = S, or S and half a turn; then
+    z1 w1 = -z2 w2, or z2 w2 ((12a), (12b) of docs/theory.md).
+
+    Parameters
+    ----------
+    wheels : tuple of Wheel
+    angle : float
+        Between the directions of the axes (rad), 0 to pi.
+    side : int
+        1 where it turns about the way from the second axis to the first, -1 against it, 0 where that is not known.
+
+    Raises
+    ------
+    GearTrainError
+        If the teeth do not lie along each other.
+    """
+    lean = wheels[0].helix + wheels[1].helix
+    fits = [
+        (sense, way)
+        for way in ((side,) if side else (1, -1))
+        for sense, turned in ((1, 0.0), (-1, pi))
+        if abs(remainder(lean - way * angle - turned, 2 * pi)) <= _SAME
+    ]
+    if not fits:
+        raise GearTrainError(_not_along(wheels, angle, side))
+    if len({sense for sense, _ in fits}) == 1:
+        return fits[0][0], ""
+    note = "sense by convention (as if the second axis passed over the first): positions of the axes do not fix it"
+    return fits[0][0], note
+
+
+def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
+    """Helix angles (rad) of two wheels on skew axes, right hands above 0; None where none is declared.
+
+    The helix angle of a worm and the shaft angle fix that of its wheel by (12a), which may declare it too. A worm
+    without one leaves both unknown. `angle` and `side` as of `crossed_sense`.
+
+    Raises
+    ------
+    GearTrainError
+        If a worm's wheel declares another angle or hand than its worm needs.
+    """
+    kinds = [wheel.kind for wheel in wheels]
+    if "worm" not in kinds:
+        return None if all(wheel.helix_angle is None for wheel in wheels) else (wheels[0].helix, wheels[1].helix)
+    at = kinds.index("worm")
+    worm, wheel = wheels[at], wheels[1 - at]
+    if worm.helix_angle is None:
+        return None
+    leans = [remainder(way * angle - worm.helix, pi) for way in ((side,) if side else (1, -1))]
+    if wheel.helix_angle is not None:
+        declared = {wheel.helix} if wheel.hand else {wheel.helix, -wheel.helix}
+        leans = [lean for lean in leans if any(abs(lean - each) <= _SAME for each in declared)]
+    if not leans:
+        raise GearTrainError(_not_along(wheels, angle, side))
+    return (leans[0], worm.helix) if at else (worm.helix, leans[0])
+
+
+def _not_along(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
+    hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
+    over = " about the way from the second to the first" if side else ""
+    return Problem(
+        f"teeth of {hands[0]} and {hands[1]} do not lie along each other",
+        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} ask for helix angles with that sum, right "
+        "hands counted above 0",
+        "change a `helix_angle` or a `hand`, or the axes",
+    )
+
+
+# ----------------------------------------------------------------------------------------------------------------- axes
+
+
+_Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
+
+
+class Axes:
+    """Directions of the axes of a train, and the signs that follow from them.
+
+    Speeds of parallel axes are summed as they are; over non-parallel joints the sum of joint speeds is kept,
+    which the scalar equation needs (Freudenstein, Longman and Chen 1984).
+    """
+
+    def __init__(self, train: Train, tree: Tree) -> None:
+        self.tree, self.links = tree, tuple(train.links)
+        self.positions = {label: axis.position for label, axis in train.axes.items() if axis.position}
+        self.directions = {label: _vector(axis.direction) for label, axis in train.axes.items()}
+        self.plain = all(direction == _Z for direction in self.directions.values())
+        first: dict[ExactVector, tuple[int, ExactVector]] = {}
+        lines = {label: _line(direction) for label, direction in {"": _Z, **self.directions}.items()}
+        for label, line in lines.items():
+            first.setdefault(line, (len(first), self.direction(label)))
+        # of each axis, the number of its line, and whether it points as the first declared one along it
+        self._lines = {label: first[line][0] for label, line in lines.items()}
+        self._senses = {
+            label: 1 if dot(first[line][1], self.direction(label)) > 0 else -1 for label, line in lines.items()
+        }
+
+    def direction(self, label: str | None) -> ExactVector:
+        """Direction of an axis; z where none is declared."""
+        return self.directions.get(label or "", _Z)
+
+    def sign(self, label: str | None) -> int:
+        """-1 if the axis points against the first declared direction parallel to it."""
+        return self._senses.get(label or "", 1)
+
+    @property
+    def link_signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels: their speeds change sign."""
+        if self.plain:
+            return {}
+        return {link: -1 for link in self.links if self.sign(self.tree.axis(link)) < 0}
+
+    @property
+    def joint_sums(self) -> frozenset[str]:
+        """Links several non-parallel joints from the frame: their speed is a sum of joint speeds, not a rotation."""
+        if self.plain:
+            return frozenset()
+        sums: set[str] = set()
+        parent = self.tree.parent
+        for link, (up, label) in parent.items():  # from the frame outwards
+            if up in sums or (up in parent and not self.are_parallel((label, self.tree.axis(up)))):
+                sums.add(link)
+        return frozenset(sums)
+
+    def is_rotation(self, of: str, base: str) -> bool:
+        """True if the axes of all joints between two links are parallel, so that each turns seen from the other."""
+        return self.plain or self.are_parallel(self.tree.path(of, base)[1])
+
+    def are_parallel(self, labels: Iterable[str | None]) -> bool:
+        """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
+        return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
+
+    def are_one_line(self, one: str, other: str) -> bool:
+        """True if both axes have positions, and lie on one line; else two labels are two lines."""
+        here, there = self.positions.get(one), self.positions.get(other)
+        if here is None or there is None or not self.are_parallel((one, other)):
+            return False
+        return parallel(self.direction(one), minus(_vector(there), _vector(here)))
+
+    def screw(self, label: str) -> dict[int, Fraction] | None:
+        """A rotation about an axis: its direction, and the velocity of the origin; None without a position."""
+        here = self.positions.get(label)
+        if here is None:
+            return None
+        direction = self.direction(label)
+        parts = (*direction, *cross(_vector(here), direction))
+        return {at: part for at, part in enumerate(parts) if part}
+
+    def _crossing(self, one: str, other: str) -> tuple[float, int]:
+        """The angle (rad) from the direction of one axis to that of another, 0 to pi, and its sense about the way back
+        from the other to the one: 0 where their positions do not tell."""
+        first, second = self.direction(one), self.direction(other)
+        upright = cross(first, second)
+        here, there = self.positions.get(one), self.positions.get(other)
+        side = 0 if here is None or there is None else dot(upright, minus(_vector(here), _vector(there)))
+        far = size((float(upright[0]), float(upright[1]), float(upright[2])))
+        return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
+
+    def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
+        """Helix angles (rad) of two wheels that slide along each other; None on parallel axes, or where unknown."""
+        return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self._crossing(*labels))
+
+    def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
+        """a and b of the circuit, and a note where a sign is a convention.
+
+        Raises `GearTrainError` for wheels whose axes let them not mesh.
+        """
+        z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
+        if "worm" in (wheel_i.kind, wheel_j.kind):
+            return self._worm(i, j, carrier, wheel_i, wheel_j)
+        labels = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
+        side_by_side = self.are_parallel(labels)
+        if wheel_i.is_helical or wheel_j.is_helical:
+            if not side_by_side:
+                sense, note = crossed_sense((wheel_i, wheel_j), *self._crossing(*labels))
+                return z_i, sense * self.sign(labels[0]) * self.sign(labels[1]) * z_j, note
+            check_parallel(wheel_i, wheel_j)
+        if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
+            return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
+        if not side_by_side and (wheel_i.internal or wheel_j.internal):
+            what = "a ring on an axis that is not parallel to its mate's"
+            raise GearTrainError(Problem(what, "a ring meshes about a parallel axis", "use a bevel pair"))
+        side_i = wheel_i.facing * self.sign(labels[0])
+        side_j = wheel_j.facing * self.sign(labels[1])
+        if wheel_i.internal or wheel_j.internal:
+            side_j = -side_j
+        return z_i, z_j * side_i * side_j, ""
+
+    def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
+        """Starts of the worm over teeth of the wheel; the sense follows from hand and positions."""
+        z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
+        worm_first = wheel_i.kind == "worm"
+        hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
+        label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
+        worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
+        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises where the teeth do not lie along the thread
+        here, there = self.positions.get(worm), self.positions.get(wheel)
+        turn = Fraction(0)
+        if here is not None and there is not None:
+            arm, centre = _vector(here), _vector(there)
+            reach = minus(arm, centre)
+            # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
+            turn = -hand * dot(self.direction(worm), cross(self.direction(wheel), reach))
+        flip = self.sign(worm) * self.sign(wheel)
+        if turn:
+            return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
+        note = "sense by convention (a right-hand worm reverses): axes and positions of worm and wheel do not fix it"
+        return z_i, hand * flip * z_j, note
+
+
+def _vector(figures: Iterable[Any]) -> ExactVector:
+    """Three figures as numbers, or three lengths in metres."""
+    x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
+    return x, y, z
+
+
+def _line(direction: ExactVector) -> ExactVector:
+    """The same for all directions parallel to one."""
+    scale = next(part for part in direction if part)
+    x, y, z = direction
+    return x / scale, y / scale, z / scale
+
+
+JointOnLine = tuple[str, str, tuple[str, ...]]
+"""Two links that turn about each other, and the axis between them: one label, or several that lie on one line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rigid:
+    """One prescription that makes two links one body: what it names, and the joints on the way between them.
+
+    links   one link that is fixed, or two that are locked together
+    """
+
+    links: tuple[str, ...]
+    joints: tuple[JointOnLine, ...]
+
+    @property
+    def labels(self) -> list[str]:
+        """The axes on the way."""
+        return [label for _, _, labels in self.joints for label in labels]
+
+
+def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
+    """The cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
+
+    What was prescribed across several axes stands in them joint by joint, each with its cause in words. A case with
+    linkages, or with inputs whose link has no one axis in the frame, has them as its `problems`. Raises
+    `DeclarationError` where every case has some.
+    """
+    lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
+    closed = [_closed(train, lines, sums, case) for case in cases]
+    if all(case.problems for case in closed):
+        raise DeclarationError({str(problem): problem for case in closed for problem in case.problems}.values())
+    return closed
+
+
+def _closed(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
+    problems = list(_driven_sums(train, case, sums))
+    across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
+    if across:
+        stops, linkages = _Bodies(lines, case).close(across)
+        problems += [_linkage(train, case, rigid) for rigid in linkages]
+        case = _joint_by_joint(lines.frame, case, across, stops)
+    return replace(case, problems=tuple(problems)) if problems else case
+
+
+def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
+    """The prescriptions of a case that a brake or clutch cannot make alone: two joints or more are left to close.
+
+    A link whose carrier is held, or locked to what it is locked to, has one joint left, as if its axis stood still.
+    """
+    lines = JointLines(train, tree)
+    bodies = _Bodies(lines, case)
+    return (rigid for rigid in rigid_connections(lines, case) if len(bodies.open(rigid)) > 1)
+
+
+class JointLines:
+    """The axes of a train as lines: the way between two links, and whether axes lie on one line or may move."""
+
+    def __init__(self, train: Train, tree: Tree) -> None:
+        self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
+
+    def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
+        """The joints between two links, one for each line; each link hung on the one that bears its axis."""
+        parent, top = self._tree.parent, self._tree.top
+        up, down = ways_to_common_ancestor(a, b, top.get)
+        steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
+        steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
+        found: list[JointOnLine] = []
+        for start, end, label in steps:
+            if found and self._alike(found[-1][2][-1], label):
+                before = found.pop()
+                labels = before[2] if before[2][-1] == label else (*before[2], label)
+                found.append((before[0], end, labels))
+            else:
+                found.append((start, end, (label,)))
+        return tuple(found)
+
+    def _alike(self, one: str, other: str) -> bool:
+        return one == other or self._axes.are_one_line(one, other)
+
+    def rigid(self, labels: Sequence[str]) -> bool:
+        """Whether a chain of these axes that is closed into a ring cannot move."""
+        # up to three different lines have independent screws in every pose; of more only the rank in this pose tells
+        if len(labels) <= 3 and not any(self._alike(one, other) for one, other in combinations(labels, 2)):
+            return True
+        screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
+        return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
+
+
+def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
+    """Every prescription of a case that makes two links one body."""
+    for link in case.fixed:
+        yield Rigid((link,), lines.joints(link, lines.frame))
+    for a, b in case.locks:
+        yield Rigid((a, b), lines.joints(a, b))
+
+
+class _Bodies:
+    """Which links are one body; grows with every joint that is closed."""
+
+    def __init__(self, lines: JointLines, case: StateCase) -> None:
+        self._lines = lines
+        self._bodies: DisjointSets[str] = DisjointSets()
+        for rigid in rigid_connections(lines, case):
+            if len(rigid.joints) == 1:
+                self._bodies.join(*rigid.joints[0][:2])
+
+    def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
+        """The joints that must be closed, each with its cause, and the prescriptions that would make linkages."""
+        closed: list[tuple[Rigid, JointOnLine]] = []
+        waiting = list(across)
+        while waiting:
+            able = [rigid for rigid in waiting if self._lines.rigid(self._labels(rigid))]
+            if not able:
+                break
+            rigid = able[0]
+            waiting.remove(rigid)
+            for joint in self.open(rigid):
+                self._bodies.join(*joint[:2])
+                closed.append((rigid, joint))
+        return closed, waiting
+
+    def open(self, rigid: Rigid) -> list[JointOnLine]:
+        """The joints of a prescription that nothing has closed yet."""
+        return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
+
+    def _labels(self, rigid: Rigid) -> list[str]:
+        return [labels[0] for _, _, labels in self.open(rigid)]
+
+
+def _joint_by_joint(
+    frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
+) -> StateCase:
+    """The case with its prescriptions across several axes replaced by the joints they close."""
+    spread = {rigid.links for rigid in across}
+    fixed = [link for link in case.fixed if (link,) not in spread]
+    locks = [lock for lock in case.locks if lock not in spread]
+    causes: dict[tuple[str, ...], tuple[str, ...]] = {}
+    for rigid, (start, end, _) in stops:
+        if frame in (start, end):
+            link = end if start == frame else start
+            fixed.append(link)
+            causes[(link,)] = rigid.links
+        else:
+            locks.append((start, end))
+            causes[(start, end)] = rigid.links
+    return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
+
+
+def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterator[Problem]:
+    """The inputs that prescribe a sum of joint speeds over axes in several directions."""
+    for link in sums.intersection(case.inputs):
+        yield Problem(
+            f"the input '{link}' has no speed about one axis",
+            "the axes between it and the frame are not parallel, and the sum of joint speeds over them is no rotation",
+            "drive a link whose axes up to the frame are parallel",
+            train.place(*case.loc, link),
+        )
+
+
+def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
+    links = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
+    return Problem(
+        f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which makes a linkage",
+        f"a ring of {len(rigid.joints)} turning pairs may move, with a ratio that varies as it turns; a gear train "
+        "has none such",
+        f"hold or lock a link on the way ({', '.join(links)}), or lock links that have their axis in common",
+        train.place(*rigid_place(train, case, rigid.links)),
+    )
+
+
+def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
+    """Where a rigid connection is declared."""
+    if links in case.clutches:
+        return ("clutches", case.clutches[links])
+    key = "fixed" if len(links) == 1 else "locks"
+    state = train.states[case.state] if case.state is not None else None
+    own = getattr(state, key) if state is not None else None
+    listed = list(getattr(train, key) if own is None else own)
+    at = listed.index(links[0] if len(links) == 1 else links)
+    return (key, at) if own is None or case.state is None else ("states", case.state, key, at)

@@ -18,10 +18,9 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import MissingExtraError
-from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, product
-from geartrain.kinematics.formulas.polynomial_gcd import divide
+from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, divide, product
 from geartrain.kinematics.formulas.rational_functions import Formula, make_formula, whole
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
     from sympy import Expr

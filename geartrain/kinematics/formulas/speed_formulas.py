@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import check_choice
 from geartrain.kinematics.formulas.closed_forms import ClosedForm
 from geartrain.kinematics.formulas.output_formulas import find_formulas
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 
 if TYPE_CHECKING:
     from sympy import Expr

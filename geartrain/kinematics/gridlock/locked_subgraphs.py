@@ -9,13 +9,13 @@ from math import comb
 from random import Random
 from typing import NamedTuple
 
+from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.components import Components, SolvedPart, relevant_circuits
 from geartrain.kinematics.gridlock.gain_graph import Gain, GainGraph, walk_gain_graph
 from geartrain.kinematics.gridlock.gain_graph import GainLoop as Steps
 from geartrain.kinematics.gridlock.removal import Gridlock, LockedSubgraph, MeshRemoval, RemovalBound, join_removals
 from geartrain.kinematics.gridlock.removal_choice import LoopPacking, RemovalChoice, choose_removal, open_loop
 from geartrain.kinematics.speeds import Mobility, find_mobility
-from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from geartrain.kinematics.verdict import MOST_NAMES, Loop, abridged_names
-from geartrain.numerics.decimal_text import abridged_text
-from geartrain.numerics.plain_data import Result
+from geartrain.kinematics.answer import MOST_NAMES, Loop, abridged_names
+from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.results import Result
 
 RemovalMethod = Literal["one", "loops", "matching", "search", "greedy"]
 _WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "greedy")

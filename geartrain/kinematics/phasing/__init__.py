@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from geartrain.kinematics.phasing.assembly import (
+from geartrain.kinematics.phasing.azimuths import UnplacedPair
+from geartrain.kinematics.phasing.mesh_phasing import (
+    DivisibilityRule,
+    LoopPhase,
+    MeshPhasing,
     SphericalGears,
+    find_divisibility_rule,
     find_phasing,
     spherical_divisibility_rule,
     spherical_phasing,
 )
-from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
-from geartrain.kinematics.phasing.mesh_phasing import LoopPhase, MeshPhasing
-from geartrain.kinematics.phasing.pitch_points import UnplacedPair
 
 __all__ = [
     "DivisibilityRule",

@@ -1,19 +1,33 @@
-"""What closure answers: the verdict, its loops, angles at which to put the wheels in, and errors spread.
+"""Whether the meshes of closed loops can engage: the verdict, the loops, wheel angles for assembly, errors spread.
 
-One loop of meshes, made readable: its gears in order, what it asks of their teeth, and what it misses by.
+A loop lists its gears in order, the divisibility rule of its tooth counts (which counts, or sums of them, must be
+multiples of what), and the fraction of a pitch by which it misses.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from geartrain.kinematics.phasing.azimuths import MOUNT
-from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
+import numpy as np
+
+from geartrain.errors import Problem as Trouble
+from geartrain.errors import QuestionError
+from geartrain.kinematics.circuits import Circuit, Tree
+from geartrain.kinematics.components import find_components
+from geartrain.kinematics.phasing.azimuths import (
+    EPS,
+    MOUNT,
+    PitchPoints,
+    UnplacedPair,
+    contact_families,
+    mount_frame_wheels,
+    place_pitch_points,
+)
 from geartrain.kinematics.phasing.phase_system import (
     PhaseCondition,
     PhaseKind,
@@ -21,12 +35,166 @@ from geartrain.kinematics.phasing.phase_system import (
     ResidueKnowledge,
     judge_residue,
 )
-from geartrain.kinematics.phasing.pitch_points import UnplacedPair
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Key, Result
+from geartrain.train import Train
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
+
+Row = dict[str, int]
+
+
+class DivisibilityCondition(NamedTuple):
+    """`modulus` divides the sum of tooth numbers, each times its factor."""
+
+    modulus: int
+    factors: Mapping[str, int]
+
+
+@dataclass(frozen=True)
+class DivisibilityRule(Result):
+    """Conditions on tooth numbers: `modulus` divides the sum of factor times tooth number, for each."""
+
+    KEYS = ("text", "conditions")
+
+    conditions: tuple[DivisibilityCondition, ...]
+
+    @property
+    def text(self) -> str:
+        """In words: `3 divides za and 5 divides zb`."""
+        kinds = [kind for _, terms in self.conditions for kind in terms]
+        short = all(kind[:1].isdigit() or len(kind) <= 2 for kind in kinds)  # z5, z4a and ze, else z[sun]
+        sums = (f"{modulus} divides {_sum(terms, short)}" for modulus, terms in self.conditions)
+        return " and ".join(sums) or "always"
+
+    def holds(self, teeth: Mapping[str, int]) -> bool:
+        """True if the set closes with these tooth numbers, by kind."""
+        return not any(sum(f * teeth[kind] for kind, f in terms.items()) % m for m, terms in self.conditions)
+
+
+def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
+    """The rule that all forms take whole values: sum of form[kind] z[kind] is an integer for each.
+
+    Forms matter modulo 1, and generate a finite group; it is the sum of its parts for each prime p, and in every part
+    rows modulo a power of p are brought to a triangle. Conditions on one kind alone are joined again.
+
+    >>> find_divisibility_rule([{"a": Fraction(2, 3), "b": Fraction(-2, 5)}]).text
+    '3 divides za and 5 divides zb'
+    """
+    rows = list({tuple(sorted((k, f % 1) for k, f in form.items() if f % 1)): None for form in forms})
+    kinds = sorted({kind for row in rows for kind, _ in row})
+    scale = math.lcm(*(value.denominator for row in rows for _, value in row))
+    whole = [[int(dict(row).get(kind, 0) * scale) for kind in kinds] for row in rows]
+    alone: dict[str, int] = {}
+    mixed: list[tuple[int, Row]] = []
+    for power in _prime_powers(scale):
+        # the part for p of a form: a multiple that is 1 modulo the power of p and 0 modulo the rest
+        lifted = [[value * pow(scale // power, -1, power) % power for value in row] for row in whole]
+        for modulus, row in (_plain(row, power) for row in _needed(lifted, power)):
+            terms = {kind: value for kind, value in zip(kinds, row, strict=True) if value}
+            if len(terms) == 1:
+                alone[next(iter(terms))] = alone.get(next(iter(terms)), 1) * modulus
+            else:
+                _join(mixed, modulus, terms)
+    single = [(modulus, {kind: 1}) for kind, modulus in sorted(alone.items())]
+    return DivisibilityRule(tuple(DivisibilityCondition(modulus, terms) for modulus, terms in (*single, *mixed)))
+
+
+def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
+    """Add a condition; to one of another prime where the same sum says both."""
+    for at, (other, known) in enumerate(found):
+        kinds = {*known, *terms}
+        for says, to in ((terms, other), (known, modulus)):
+            if math.gcd(other, modulus) == 1 and not any((known.get(k, 0) - terms.get(k, 0)) % to for k in kinds):
+                found[at] = (other * modulus, says)
+                return
+    found.append((modulus, terms))
+
+
+def _prime_powers(number: int) -> Iterable[int]:
+    prime = 2
+    while number > 1:
+        # trial division: what has no divisor up to its root is prime
+        if prime * prime > number:
+            prime = number
+        power = 1
+        while number % prime == 0:
+            power *= prime
+            number //= prime
+        if power > 1:
+            yield power
+        prime += 1
+
+
+def _needed(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+    """Generators of the same group without those that the others make too."""
+    found = _triangle(rows, power)
+    for row in found[::-1]:
+        fewer = [other for other in found if other is not row]
+        if _order(fewer, power) == _order(found, power):
+            found = fewer
+    return found
+
+
+def _order(rows: Sequence[Sequence[int]], power: int) -> int:
+    """The number of elements of the group."""
+    firsts = (next(value for value in row if value) for row in _triangle(rows, power))
+    return math.prod(power // math.gcd(first, power) for first in firsts)
+
+
+def _triangle(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+    """Rows that generate the same group modulo a prime power, in triangular (Howell) form."""
+    found = []
+    active = [list(row) for row in rows]
+    width = len(active[0]) if active else 0
+    for column in range(width):
+        entries = [row for row in active if row[column] % power]
+        if not entries:
+            continue
+        pivot = min(entries, key=lambda row: math.gcd(row[column], power))
+        common = math.gcd(pivot[column], power)
+        turn = pow(pivot[column] // common, -1, power)
+        pivot = [value * turn % power for value in pivot]
+        rest = []
+        for row in active:
+            times = row[column] // common
+            rest.append([(a - times * b) % power for a, b in zip(row, pivot, strict=True)])
+        # a multiple that clears the column may say something about the others
+        rest.append([value * (power // common) % power for value in pivot])
+        active = [row for row in rest if any(row)]
+        found.append(pivot)
+    return found
+
+
+def _plain(row: Sequence[int], power: int) -> tuple[int, list[int]]:
+    """The same condition in the smallest numbers."""
+    common = math.gcd(*row, power)
+    modulus = power // common
+    row = [value // common for value in row]
+    # only how the condition reads depends on the unit: past 1000 of them none is looked at
+    units = [unit for unit in range(1, min(modulus, 1000) + 1) if math.gcd(unit, modulus) == 1]
+    return modulus, min((_centred(row, unit, modulus) for unit in units), key=_size)
+
+
+def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
+    found = [value * unit % modulus for value in row]
+    return [value - modulus if 2 * value > modulus else value for value in found]
+
+
+def _size(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
+    """Small factors first, then few minus signs, then a plus in front."""
+    first = next((value for value in row if value), 0)
+    return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
+
+
+def _sum(terms: Mapping[str, int], short: bool) -> str:
+    words: list[str] = []
+    for kind, factor in terms.items():
+        size = "" if abs(factor) == 1 else f"{abs(factor)} "
+        sign = "- " if factor < 0 else "+ " if words else ""
+        words.append(f"{sign}{size}{f'z{kind}' if short else f'z[{kind}]'}")
+    return " ".join(words)
 
 
 # ----------------------------------------------------------------------------------------------------------- loop phase
@@ -427,3 +595,145 @@ def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, 
 def _name(link: str) -> str:
     """A link; a wheel on the frame by the wheel's name."""
     return link.rpartition(MOUNT)[2]
+
+
+_FRAME = MOUNT  # no gear on a sphere has this name
+_OFF = 1e-6  # turns: contacts declared regular stand nearer than this to where they should
+
+
+class SphericalGears(Protocol):
+    """Gears with axes through one point, as a configuration of the spherical room has them."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the gears."""
+
+    @property
+    def axes(self) -> Floats:
+        """Outward unit vectors, (gears, 3)."""
+
+    @property
+    def meshes(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of gears by index."""
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Kind of each gear."""
+
+    @property
+    def regular(self) -> tuple[int, ...]:
+        """p where the contacts of a gear stand at multiples of a p-th of a turn; 0 where angles are floats."""
+
+    @property
+    def teeth(self) -> Mapping[str, int]:
+        """Tooth number of each kind."""
+
+
+def find_phasing(
+    train: Train, tree: Tree, circuits: Sequence[Circuit], plays: Mapping[str, float] | None = None
+) -> MeshPhasing:
+    """Closure of a declared train, in the pose in which its moving axes are declared.
+
+    plays   pair -> play of its teeth (pitches), as far as it is known
+    """
+    contacts = place_pitch_points(train, tree, circuits)
+    parts = find_components(_links(train, contacts.circuits), train.frame, contacts.circuits)
+    unjudged = 0
+    if contacts.left_out:
+        every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
+        whole = find_components(_links(train, every), train.frame, every)
+        unjudged = max(len(whole.closing) - len(parts.closing), 0)
+    return MeshPhasing(PhaseSystem(parts, contacts), dict(plays or {}), lambda: _alike(train), unjudged)
+
+
+def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
+    """All links, and the frame's wheels as links of their own."""
+    mounts = (link for circuit in circuits for link in (circuit.i, circuit.j) if MOUNT in link)
+    return tuple(dict.fromkeys([*train.links, *mounts]))
+
+
+def _alike(train: Train) -> dict[str, str]:
+    """Wheels of one tooth count, alike and among mates that are alike, under the name of the first."""
+    marks = {name: (wheel.count, wheel.internal) for name, (_, wheel) in train.wheels.items()}
+    mates: dict[str, list[object]] = {name: [] for name in marks}
+    for gear in train.gears:
+        first, second = gear.pair
+        mates[first].append(marks[second])
+        mates[second].append(marks[first])
+    heads: dict[object, str] = {}
+    return {name: heads.setdefault((mark, tuple(sorted(map(repr, mates[name])))), name) for name, mark in marks.items()}
+
+
+def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | None = None) -> MeshPhasing:
+    """Closure of gears with axes through one point.
+
+    teeth   tooth number of each kind, in place of those of the configuration
+
+    Angles of links count from the direction `configuration.frame` gives first.
+    """
+    counts = {**configuration.teeth, **(teeth or {})}
+    missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
+    if missing:
+        what = f"no tooth number for {', '.join(missing)}"
+        raise QuestionError(Trouble(what, "phases count teeth", "give `teeth` for every kind, or ask for the rule"))
+    return _closure(configuration, [counts[kind] for kind in configuration.kinds])
+
+
+def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRule | None:
+    """What tooth numbers must be multiples of; None where contacts do not stand at known parts of a turn."""
+    return _closure(configuration, [1] * len(configuration.names)).rule
+
+
+def _closure(configuration: SphericalGears, counts: Sequence[int]) -> MeshPhasing:
+    names = configuration.names
+    circuits = tuple(
+        Circuit(
+            f"{names[i]}~{names[j]}", "gear", names[i], names[j], _FRAME, counts[i], counts[j], (names[i], names[j])
+        )
+        for i, j in configuration.meshes
+    )
+    contacts = _contacts(configuration, circuits)
+    parts = find_components((_FRAME, *names), _FRAME, circuits)
+    return MeshPhasing(PhaseSystem(parts, contacts), {}, lambda: dict(zip(names, configuration.kinds, strict=True)))
+
+
+def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> PitchPoints:
+    meshes = np.array(configuration.meshes, int).reshape(-1, 2)
+    azimuth, sine = spherical_azimuths(np.asarray(configuration.axes, float), meshes)
+    keys: list[tuple[object, object]] = []
+    part: list[tuple[Fraction, Fraction]] = []
+    first: dict[int, float] = {}
+    for pair, turns in zip(meshes.tolist(), azimuth.tolist(), strict=True):
+        found = []
+        key: list[object] = []
+        for gear, turn in zip(pair, turns, strict=True):
+            parts = configuration.regular[gear]
+            step = (turn - first.setdefault(gear, turn)) * parts
+            if abs(step - round(step)) > _OFF * parts:
+                what = f"'{configuration.names[gear]}' has contacts that are no multiples of 1/{parts} turn apart"
+                raise QuestionError(Trouble(what, "it is declared regular", "declare it with `regular` 0"))
+            found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
+            key.append(gear if parts else (len(keys), gear))
+        part.append((found[0], found[1]))
+        keys.append((key[0], key[1]))
+    family, _ = contact_families(keys)
+    # the smaller the angle between the axes, the more of a direction across one is rounding
+    slack = 16 * EPS / sine[:, None] * np.ones(2)
+    return PitchPoints(circuits, azimuth, slack, family, part)
+
+
+def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats]:
+    """Azimuths (turns) of both contacts of every mesh about outward axes, and the sine of the angle between the axes.
+
+    They count from the first of two directions: the axis across the coordinate axis that is farthest from it.
+    """
+    # farthest from the axis, so that the vector product is never near 0
+    least = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    first = np.cross(axes, least)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(axes, first)
+    own, mate = axes[meshes], axes[meshes[:, ::-1]]
+    x = (mate * first[meshes]).sum(axis=2)
+    y = (mate * second[meshes]).sum(axis=2)
+    sine = np.linalg.norm(np.cross(own[:, 0], mate[:, 0]), axis=1)
+    return np.mod(np.arctan2(y, x) / math.tau, 1.0), sine

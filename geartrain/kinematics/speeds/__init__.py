@@ -11,11 +11,11 @@ from geartrain.kinematics.speeds.exact_speeds import (
     exact_verdict,
     solve,
 )
-from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, is_regular, solve_floats
+    from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
 
 __all__ = [
     "EXACT_BUDGET",
@@ -31,4 +31,10 @@ __all__ = [
 ]
 
 # the float path brings numpy and scipy
-__getattr__ = lazy_names(__name__, dict.fromkeys(("FloatSpeeds", "is_regular", "solve_floats"), "float_speeds"))
+__getattr__ = lazy_names(
+    __name__,
+    {
+        **dict.fromkeys(("FloatSpeeds", "is_regular", "solve_floats"), "float_speeds"),
+        **dict.fromkeys(("Mobility", "find_mobility"), "mobility"),
+    },
+)

@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 
+from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.components import ReducedSystem
-from geartrain.kinematics.speeds.diagnosis import resolve_form
-from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, eliminate_within, elimination_budget
-from geartrain.kinematics.verdict import Loop
+from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, eliminate_within, elimination_budget, resolve_form
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, rank_modulo
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 
 @dataclass(frozen=True, slots=True)

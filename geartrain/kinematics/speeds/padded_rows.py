@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.kinematics.willis_equation import WillisEquation
-from geartrain.numerics.error_free import two_product, two_sum
+from geartrain.numerics.rounding_bounds import two_product, two_sum
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

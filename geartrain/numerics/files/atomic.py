@@ -17,7 +17,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 
 _KINDS = (
     (stat.S_ISDIR, "a folder"),

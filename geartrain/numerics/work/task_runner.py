@@ -21,7 +21,7 @@ from typing import Any
 from zlib import crc32
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.work.executors import cores
 from geartrain.numerics.work.journal import Journal
 from geartrain.numerics.work.worker_pool import WorkerPool

@@ -12,11 +12,11 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics.gear_meshes import find_sizes
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.circuits import Circuit, Tree
-from geartrain.kinematics.circuits.axes import Axes
+from geartrain.kinematics.circuits.joint_tree import Axes
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
-from geartrain.train.dials import looks_away
+from geartrain.train.outputs import looks_away
 from geartrain.train.wheel_stock import wheel_thickness
 
 Point = tuple[float, float]

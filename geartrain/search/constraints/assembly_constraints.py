@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
+from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing import MeshPhasing, find_phasing
 from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
@@ -43,7 +43,7 @@ from geartrain.search.constraints.involute_interference import interference, lea
 from geartrain.search.constraints.planet_constraints import PlanetRoom, equal_planets, reason
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, TrainAssembly
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, TrainAssembly
     from geartrain.numerics.arrays import Bools
     from geartrain.numerics.quantity import Quantity
     from geartrain.search.constraints.count_conditions import CandidateColumns

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, CountRef
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
 

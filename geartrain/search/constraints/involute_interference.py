@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.kinematics.buildability.ring_mates import tip_room
+from geartrain.kinematics.buildability.pitch_distances import tip_room
 from geartrain.search.constraints.count_conditions import Condition, counts_of, free_of
 from geartrain.search.constraints.decimal_sines import decimal, is_positive, sine
 
 if TYPE_CHECKING:
     from decimal import Decimal
 
-    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, CountRef
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.search.constraints.count_conditions import CandidateColumns
 

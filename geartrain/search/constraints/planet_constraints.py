@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.kinematics.buildability.planet_assembly import (
+from geartrain.kinematics.buildability.equal_planets import (
     PhaseArithmetic,
     PlanetArm,
     neighbour_terms,
@@ -31,7 +31,7 @@ from geartrain.search.constraints.count_conditions import (
 from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.planet_sets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
     from geartrain.numerics.arrays import Bools, Ints
     from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
 

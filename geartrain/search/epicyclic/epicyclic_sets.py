@@ -10,9 +10,8 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.exact import abridged_text, as_float, decimal, fraction_text
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.search.epicyclic.set_kinds import CARRIER, EpicyclicKind, EpicyclicMode, epicyclic_kind, mode_key
 from geartrain.search.search_outcome import CountSizes, Shortfall
 

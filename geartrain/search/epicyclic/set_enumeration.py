@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.kinematics.buildability.planet_assembly import neighbour_terms, passing_terms
+from geartrain.kinematics.buildability.equal_planets import neighbour_terms, passing_terms
 from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
 from geartrain.search.epicyclic.set_kinds import CentralWheel, EpicyclicKind, EpicyclicMode
 

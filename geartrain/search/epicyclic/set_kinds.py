@@ -14,7 +14,7 @@ from itertools import permutations
 from types import MappingProxyType
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 CARRIER = "carrier"
 

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 from geartrain.search.epicyclic.epicyclic_sets import EpicyclicSet, RatioIs, SetFindings, SetOrder, set_rank
 from geartrain.search.epicyclic.set_enumeration import (
     SetBounds,

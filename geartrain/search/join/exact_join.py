@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.kinematics.formulas.monomial_groups import proportional_classes
+from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks

@@ -10,7 +10,7 @@ from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
-from geartrain.kinematics.formulas.monomial_groups import proportional_classes
+from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
 from geartrain.search.join.partial_assignments import PartialAssignments
 from geartrain.search.join.polynomial_constraints import (

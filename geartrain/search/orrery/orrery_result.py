@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import as_float, fraction_text
+from geartrain.numerics.results import Key, Result
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal, NotRequired, TypedDict
 
-from geartrain.numerics.decimal_text import decimal
-from geartrain.numerics.exact import as_float
+from geartrain.numerics.exact import as_float, decimal
 from geartrain.numerics.long_float import Real, as_plain
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.information import relative_entropy
 from geartrain.search.posterior.observations import ObservedOutput
 from geartrain.search.posterior.priors import ToothCountPrior

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.exact import whole_multiple
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.decimal_text import count_digits
-from geartrain.numerics.error_free import split
+from geartrain.numerics.exact import count_digits
+from geartrain.numerics.rounding_bounds import split
 from geartrain.search.integer_columns import distinct_quotients, spread
 from geartrain.search.stern_brocot import farey_neighbours
 

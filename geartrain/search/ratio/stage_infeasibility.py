@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from geartrain.errors import RangeError
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 from geartrain.numerics.work import Execution
 from geartrain.search.ratio.product_windows import MOST_STAGES, multisets, rounded_up
 from geartrain.search.ratio.segment_sweep import SweepOutcome, nearest, tally, within

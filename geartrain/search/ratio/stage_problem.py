@@ -9,8 +9,8 @@ from functools import cached_property
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Result
 from geartrain.search.ratio.product_windows import PLAIN, ProductWindows, multisets, products_of
 
 

@@ -18,8 +18,8 @@ from fractions import Fraction
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.decimal_text import decimal, plural
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import decimal, plural
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets

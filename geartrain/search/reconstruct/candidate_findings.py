@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.reconstruct.candidate_names import NamedArbor
 from geartrain.search.reconstruct.candidate_train import named_candidate
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation

@@ -8,8 +8,8 @@ from fractions import Fraction
 from functools import reduce
 from typing import Literal
 
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.results import Result
 from geartrain.search.reconstruct.arbor_orders import may_mesh
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import (

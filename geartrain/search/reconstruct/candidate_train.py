@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, free_name, name_train
 from geartrain.search.reconstruct.link_roles import BaseLink, couplings_of, find_base, joined_arbors
 from geartrain.search.reconstruct.reconstruction_problem import Arbor

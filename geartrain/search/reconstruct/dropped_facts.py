@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.errors import QuestionError
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,

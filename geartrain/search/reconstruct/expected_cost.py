@@ -9,7 +9,7 @@ from math import floor, log10
 from time import perf_counter
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.search_tasks import (
     QUICK,

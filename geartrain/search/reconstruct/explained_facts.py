@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.information import entropy
 from geartrain.search.reconstruct.arbor_orders import AddedPlace, NamedMesh
 from geartrain.search.reconstruct.candidate_names import NamedArbor

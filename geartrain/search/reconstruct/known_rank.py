@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from geartrain.errors import QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.reconstruct.candidate_names import NamedArbor
 from geartrain.search.reconstruct.candidate_rules import (
     BrokenRule,

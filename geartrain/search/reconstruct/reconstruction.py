@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.candidate_findings import NO_FINDINGS, CandidateFindings, find_facts
 from geartrain.search.reconstruct.candidate_train import TrainConstruction

@@ -16,7 +16,7 @@ from math import prod
 from typing import Literal
 
 from geartrain.errors import Problem
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.search.reconstruct.surviving_geometry import NO_GEOMETRY, SurvivingGeometry
 
 NEW = "new"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import astuple
 
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.report.document import Document, PageExtras, SceneText, Section, Table, filled_table
 from geartrain.search.reconstruct.candidate_rules import counts_text, speed_text
 from geartrain.search.reconstruct.family_tree_report import family_section

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeVar
 
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.search_tasks import CountedTopology
 

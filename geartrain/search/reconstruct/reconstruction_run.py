@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.cli.common import Sink, tell
 from geartrain.cli.long_runs import RunOptions, close_journal, long_run, progress
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.reconstruct.expected_cost import count_choices, done_shares, rough
 from geartrain.search.reconstruct.reconstruction import ReconstructionRun

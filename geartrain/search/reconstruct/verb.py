@@ -25,7 +25,7 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers
 from geartrain.cli.option_values import MOST_COUNT
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer

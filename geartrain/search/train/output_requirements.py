@@ -11,7 +11,7 @@ from math import prod
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas
 from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of
-from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import Figure
 from geartrain.search.constraints.count_conditions import CountConstraint

@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 By = Literal["error", "total", "largest", "distinct", "change"]

@@ -11,8 +11,7 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.bounded_polynomials import WholeTerm
-from geartrain.numerics.decimal_text import decimal
-from geartrain.numerics.exact import log10
+from geartrain.numerics.exact import decimal, log10
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import ConstraintOptions

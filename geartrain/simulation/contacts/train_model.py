@@ -18,7 +18,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.errors import Problem, QuestionError
-from geartrain.kinematics.relative_speeds import axis_sense
+from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.simulation.contacts.law_tables import TOLERANCE, TabledFunction, tabled_angle

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
 from geartrain.dynamics.wheel_teeth import WheelTeeth
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_mechanics import TrainMechanics

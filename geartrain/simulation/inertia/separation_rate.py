@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.corner_positions import CornerSearch
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

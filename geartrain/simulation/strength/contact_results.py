@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.simulation.strength.formulas.contact_pressure import YIELD_AT
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.report.document import Document, Section, Table, figure, filled_table
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.plain_data import Result
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Result, Tabular
 from geartrain.simulation.strength.contact_results import PinContact, PointContact, WheelForce
 from geartrain.simulation.strength.formulas.contact_pressure import YIELD_AT, ContactPlace
 from geartrain.simulation.strength.formulas.iso_6336 import IsoContact, IsoRoot

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.errors import RangeError
-from geartrain.kinematics.circuits.shaft_angles import shaft_angle
+from geartrain.kinematics.circuits.fundamental import shaft_angle
 from geartrain.simulation.strength.contact_results import WheelForce
 from geartrain.simulation.strength.formulas.pitch_force import bevel_force, friction_angle, helical_force
 from geartrain.simulation.strength.formulas.point_contact import CrossedWheels
@@ -20,7 +20,7 @@ from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.dynamics.torques.member_torques import PairTorque
+    from geartrain.dynamics.torques.torque_results import PairTorque
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Wheel

@@ -35,8 +35,7 @@ from geartrain.train.wheel_stock import face_width, material_named
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.dynamics.torques.member_torques import PairTorque
-    from geartrain.dynamics.torques.torque_results import Torques
+    from geartrain.dynamics.torques.torque_results import PairTorque, Torques
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.dynamics.train_teeth import TrainTeeth
     from geartrain.teeth.gear_mesh import GearMesh

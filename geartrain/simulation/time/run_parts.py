@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 
 if TYPE_CHECKING:

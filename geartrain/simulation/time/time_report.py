@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from math import degrees, tau
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.decimal_text import percent_text, watts_text
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.exact import percent_text, watts_text
+from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
 from geartrain.report.torque_cycle_report import turns_text
 

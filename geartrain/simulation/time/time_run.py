@@ -9,9 +9,7 @@ from math import tau
 from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.numerics.files import csv_text
-from geartrain.numerics.plain_data import Key, Result, group
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

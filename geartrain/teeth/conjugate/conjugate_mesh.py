@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, ClassVar, Protocol
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.conjugate.admissibility import tip_thickness
 from geartrain.teeth.conjugate.path_costs import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair

@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact, PathSide
 

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.arrays import joined, some
 from geartrain.numerics.polynomial_pieces import value, value_alone
-from geartrain.numerics.simultaneous_roots import roots_by_false_position
+from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.named_arrays import some
+from geartrain.numerics.arrays import some
 from geartrain.teeth.contact.first_touch import AxlePlacement, CandidatePairs, FirstTouches, FirstTouchSearch
 
 if TYPE_CHECKING:

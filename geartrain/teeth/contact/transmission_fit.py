@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import chebyshev as cheb
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.arrays import joined, some
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.polynomial_pieces import COUNT, POWERS, ends, extremes, moments, value
 from geartrain.teeth.contact.outline_contact import KINDS, OutlinePair
 from geartrain.teeth.transmission import SpeedLeap

@@ -10,7 +10,7 @@ from math import acos, atan2, cos, isfinite, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.tooth_outline import ToothOutline, repeated
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth

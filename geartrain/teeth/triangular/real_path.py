@@ -19,7 +19,7 @@ from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
 
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.numerics.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, RETURN, SLIP, ToothCouple

@@ -9,8 +9,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem
-from geartrain.numerics.quantity import Angle, Figure, Length
-from geartrain.numerics.units import RADIANS_PER_TURN
+from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
 
 if TYPE_CHECKING:

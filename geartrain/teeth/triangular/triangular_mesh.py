@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.outlines.wheel_requirement import SAME_SIZE, CutTooth, WheelRequirement

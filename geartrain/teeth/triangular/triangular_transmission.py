@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
 from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, behind, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact

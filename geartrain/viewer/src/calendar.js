@@ -1,4 +1,4 @@
-// Dates and Julian days, exactly, as geartrain/numerics/calendar_dates.py has them: years are astronomical (0 is 1 BC), a
+// Dates and Julian days, exactly, as geartrain/train/periods.py has them: years are astronomical (0 is 1 BC), a
 // day begins at midnight, and years that begin in March have their leap day at their end.
 
 import { Fraction } from "./fraction.js";

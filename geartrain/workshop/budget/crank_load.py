@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.dynamics.turn.train_turn import find_torque_period
 from geartrain.errors import GearTrainError
-from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Quantity
+from geartrain.numerics.results import Result
 from geartrain.train.periods import period_table
 
 if TYPE_CHECKING:

@@ -6,9 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
 if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import SpeedValue

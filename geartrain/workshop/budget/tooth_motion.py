@@ -18,7 +18,7 @@ from geartrain.dynamics.motion.extreme_search import ExtremeSearch
 from geartrain.dynamics.motion.rate_bounds import error_difference
 from geartrain.dynamics.motion.run_statistics import RunningStatistics, SampledPeaks, count_extremes
 from geartrain.dynamics.motion.superposition import Superposition
-from geartrain.kinematics.relative_speeds import axis_sense
+from geartrain.kinematics.willis_system import axis_sense
 from geartrain.workshop.budget.pointer_budget import BudgetCause, CauseName, Declared
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.decimal_text import decimal, fraction_text
+from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.files import csv_text
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import read_fraction
+from geartrain.numerics.exact import read_fraction
 from geartrain.scene.solids.solid_assembly import SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
 

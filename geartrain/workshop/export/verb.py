@@ -27,7 +27,7 @@ from geartrain.cli.option_values import input_rate, quantity
 from geartrain.cli.option_values import restitution as read_restitution
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.decimal_text import plural
+from geartrain.numerics.exact import plural
 from geartrain.wings import wing
 
 if TYPE_CHECKING:

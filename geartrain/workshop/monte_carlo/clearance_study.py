@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.confidence_intervals import ProbabilityEstimate
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs

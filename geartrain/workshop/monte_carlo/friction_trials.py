@@ -22,8 +22,8 @@ from geartrain.numerics.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Figure
+from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
@@ -31,8 +31,8 @@ from geartrain.workshop.monte_carlo.trial_run import check_trials
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics.turn.cycle_parts import CycleFigures
-    from geartrain.dynamics.turn.friction_study import FrictionStudy
+    from geartrain.dynamics.turn.torque_cycle import CycleFigures
+    from geartrain.dynamics.turn.train_turn import FrictionStudy
     from geartrain.numerics.arrays import Floats
     from geartrain.train import Train
 
@@ -121,7 +121,7 @@ class FrictionPlan:
             Where the torque is not known at all.
         """
         from geartrain.analysis.gear_train import GearTrain
-        from geartrain.dynamics.turn.cycle_parts import CycleFigures
+        from geartrain.dynamics.turn.torque_cycle import CycleFigures
 
         train, parts, study = GearTrain(drawn), (*drawn.gears, *drawn.couplings), self.study
         if study is not None and (

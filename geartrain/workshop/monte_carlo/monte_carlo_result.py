@@ -8,9 +8,7 @@ from math import degrees
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from geartrain.numerics.confidence_intervals import CONFIDENCE
-from geartrain.numerics.plain_data import Key, Result, group
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
 from geartrain.numerics.work import Execution
 from geartrain.workshop.monte_carlo.clearance_study import jamming_map, run_clearances
 from geartrain.workshop.monte_carlo.random_streams import BLOCK

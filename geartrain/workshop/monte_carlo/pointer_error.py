@@ -17,7 +17,7 @@ from geartrain.numerics.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.confidence_intervals import IntervalEstimate, deviations
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.workshop.cutting.declared_errors import ERROR_KINDS
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import fraction_text
 from geartrain.workshop.cutting.declared_errors import (
     OF_PAIRS,
     ErrorOverride,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypedDict, cast
 import numpy as np
 
 from geartrain.numerics.confidence_intervals import IntervalEstimate, ProbabilityEstimate, deviation_of, mean_of
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.workshop.monte_carlo.pointer_error import FirstOrderError, PointerErrorCourse, PointerErrorStatistics
 from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
 

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.plain_data import Result
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Pictured, Result, Tabular
 from geartrain.workshop.sizes.outline_agreement import OutlineAgreement, confirm_by_outlines
 from geartrain.workshop.sizes.size_design import (
     AIMS,

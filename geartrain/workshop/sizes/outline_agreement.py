@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import cos, sin
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTransmission
 from geartrain.workshop.sizes.size_design import ToothSizes, impact_of
 

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from math import degrees
 from typing import Any
 
-from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.result_picture import Pictured
-from geartrain.numerics.tabular import Tabular
+from geartrain.numerics.results import Key, Pictured, Result, Tabular
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.results import Key, Result, finite
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

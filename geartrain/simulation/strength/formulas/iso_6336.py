@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from math import acos, cos, degrees, pi, sin, sqrt, tan
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 
 HOB_CORNER = 0.38
 """Radius of a rack's corner [module], of ISO 53 profile A."""

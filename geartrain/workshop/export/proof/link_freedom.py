@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.buildability import BuildFinding
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.scene.pose import scene_pose
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import numpy as np
 from geartrain.drawing.flat_files import to_svg
 from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.buildability import BuildFinding, BuildLevel
-from geartrain.numerics.plain_data import Result
+from geartrain.numerics.results import Result
 from geartrain.workshop.export.cut_sheets import compensated, wheel_sheets
 from geartrain.workshop.export.proof.cut_outlines import TOLERANCE, plane_geometry, read_material
 from geartrain.workshop.export.proof.turned_pair import NOTHING, SAME, FreeTurn, TurnedPair

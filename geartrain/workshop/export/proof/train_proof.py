@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.cut_teeth import not_cut
 from geartrain.errors import MissingExtraError
 from geartrain.kinematics.buildability import BuildFinding, build_errors
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.results import Key, Result
 from geartrain.workshop.export.proof.link_freedom import LinkFreedom, prove_freedom
 from geartrain.workshop.export.proof.mesh_proof import MeshProof, paired_wheels, prove_mesh, read_wheels
 from geartrain.workshop.export.proof.solid_proof import pose_count, prove_solids

@@ -1,20 +1,129 @@
-"""Results as plain data, which JSON can hold: each key is written once, as a field's name or in the `KEYS` of a class.
+"""Base classes of results: plain data for JSON, tables and figures.
 
-Exact numbers become text with every digit, arrays and tuples lists, results objects; what is None stays None.
-"""
+`Result` writes each key once, as a field's name or in the `KEYS` of a class. Exact numbers become text with every
+digit, arrays and tuples lists, results objects; None stays None. `Tabular` results have columns: a pandas DataFrame,
+a numpy record array, a table of HTML. `Pictured` results name the function that draws them, which is imported when it
+is called."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from fractions import Fraction
 from functools import cache
+from html import escape
+from importlib import import_module
+from itertools import islice
 from math import isfinite
 from operator import attrgetter
 from typing import Any, ClassVar
 
-from geartrain.numerics.decimal_text import fraction_text
+from geartrain.errors import MissingExtraError
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.long_float import LongFloat
+
+_SHOWN = 20
+
+
+class Tabular:
+    """What has rows of one kind.
+
+    Notebooks show its first rows.
+    """
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """Columns of one length by name: numbers as floats, exact ones as text beside them, None where nothing is."""
+
+    def to_frame(self) -> Any:
+        """The table as a pandas DataFrame.
+
+        Raises
+        ------
+        MissingExtraError
+            Without pandas, which the extra `tables` brings.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise MissingExtraError("pandas", "tables", "a table of its kind") from None
+        return pandas.DataFrame(dict(self.columns))
+
+    def to_records(self) -> Any:
+        """The table as a numpy record array, `records["link"]` a column; numbers that are not there are NaN."""
+        import numpy as np
+
+        columns = {name: np.array(_without_gaps(values)) for name, values in self.columns.items()}
+        kinds = [(name, column.dtype) for name, column in columns.items()]
+        return np.rec.fromarrays(list(columns.values()), dtype=kinds)
+
+    def _repr_html_(self) -> str:
+        columns = self.columns
+        head = "".join(f"<th>{escape(name)}</th>" for name in columns)
+        rows = ("".join(f"<td>{_cell(value)}</td>" for value in row) for row in zip(*columns.values(), strict=True))
+        body = "".join(f"<tr>{row}</tr>" for row in islice(rows, _SHOWN))
+        more = len(next(iter(columns.values()), ())) - _SHOWN
+        return f"<table><tr>{head}</tr>{body}</table>" + (f"<p>{more:,} more</p>" if more > 0 else "")
+
+
+def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
+    """NaN for None among numbers, nothing for None among texts."""
+    if not any(value is None for value in values):
+        return values
+    texts = any(isinstance(value, str) for value in values)
+    return [("" if texts else float("nan")) if value is None else value for value in values]
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    return escape(value) if isinstance(value, str) else f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def picture_maker(room: str, name: str) -> Callable[..., Any]:
+    """A function that draws or describes, by its name, for a method that hands itself to it.
+
+    Rooms that draw stand above those that calculate. A result reaches up to them here alone, by name, and when it is
+    asked to show itself: nothing that draws is imported before.
+
+    room   where it is, by the name below `geartrain`
+    name   of the function or class, public there
+    """
+    found: Callable[..., Any] = getattr(import_module(f"geartrain.{room}"), name)
+    return found
+
+
+class Pictured:
+    """A result with a picture of its own: the function `FIGURE` of the package `DRAWN_IN` makes it."""
+
+    __slots__ = ()
+
+    FIGURE: ClassVar[str]
+    DRAWN_IN: ClassVar[str] = "drawing"
+
+    def plot(self, *how: Any) -> Any:
+        """The result as a figure of matplotlib, which notebooks show.
+
+        Parameters
+        ----------
+        *how
+            What the function that draws such results takes after the result itself.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            For `geartrain.drawing.render`, or to be drawn on.
+
+        Raises
+        ------
+        MissingExtraError
+            Without matplotlib, which the extra `plot` brings.
+        """
+        return picture_maker(self.DRAWN_IN, self.FIGURE)(self, *how)
 
 
 @dataclass(frozen=True, slots=True)

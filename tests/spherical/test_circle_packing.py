@@ -20,7 +20,7 @@ from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_row
 from geartrain.spherical.circle_packing import SpherePacking, pack_circles
 from geartrain.spherical.configuration import regions
 from geartrain.spherical.graph_set import separating_pair
-from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, frames, moved
+from geartrain.spherical.pitch_cones import angle_rows, moved
 
 Floats = NDArray[np.float64]
 Edge = tuple[str, str]
@@ -203,15 +203,6 @@ def test_all_derivatives_are_those_of_differences() -> None:
             step[k] = h
             there, back = (function(moved(packing.axes, s * step.reshape(-1, 2)))[0] for s in (1, -1))
             assert np.allclose((there - back) / (2 * h), slopes[:, k], atol=3e-8)
-
-
-def test_an_axis_that_turns_with_all_others_changes_no_angle_between_azimuths() -> None:
-    axes = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
-    at, to = np.array([0, 0]), np.array([1, 2])
-    spin = np.cross(np.array([0.1, 0.5, -0.3]), axes)
-    steps = np.einsum("gx,gkx->gk", spin, frames(axes)).ravel()
-    rows = azimuth_rows(axes, at, to) @ steps
-    assert rows[0] - rows[1] == pytest.approx(0, abs=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -485,12 +476,3 @@ def test_the_room_opens_without_scipy_and_networkx() -> None:
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert "scipy" not in loaded
     assert "networkx" not in loaded
-
-
-def test_a_full_turn_of_angles_is_shared_by_the_regions() -> None:
-    """Round every gear the corners of the regions add up to one turn, so one loop follows from the others."""
-    found = from_graph(faces_and_vertices(ASYM), aim="phases")
-    z = np.ones(len(found.configuration.axes))
-    corners = corners_of(found.packing.regions, np.ones(len(z), dtype=np.int64))
-    total, _ = loop_sums(found.configuration.axes, corners, z)
-    assert total.sum() == pytest.approx(len(z))

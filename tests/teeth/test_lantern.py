@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import acos, asin, cos, hypot, log, pi, sin, sqrt, tan
+from math import acos, asin, cos, hypot, log, pi, sin, tan
 from typing import Any
 
 import numpy as np
@@ -221,15 +221,3 @@ def test_lanterns_that_do_not_fit_are_refused_with_a_reason(given: dict[str, Any
     (problem,) = caught.value.problems
     assert words in f"{problem.what} {problem.why}"
     assert problem.fix
-
-
-def test_pins_off_the_pitch_circle_take_their_place_from_the_law_of_cosines() -> None:
-    path = lantern(pin_diameter="1.6", pin_radius="17.7").path(24, 36)
-    A, R, B = 17.7, 18.0, 0.8
-    for part in (0.2, 0.6, 1.0):
-        X = part * path.arcs[1]
-        beta = acos((A * A + R * R - B * B) / (2 * A * R)) + X / R
-        L = sqrt(A * A + R * R - 2 * A * R * cos(beta))
-        c = path.at(np.array(X))
-        assert float(c.d) == pytest.approx(L - B, rel=1e-11)
-        assert float(c.psi) == pytest.approx(asin((R - A * cos(beta)) / L), rel=1e-11)

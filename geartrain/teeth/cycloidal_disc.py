@@ -1,4 +1,4 @@
-"""A disc of lobes that rolls in a ring of round pins: its outline, where pins press, what that costs.
+"""A disc of lobes that rolls in a ring of round pins: outline, loads of the pins, losses; and as a pair of a train.
 
 Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from that of
 its ring. A pin's centre describes a shortened epitrochoid in the disc, whose outline stands a pin's radius within it.

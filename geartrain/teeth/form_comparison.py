@@ -1,7 +1,7 @@
-"""Conjugate tooth forms beside the 20 degree involute of the same pair of wheels and the same arcs of contact.
+"""Comparison of conjugate tooth forms with the 20 degree involute of the same wheels and the same arcs of contact.
 
 Forms are comparable where they are in contact equally long: arcs of approach and recess are given, in pitches, and each
-form makes the pair that has them. What it costs is told as a ratio to the involute's.
+form makes the pair that has them. Costs are ratios to those of the involute.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A gear pair with real teeth: what a train asks of it, whatever their form."""
+"""A gear pair with real teeth, as a train uses it, whatever the tooth form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The losses of a pair whose friction depends on the speed at which its teeth slide, whatever their form."""
+"""Losses of a pair whose friction depends on the sliding speed of its teeth, whatever their form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all tooth forms share: a declaration that makes a gear mesh of two wheels, and the field types they declare."""
+"""The base class of tooth forms, which makes a gear mesh of two wheels; and the field types that forms declare."""
 
 from __future__ import annotations
 

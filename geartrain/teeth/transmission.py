@@ -1,8 +1,8 @@
-"""The transmission law of a pair: what every tooth form and every pin answers, so that the rest need not know which.
+"""Transmission functions of pairs: the interface of every tooth form and pin, the exact ratio, and derived functions.
 
 Angles are forward angles: S of the driver and q of the driven side both grow as the pair turns forward, and S = 0 has a
-driver's tooth on the line of centres (a pin: pointing at the other axis). The sign an external mesh gives to the driven
-speed is the train's business, not the law's.
+driver's tooth on the line of centres (a pin: pointing at the other axis). The sign that an external mesh gives to the
+driven speed belongs to the train, not to these functions.
 """
 
 from __future__ import annotations

@@ -107,16 +107,17 @@ class UniformTemperature(ConjugateToothForm):
     def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
         """The sides with the wanted working depth, which grows with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
-        from geartrain.teeth.conjugate.path_costs import to_depth, working_depth
+        from geartrain.teeth.conjugate.path_costs import depth, to_depth
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         arcs = arcs_of(self.arcs, pitch)
         if self.depth is not None:
             wanted = float(self.depth.value) * pitch.p / pi
         else:
-            wanted = working_depth(pitch, [involute(X, _INVOLUTE) for X in arcs])
+            wanted = depth(PathOfContact(pitch, *(involute(X, _INVOLUTE) for X in arcs)))
         # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
         start = max(2 * wanted / (arcs[0] ** 2 + arcs[1] ** 2) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2)
-        gamma = to_depth(lambda g: working_depth(pitch, self._sides(pitch, g)), wanted, start, sum(arcs))
+        gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)
 
 

@@ -159,8 +159,8 @@ class ConjugateMesh(GearMesh):
 
     def account(self) -> PairAccount:
         """Arcs and contact ratio of its design, error, play and efficiency."""
-
-        return conjugate_account(self)
+        figures = _figures(self)
+        return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
 
 
 def _shallow(gear: int, overlap: float) -> Problem:
@@ -173,7 +173,7 @@ def _shallow(gear: int, overlap: float) -> Problem:
     )
 
 
-# ---------------------------------------------------------------------------------------------------- conjugate account
+# -------------------------------------------------------------------------------------------------------------- figures
 
 
 @dataclass(frozen=True)
@@ -205,17 +205,11 @@ class ConjugateFigures(PairFigures):
     overlap_ratio: float | None = None
 
 
-def conjugate_account(mesh: ConjugateMesh) -> PairAccount:
-    """One row, and the figures."""
-    figures = conjugate_figures(mesh)
-    return PairAccount(_WORDS, (AccountTable(_HEADER, _row(mesh, figures), wide=True),), figures)
-
-
-def conjugate_figures(mesh: ConjugateMesh) -> ConjugateFigures:
+def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
     """Of a pair as it is driven; involutes keep their motion where they cannot run."""
     law, path = mesh.law, mesh.law.path
     pitch, runs = path.pitch, bool(mesh.verdict)
-    approach, recess = driver_arcs(law)
+    approach, recess = _driver_arcs(law)
     return ConjugateFigures(
         mesh.counts,
         mesh.verdict,
@@ -251,7 +245,7 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
     )
 
 
-def driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
+def _driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
     """The driver's approach and recess (X)."""
     approach, recess = law.path.arcs
     return (approach, recess) if law.driver == 1 else (recess, approach)

@@ -1,4 +1,4 @@
-"""Conjugate teeth in mesh: whether they can run, and their law, the exact ratio at every instant less friction."""
+"""Pairs of conjugate teeth and their transmission function: the exact ratio at every instant, with friction losses."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ A contact line of a bevel pair has these ratios at every distance from the apex,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import floor, inf, nan
@@ -379,12 +379,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     return 1 / steepest if steepest > 0 else inf
 
 
-# -------------------------------------------------------------------------------------------------------- working depth
-
-
-def working_depth(pitch: PitchSurfaces, sides: Sequence[PathSide]) -> float:
-    """Heights of the last contacts over the pitch line, summed (modules; rad)."""
-    return sum(height(pitch, side) for side in sides)
+# -------------------------------------------------------------------------------- uniform temperature of a wanted depth
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:

@@ -1,4 +1,4 @@
-"""The two wheels that a conjugate tooth form is asked about, and whether there can be such a pair."""
+"""The two wheels of a pair with conjugate teeth, and whether there can be such a pair."""
 
 from __future__ import annotations
 

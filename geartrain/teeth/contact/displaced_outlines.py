@@ -1,4 +1,4 @@
-"""What displaced flanks of any two outlines do to the driven wheel, for teeth without a path of contact.
+"""Displaced flanks of any two outlines: how far they turn the driven wheel, for teeth without a path of contact.
 
 One couple of teeth alone is turned through its contact, and where it touches the common normal is found: it passes the
 point that parts the line of centres as the speeds do at that instant. A flank that stands out by n along it turns the

@@ -1,4 +1,4 @@
-"""A gear pair whose form gives the outline of both wheels and nothing else: its motion follows from their contact."""
+"""A gear pair of a train whose form gives only the outlines of both wheels; its motion follows from their contact."""
 
 from __future__ import annotations
 

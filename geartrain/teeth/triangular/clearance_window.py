@@ -1,4 +1,4 @@
-"""Can a pair of wheels turn? The verdict, the play of the back flanks, and the window of clearance."""
+"""Whether a pair of triangular wheels turns: verdict, backlash of the coast flanks, window of clearance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a pair changes with one or two of its parameters."""
+"""Verdict and figures of a pair of triangular wheels as one or two parameters vary."""
 
 from __future__ import annotations
 

@@ -182,8 +182,9 @@ class TriangularMesh(GearMesh):
 
     def account(self) -> PairAccount:
         """Its clearance, its law and its collisions."""
-
-        return triangular_account(self)
+        figures = triangular_figures(self.law, self.window, losses=self.efficiency(self.driver))
+        tables = AccountTable(_PLACE, _place_row(self)), AccountTable(_LAW, _law_row(self, figures))
+        return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
         """Everything that is wrong, with what would mend it."""
@@ -194,7 +195,7 @@ class TriangularMesh(GearMesh):
             yield Problem(*explain_friction_lock(self.law))
 
 
-# --------------------------------------------------------------------------------------------------- triangular account
+# -------------------------------------------------------------------------------------------------------------- figures
 
 
 @dataclass(frozen=True)
@@ -219,13 +220,6 @@ class TriangularFigures(PairFigures):
     intervals: tuple[DriveInterval, ...]
     jumps: tuple[SpeedJump, ...]
     impacts: Any = None
-
-
-def triangular_account(mesh: TriangularMesh) -> PairAccount:
-    """A row on its clearance and one on its law, and the figures."""
-    figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
-    tables = AccountTable(_PLACE, _place_row(mesh)), AccountTable(_LAW, _law_row(mesh, figures))
-    return PairAccount(_WORDS, tables, figures)
 
 
 def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from geartrain import GearTrain, load
 from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impacts
 from geartrain.errors import GearTrainError
 from geartrain.report import collect_report, describe_train, to_markdown
-from geartrain.scene import make_scene
+from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth import (
     CircularArc,
     Cycloidal,
@@ -268,20 +268,13 @@ def test_a_shipped_clock_runs_with_them_and_its_hands_stray_by_little(clock: Gea
     assert "by the contact of their outlines" in said
 
 
-def test_what_is_drawn_has_the_standards_tips(clock: GearTrain) -> None:
-    scene = make_scene(clock)
-    assert scene is not None
-    train = clock.declaration
-    from geartrain.dynamics.train_teeth import find_train_teeth
-
-    places = {name: type("Place", (), {"module": 1.0, "cone": 0.0})() for name in train.wheels}
-    teeth = find_train_teeth(clock.mechanics, places)
-    great, leaf = teeth.wheels["g96"], teeth.wheels["c8"]
-    assert not teeth.problems.keys() & {"g96", "c8"}
-    assert great.tip == pytest.approx(48 + 1.488, abs=0.006)  # the table at ratios 11 and 12: 1.488, 1.491
-    assert leaf.tip == pytest.approx(4.67, rel=1e-12)
-    outline = Polygon(great.contours(1.0)[0].flattened(1e-4))
-    assert outline.is_valid
+def test_what_is_cut_has_the_standards_tips(clock: GearTrain) -> None:
+    wheels = SolidModel(clock, ManufacturingSizes()).blanks.wheels
+    great, leaf = ((wheels[name], wheels[name].pitch_radius * 2 / z) for name, z in (("g96", 96), ("c8", 8)))
+    # the table at ratios 11 and 12: 1.488, 1.491
+    assert great[0].tip_radius / great[1] == pytest.approx(48 + 1.488, abs=0.006)
+    assert leaf[0].tip_radius / leaf[1] == pytest.approx(4.67, rel=1e-12)
+    assert Polygon(great[0].contours[0].flattened(1e-4)).is_valid
 
 
 # without a line for it anywhere else ---------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import Any
 
 from jsonschema import Draft202012Validator
 
-from geartrain.report.json_schema import answers
+from geartrain.report import answer_schema
 
 
 def closed(schema: Any) -> Any:
@@ -27,7 +27,7 @@ def closed(schema: Any) -> Any:
 
 @cache
 def validators(question: str) -> list[Draft202012Validator]:
-    shipped = answers()[question]
+    shipped = answer_schema()["$defs"][question]
     return [Draft202012Validator(each) for each in (shipped, *([] if question in OPEN else [closed(shipped)]))]
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import inspect
 import json
+import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -12,6 +14,7 @@ from io import StringIO
 from typing import Any
 from unittest.mock import patch
 
+import pytest
 import typer.main
 from typer.testing import CliRunner, Result
 
@@ -74,6 +77,21 @@ def without(*missing: str, arguments: list[object]) -> subprocess.CompletedProce
     code = BLOCK.format(missing=set(missing))
     command = [sys.executable, "-c", code, *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def interrupt_after(count: int, patch: pytest.MonkeyPatch) -> list[int]:
+    """Interrupts this process when a progress bar advances for the `count`-th time; the advances, as they come."""
+    from geartrain.cli.long_runs import ProgressBar
+
+    told: list[int] = []
+
+    def advance(bar: ProgressBar, steps: int = 1) -> None:
+        told.append(steps)
+        if len(told) == count:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    patch.setattr(ProgressBar, "advance", advance)
+    return told
 
 
 def imported_by(code: str) -> set[str]:

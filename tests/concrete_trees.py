@@ -18,8 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from geartrain.search.reconstruct.reconstruction_problem import (
-    NEW,
+from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     PlacedWheel,
@@ -240,7 +239,7 @@ def _with_dials(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
 
 
 def _at_place(node: Node, dial: SearchedDial) -> bool:
-    return dial.place is None or node[0] == (ADDED if dial.place == NEW else dial.place)
+    return dial.place is None or node[0] == (ADDED if dial.place == "new" else dial.place)
 
 
 def _fits(speed: Fraction, dial: SearchedDial) -> bool:
@@ -431,7 +430,7 @@ def _random_dial(chance: random.Random, arbor: _Grown, speed: Fraction) -> Searc
     slack = abs(speed) / 50 if chance.random() < 0.2 else Fraction(0)
     place = None
     if chance.random() < 0.4:
-        place = f"A{arbor.number}" if arbor.survives else NEW
+        place = f"A{arbor.number}" if arbor.survives else "new"
     return SearchedDial(f"D{arbor.number}", wanted - slack, wanted + slack, signed, place)
 
 

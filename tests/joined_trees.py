@@ -15,7 +15,7 @@ from dataclasses import replace
 import concrete_trees as plain
 from concrete_trees import ADDED, DRIVEN, UNKNOWN, Node, Wheel
 
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
+from geartrain.search.reconstruct import ReconstructionProblem, SurvivingArbor
 
 COUPLING: Wheel = ("-", 1)
 Pairs = tuple[tuple[str, str], ...]

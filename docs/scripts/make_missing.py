@@ -10,8 +10,8 @@ from pathlib import Path
 from make_errata import changed, number, rows
 
 from geartrain import GearTrain, load
-from geartrain.search.train.train_findings import Assignment, PartFindings, TrainFindings
-from geartrain.search.train.train_search import search_train
+from geartrain.search import Assignment, TrainFindings, search_train
+from geartrain.search.train.train_findings import PartFindings
 from geartrain.train.periods import period_table
 
 PAGE = Path(__file__).resolve().parents[1] / "missing-parts.md"

@@ -1,9 +1,15 @@
-"""Command line: one module for each command. Commands import what they need when they run.
+"""Command line: `VerbGroup` names the function or module of each command, which is imported when it runs.
 
-Map: `verbs` imports the module of a command, `exit_codes` ends a run; `common` has the options that commands share, the
-output of results and the loading of trains, `option_values` reads values of options, `long_runs` has progress bars and
-journals, `time_runs` the options of motion in time, `theme` that of colours. `mesh` is a group of commands. Commands of
-wings are in the folders of their capabilities.
+verbs           groups of commands, imported on request; exit codes
+common          options that commands share, loading of trains, output of results
+option_values   values of options; `long_runs` has progress bars, journals, and options of motion in time
+declarations    `init`, `format`, `list`, `periods`, `schema`
+solve           `solve`, `equations`, `formula`; `check`, `graph`, `gearbox`, `bench` have modules of their own
+report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
+torques, motion, sphere
+mesh            a group: a pair of wheels of any tooth form
+
+Commands of wings are in the folders of their capabilities.
 """
 
 from __future__ import annotations
@@ -17,8 +23,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.exit_codes import EndingGroup, guarded
-from geartrain.cli.verbs import LazyGroup, Verbs
+from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
@@ -26,18 +31,18 @@ class VerbGroup(EndingGroup, LazyGroup):
 
     verbs = Verbs(
         {
-            "report": "geartrain.cli.report",
-            "view": "geartrain.cli.view",
-            "watch": "geartrain.cli.watch",
+            "report": "geartrain.cli.report:report",
+            "view": "geartrain.cli.view:view",
+            "watch": "geartrain.cli.view:watch",
             "draw": "geartrain.cli.draw",
             "export": "geartrain.workshop.export.verb",
-            "compare": "geartrain.cli.compare",
+            "compare": "geartrain.cli.report:compare",
             "check": "geartrain.cli.check",
-            "solve": "geartrain.cli.solve",
-            "equations": "geartrain.cli.equations",
-            "init": "geartrain.cli.init",
-            "format": "geartrain.cli.format",
-            "formula": "geartrain.cli.formula",
+            "solve": "geartrain.cli.solve:solve",
+            "equations": "geartrain.cli.solve:equations",
+            "init": "geartrain.cli.declarations:write_template",
+            "format": "geartrain.cli.declarations:write_style",
+            "formula": "geartrain.cli.solve:formula",
             "gearbox": "geartrain.cli.gearbox",
             "graph": "geartrain.cli.graph",
             "torques": "geartrain.cli.torques",
@@ -51,9 +56,9 @@ class VerbGroup(EndingGroup, LazyGroup):
             "posterior": "geartrain.search.posterior.verb",
             "optimise": "geartrain.workshop.sizes.verb",
             "reconstruct": "geartrain.search.reconstruct.verb",
-            "schema": "geartrain.cli.schema",
-            "list": "geartrain.cli.list",
-            "periods": "geartrain.cli.periods",
+            "schema": "geartrain.cli.declarations:print_schema",
+            "list": "geartrain.cli.declarations:list_trains",
+            "periods": "geartrain.cli.declarations:list_periods",
             "mesh": "geartrain.cli.mesh",
             "bench": "geartrain.cli.bench",
         },

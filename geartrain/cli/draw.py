@@ -20,8 +20,8 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.common import draw as write_figure
+from geartrain.cli.option_values import Theme
 from geartrain.cli.option_values import turns as read_turns
-from geartrain.cli.theme import Theme
 
 
 def run(

@@ -26,8 +26,8 @@ def run(
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
     from geartrain.analysis.gear_train import load
     from geartrain.kinematics import graph
-    from geartrain.report.graph_tables import describe_adjacency, describe_edges
     from geartrain.report.text import to_markdown
+    from geartrain.report.train_report import describe_adjacency, describe_edges
 
     to = sink(out, force, _SUFFIXES)
     form = form or _SUFFIXES.get(to.suffix, "")

@@ -1,29 +1,37 @@
-"""What commands that may run for long share: an executor, a journal of what is done, a progress bar, how they end."""
+"""Long runs of commands: an executor, a journal of what is done, a progress bar; options of motion in time.
+
+Ctrl-C ends a motion in time after the step in progress.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
+import signal
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from geartrain.cli.common import tell
+from geartrain.cli.common import Names, tell
+from geartrain.cli.option_values import MOST_COUNT, exact, input_rate
+from geartrain.cli.option_values import restitution as read_restitution
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from rich.progress import Progress, TaskID
 
+    from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.work import Execution, Journal
+    from geartrain.scene.scene_run import TimeRun
 
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default all cores.")]
 Dask = Annotated[str | None, typer.Option("--dask", help="Address of a dask scheduler whose workers do the work.")]
@@ -148,3 +156,91 @@ def _check_others(path: Path, question: Mapping[str, Any]) -> None:
     others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
     if problems := [another_question(other, question) for other in others]:
         raise QuestionError(problems)
+
+
+# ------------------------------------------------------------------------------------------------------- motion in time
+
+
+TURNS, SKIP = "10", "1"
+Rate = Annotated[
+    str | None, typer.Option("--rate", help="Turns a second of the input, or such as '30 rpm'; default the drive.")
+]
+Turns = Annotated[str | None, typer.Option("--turns", help=f"Turns of the input that are counted; default {TURNS}.")]
+Skip = Annotated[str | None, typer.Option("--skip", help=f"Turns before, which are not counted; default {SKIP}.")]
+Steps = Annotated[
+    int | None,
+    typer.Option("--steps", min=1, max=MOST_COUNT, help="Steps in a turn of the input; default by its teeth."),
+]
+Restitution = Annotated[
+    str | None, typer.Option("--restitution", help="Of all impacts, 0 to 1; default as declared, or 0.")
+]
+ToothModel = Annotated[
+    Literal["rigid", "compliant"] | None,
+    typer.Option("--model", help="Teeth that are rigid, the default, or yield by their stiffness."),
+]
+
+_MOST_TURNS = 1e9
+_WHOLE = 1_000_000  # of a bar
+
+
+@dataclass(frozen=True)
+class TimeRequest:
+    """What is asked of a train in time, as options give it; None where nothing is."""
+
+    rate: str | None = None
+    turns: str | None = None
+    skip: str | None = None
+    steps: int | None = None
+    restitution: str | None = None
+    model: Literal["rigid", "compliant"] | None = None
+    without: Names = None
+    fast: bool | None = None
+
+    def arguments(self) -> dict[str, Any]:
+        """What `GearTrain.dynamics` is given. Raises `GearTrainError` for what is no number, or out of range."""
+        turns, skip = TURNS if self.turns is None else self.turns, SKIP if self.skip is None else self.skip
+        return {
+            "rate": None if self.rate is None else input_rate(self.rate),
+            "turns": float(exact("--turns", turns, "number of turns", "20", 0, _MOST_TURNS)),
+            "skip": float(exact("--skip", skip, "number of turns", "1", 0, _MOST_TURNS)),
+            "steps": self.steps,
+            "restitution": None if self.restitution is None else read_restitution(self.restitution),
+            "without": tuple(self.without or ()),
+            "fast": self.fast,
+            "model": self.model or "rigid",
+        }
+
+
+def run_in_time(train: GearTrain, state: str | None, asked: dict[str, Any]) -> TimeRun:
+    """The run, with a bar that tells how far it is; Ctrl-C ends it after the step that it is in."""
+    with interruptible("motion in time") as on_done:
+        return train.dynamics(state=state, **asked, on_done=on_done)
+
+
+@contextmanager
+def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
+    """A bar, as what is told each further share of the work; it answers True once Ctrl-C has come."""
+    with progress(what, _WHOLE, patience=2.0) as bar, _interrupts() as came:
+
+        def on_done(share: float) -> bool:
+            bar.advance(round(share * _WHOLE))
+            return bool(came)
+
+        yield on_done
+
+
+@contextmanager
+def _interrupts() -> Iterator[list[int]]:
+    """A list into which the first Ctrl-C goes; the second ends all as ever."""
+    came: list[int] = []
+
+    def note(number: int, frame: Any) -> None:
+        signal.signal(signal.SIGINT, before)
+        came.append(number)
+
+    before = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield came
+    finally:
+        signal.signal(signal.SIGINT, before)

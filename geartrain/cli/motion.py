@@ -30,9 +30,8 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
-from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
     from geartrain.dynamics import ErrorSamples, Motion, MotionRun
@@ -87,7 +86,7 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        from geartrain.report.motion_figures import separation_rates
+        from geartrain.report.motion_report import separation_rates
 
         of = train.name, state, partial(separation_rates, train, state, without or ())
         _report(asked, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
@@ -127,8 +126,7 @@ def _report(
     every_output: bool,
 ) -> None:
     """The figures, into the second place where they are cut short."""
-    from geartrain.report.motion_figures import collect_motion
-    from geartrain.report.motion_report import describe_motion
+    from geartrain.report.motion_report import collect_motion, describe_motion
 
     work = asked.samples * (1 + phases + estimates + spectrum)
     stopped = False

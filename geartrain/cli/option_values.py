@@ -1,17 +1,23 @@
-"""Numbers as options give them, for every verb: read once, finite, within what the option can mean; a complaint about a
-pair of `geartrain mesh` goes to the option it belongs to.
+"""Values of options: numbers that are finite and within the range of the option, and themes.
+
+An error of a pair of `geartrain mesh` is reported at the option that it belongs to.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 from math import inf, tau
-from typing import Literal
+from typing import Annotated, Literal
 
+import typer
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.scene.palette import ThemeName
+
+Theme = Annotated[ThemeName, typer.Option("--theme", help="Colours of pictures: light, dark, or print without colour.")]
+
 
 Least = Literal["0", "above 0"] | None
 _MOST = 1e30  # squares and products of such numbers are floats

@@ -1,4 +1,4 @@
-"""`geartrain report`: structure, circuits, mobility, speeds, outputs, targets and doubts."""
+"""`geartrain report` and `compare`: a report on a train, and the outputs of several trains side by side."""
 
 from __future__ import annotations
 
@@ -6,7 +6,21 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Force, Json, Out, as_json, emit, is_sound, load_all, show, sink
+from geartrain.cli.common import (
+    GOOD,
+    VERDICT,
+    Files,
+    Force,
+    Json,
+    Out,
+    as_json,
+    emit,
+    give,
+    is_sound,
+    load_all,
+    show,
+    sink,
+)
 from geartrain.errors import GearTrainError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -14,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.report.document import Document, Picture
 
 
-def run(
+def report(
     files: Files,
     out: Out = None,
     json: Json = False,
@@ -45,8 +59,8 @@ def run(
 
 
 def _shared(train: GearTrain, view: bool) -> Document:
-    from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report
+    from geartrain.report.train_report import describe_shared_page
 
     pictures, notes = _pictures(train)
     if not view:
@@ -78,3 +92,25 @@ def _svg(train: GearTrain, kind: Literal["plan", "dials"]) -> str:
     from geartrain.drawing import picture, render
 
     return render(picture(train, kind), ".svg").decode("utf-8")
+
+
+def compare(
+    files: Files,
+    out: Out = None,
+    json: Json = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="All outputs, not only those with a dial or target.")
+    ] = False,
+    force: Force = False,
+) -> None:
+    """Put the outputs of several trains side by side, with their errors against the targets."""
+    from geartrain.report.reconstruction_comparison import describe_comparison
+    from geartrain.report.train_data import collect_report
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    trains = load_all(files)
+    sound = all(answer for train in trains for answer in train.answers())
+    give(
+        to, json, lambda: [collect_report(train) for train in trains], lambda: [describe_comparison(trains, everything)]
+    )
+    raise typer.Exit(GOOD if sound else VERDICT)

@@ -1,4 +1,4 @@
-"""`geartrain solve`: speeds, of everything or of one output."""
+"""`geartrain solve`, `equations` and `formula`: speeds, the Willis system, outputs as formulas in tooth counts."""
 
 from __future__ import annotations
 
@@ -6,12 +6,25 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
+from geartrain.cli.common import (
+    GOOD,
+    VERDICT,
+    File,
+    Force,
+    Json,
+    Out,
+    StateName,
+    as_json,
+    chosen_states,
+    emit,
+    give,
+    sink,
+)
 
 OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
 
 
-def run(
+def solve(
     file: File,
     output: OutputName = None,
     state: StateName = None,
@@ -34,10 +47,58 @@ def run(
 
         emit(as_json(collect_answers(train, answers, whole=output is None)), to)
     else:
-        from geartrain.report.speeds_text import speeds_text
+        from geartrain.report.answers import speeds_text
         from geartrain.train.trade_words import told_words
 
         words = told_words("\n".join(str(answer.verdict) for answer in answers if not answer))
         tables = (speeds_text(answer, output, train.kinematics.joint_sums) for answer in answers)
         emit("\n".join((*tables, *filter(None, [words]))), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)
+
+
+def equations(
+    file: File,
+    state: StateName = None,
+    latex: Annotated[bool, typer.Option("--latex", help="As a LaTeX align environment.")] = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Print the Willis system of a train, one labelled equation a line, as text or LaTeX."""
+    from geartrain.analysis.gear_train import load
+
+    to = sink(out, force)
+    train = load(file)
+    blocks = []
+    for name in chosen_states(train, state):
+        system = train.equations(name)
+        head = [] if name is None else [f"{'%' if latex else '#'} state {name}"]
+        blocks.append("\n".join([*head, system.latex() if latex else system.text()]))
+    emit("\n\n".join(blocks), to)
+
+
+def formula(
+    file: File,
+    output: Annotated[list[str] | None, typer.Option("--output", help="Of this output; may be repeated.")] = None,
+    state: StateName = None,
+    inverse: Annotated[bool, typer.Option("--inverse", help="Ratios as input over output too.")] = False,
+    sensitivities: Annotated[
+        bool, typer.Option("--sensitivities", help="How each count changes each ratio, as formulas.")
+    ] = False,
+    latex: Annotated[bool, typer.Option("--latex", help="Formulas as LaTeX.")] = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """What each output is, in lowest terms, as a formula in tooth counts and speeds of inputs; where it locks."""
+    from geartrain.analysis.gear_train import load
+    from geartrain.report.formula_report import collect_formulas, describe_formulas
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    train = load(file)
+    states = chosen_states(train, state)
+    report = collect_formulas(train, states, tuple(output or ()), sensitivities)
+    give(to, json, lambda: report, lambda: [describe_formulas(report, latex, inverse)])
+    # a state that is free, as it says, need not determine its outputs
+    bound = [name for name in states if train.solve(name).verdict or not train.solve(name).as_expected]
+    asked = sum(len(output or train.declaration.case(name).outputs) for name in bound)
+    raise typer.Exit(GOOD if sum(each.state in bound for each in report.formulas) == asked else VERDICT)

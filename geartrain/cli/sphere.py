@@ -22,8 +22,7 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.option_values import decimal
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme, decimal
 
 if TYPE_CHECKING:
     from geartrain.spherical import Configuration, GraphSet

@@ -29,9 +29,8 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run, progress
-from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
-from geartrain.cli.theme import Theme
 from geartrain.errors import GearTrainError, Problem
 from geartrain.wings import wing
 
@@ -72,8 +71,7 @@ def run(
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
     from geartrain.analysis.gear_train import load
-    from geartrain.report.torque_figures import collect_torque_report
-    from geartrain.report.torque_report import describe_torques
+    from geartrain.report.torque_report import collect_torque_report, describe_torques
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
@@ -171,8 +169,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | N
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
-    from geartrain.report.torque_cycle_report import turns_text
-    from geartrain.report.torque_report import summary_text
+    from geartrain.report.torque_report import summary_text, turns_text
 
     torques = _loaded(train, found, "--plot")
     name = train.name if torques.state is None else f"{train.name}, state {torques.state}"

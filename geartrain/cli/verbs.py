@@ -1,8 +1,17 @@
-"""Commands of a group, each imported when it is requested, so that none waits for the imports of another."""
+"""Groups of commands: each command is imported when it is requested, and each end has its exit code.
+
+A fault of geartrain itself never has the exit code of a verdict.
+"""
 
 from __future__ import annotations
 
+import errno
+import os
+import sys
+import tempfile
+import traceback
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -10,10 +19,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import typer
 from typer.core import TyperGroup
 
+from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain, tell
+from geartrain.errors import GearTrainError, Problem, printable
 from geartrain.wings import WINGS, has_wing
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
+
 
 Command = Any
 """A command of click, which typer carries with it or imports, by its version."""
@@ -22,14 +34,14 @@ Command = Any
 class Verbs(Mapping[str, Command]):
     """The commands of a group by name, each made when it is requested.
 
-    The module of a command has a function `run`, and `context_settings` where it needs any; or a `typer.Typer` named
-    `app` for a group.
+    A command is a function (`module:function`) or a module with a function `run`, and `context_settings` where it needs
+    any; or with a `typer.Typer` named `app` for a group.
 
     Parameters
     ----------
     modules
-        Name of each command -> its module, in the order in which `--help` lists them. Commands of a wing that is not
-        installed are left out.
+        Name of each command -> its function or module, in the order in which `--help` lists them. Commands of a wing
+        that is not installed are left out.
     make
         Name -> function, for commands that are not modules.
     entry_points
@@ -72,25 +84,23 @@ class Verbs(Mapping[str, Command]):
         return {each.name: each for each in entry_points(group=self._group) if each.name not in known}
 
     def _command(self, name: str) -> Command:
-        settings = None
-        if name in self._make:
-            run = self._make[name]()
-        else:
-            module = self._module(name)
-            if hasattr(module, "app"):
-                command = typer.main.get_command(module.app)
-                command.name = name
-                return command
-            run, settings = module.run, getattr(module, "context_settings", None)
+        found = self._make[name]() if name in self._make else self._load(name)
+        if hasattr(found, "app"):
+            command = typer.main.get_command(found.app)
+            command.name = name
+            return command
+        run, settings = getattr(found, "run", found), getattr(found, "context_settings", None)
         one = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         one.command(name, context_settings=settings)(run)
         return typer.main.get_command(one)
 
-    def _module(self, name: str) -> Any:
-        """The module of a command. Raises `KeyError` for an unknown name and for a wing that is not installed."""
+    def _load(self, name: str) -> Any:
+        """Function or module of a command. Raises `KeyError` for an unknown name and for a wing not installed."""
         if name in self._modules:
+            module, _, function = self._modules[name].partition(":")
             try:
-                return import_module(self._modules[name])
+                found = import_module(module)
+                return getattr(found, function) if function else found
             except ModuleNotFoundError as error:
                 if error.name not in {f"geartrain.{each}" for each in WINGS}:
                     raise
@@ -106,3 +116,123 @@ class LazyGroup(TyperGroup):
     def __init__(self, *given: Any, **more: Any) -> None:
         super().__init__(*given, **more)
         self.commands = self.verbs  # type: ignore[assignment]
+
+
+# ----------------------------------------------------------------------------------------------------------- exit codes
+
+
+FAULT, READER_GONE = 3, 141
+TRACEBACK = "GEARTRAIN_TRACEBACK"
+"""An environment variable: where it is set, a fault's traceback is printed too."""
+
+_DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQUOT", errno.ENOSPC)}
+
+
+class _ReaderGoneError(Exception):
+    """Nobody reads standard output any more."""
+
+
+class EndingGroup(TyperGroup):
+    """A group of verbs; a closed pipe and Ctrl-C are not left to typer, whose exit code would be that of a verdict."""
+
+    def make_context(self, *given: Any, **more: Any) -> Any:
+        """Read the command line; `--help` and `--version` end here."""
+        with _ends():
+            return super().make_context(*given, **more)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the verb that was asked for."""
+        with _ends():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _ends() -> Iterator[None]:
+    """Ends that are not typer's to tell."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise _ReaderGoneError from None
+    except KeyboardInterrupt:
+        tell("stopped")
+        raise typer.Exit(INTERRUPTED) from None
+    except Exception as error:
+        if hasattr(error, "format_message"):  # wrong usage, in the words of typer and the user's
+            error.message = printable(str(error.message))  # type: ignore[attr-defined]
+        raise
+
+
+def guarded(run: Callable[[], Any]) -> int:
+    """Run the command, tell whatever went wrong on standard error, and say with which code to exit."""
+    try:
+        code = _code(run)
+        sys.stdout.flush()
+    except GearTrainError as error:
+        complain(error)
+        return NOT_USABLE
+    except KeyboardInterrupt:
+        return _interrupted()
+    except (BrokenPipeError, _ReaderGoneError):
+        _mute()
+        return READER_GONE
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
+            what = Problem("the result cannot be written", str(error), "make room there", "standard output")
+            complain(GearTrainError(what))
+            _mute()
+            return NOT_USABLE
+        _tell_fault(error)
+        return FAULT
+    return _interrupted() if code == INTERRUPTED else code
+
+
+def _interrupted() -> int:
+    """The exit code of Ctrl-C, also where it came while Python was evaluating a string, as dataclasses and numba do.
+
+    CPython remembers that such an evaluation was interrupted, even if somebody catches that, and `python -m` then dies
+    by the signal at its very end; the next evaluation of a string makes it forget.
+    """
+    eval("0")
+    return INTERRUPTED
+
+
+def _code(run: Callable[[], Any]) -> int:
+    try:
+        run()
+    except SystemExit as ended:
+        if isinstance(ended.__context__, BrokenPipeError):  # rich, which shows the help, ends with 1 then
+            raise _ReaderGoneError from None
+        return ended.code if isinstance(ended.code, int) else 0 if ended.code is None else FAULT
+    return 0
+
+
+def _mute() -> None:
+    """What is left in the buffer goes nowhere, lest the interpreter complain of it on its way out."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _tell_fault(error: Exception) -> None:
+    """One line on standard error; the traceback goes into a file that can be sent."""
+    text = "".join(traceback.format_exception(error))
+    said = printable(str(error).partition("\n")[0])
+    kept = _kept(text)
+    how = f"please report it with {kept}" if kept else f"set {TRACEBACK}=1 to see where, and please report that"
+    tell(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}")
+    if os.environ.get(TRACEBACK):
+        tell(text)
+
+
+def _kept(text: str) -> str:
+    """The name of a new file with a traceback and what was asked, "" where none can be made."""
+    import platform
+    from importlib.metadata import version
+
+    head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
+    asked = f"asked: {sys.argv!r}\n\n"
+    try:
+        handle, name = tempfile.mkstemp(prefix="geartrain-fault-", suffix=".txt", text=True)
+        with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
+            file.write(head + asked + text)
+    except OSError:
+        return ""
+    return name

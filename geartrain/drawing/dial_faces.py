@@ -9,16 +9,27 @@ from math import pi
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Circle, Figure, Polygon
-from geartrain.drawing.labels import text_width
-from geartrain.drawing.style import BLACK, FINE, GREY, SMALL, series_look, sheet, title_of, write
+from geartrain.drawing.arrangement import text_width
+from geartrain.drawing.style import (
+    BLACK,
+    FINE,
+    GREY,
+    SMALL,
+    Axes,
+    Circle,
+    Figure,
+    Polygon,
+    series_look,
+    sheet,
+    title_of,
+    write,
+)
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import decimal, is_short
 from geartrain.scene import Pointer, Scene
-from geartrain.scene.dial_marks import engrave
-from geartrain.scene.dial_scale import DialScale, clock_point, plain_circle
-from geartrain.scene.hand_outlines import HANDS
+from geartrain.scene.dial_scale import DialScale, clock_point, engrave, plain_circle
 from geartrain.scene.pose import body_errors, turns_of
+from geartrain.scene.stroke_letters import HANDS
 
 _MOST = 60  # faces
 _FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title

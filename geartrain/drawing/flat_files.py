@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
 from geartrain.numerics.files import csv_text
-from geartrain.scene.solids.flat_drawing import CUT, ENGRAVE, LAYERS, PITCH, EngravedText, FlatDrawing, wheel_drawing
+from geartrain.scene.solids.bearing_plates import CUT, ENGRAVE, LAYERS, PITCH, EngravedText, FlatDrawing, wheel_drawing
 from geartrain.teeth.outlines.contour import Contour, arc_radius
 from geartrain.teeth.outlines.wheel_outline import WheelOutline
 

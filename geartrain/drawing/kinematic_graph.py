@@ -13,10 +13,27 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.drawing.arrangement import settle
-from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Path, PathPatch, Rectangle
-from geartrain.drawing.labels import Box, LabelSpace, text_box, text_width
-from geartrain.drawing.style import BLACK, BLUE, FINE, GREY, PURPLE, RED, SMALL, sheet, title_of, too_many, write
+from geartrain.drawing.arrangement import Box, LabelSpace, settle, text_box, text_width
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    FINE,
+    GREY,
+    PURPLE,
+    RED,
+    SMALL,
+    Axes,
+    Circle,
+    Figure,
+    Line2D,
+    Path,
+    PathPatch,
+    Rectangle,
+    sheet,
+    title_of,
+    too_many,
+    write,
+)
 from geartrain.scene.palette import Dash
 
 if TYPE_CHECKING:

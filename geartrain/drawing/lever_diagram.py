@@ -11,10 +11,21 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.drawing.arrangement import spread
-from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.labels import text_width
-from geartrain.drawing.style import BLACK, BLUE, GREY, ORANGE, PALE, PURPLE, SMALL, sheet, title_of, too_many
+from geartrain.drawing.arrangement import spread, text_width
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    PALE,
+    PURPLE,
+    SMALL,
+    Axes,
+    Figure,
+    sheet,
+    title_of,
+    too_many,
+)
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers

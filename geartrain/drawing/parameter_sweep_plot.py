@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Patch
 from geartrain.drawing.style import (
     BLACK,
     GREY,
@@ -18,8 +17,14 @@ from geartrain.drawing.style import (
     SMALL,
     TEXT,
     WIDTH,
+    Axes,
+    Figure,
+    Patch,
+    colour_bar,
+    curve_panels,
     headed,
-    plain,
+    legend_below,
+    name_axes,
 )
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
@@ -165,22 +170,19 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
     order = np.argsort(x, kind="stable")
     x, verdicts = x[order], verdicts[order]
     panels = _panels(columns)
-    figure = Figure(figsize=(WIDTH, 1.2 + 2.4 * len(panels)), layout="constrained")
-    rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    figure, rows = curve_panels([2.4] * len(panels), 1.2)
     styles = _band_styles(verdicts)
     for axes, (stem, curves) in zip(rows, panels.items(), strict=True):
-        plain(axes)
         for low, high, kind in _bands(x, verdicts):
             axes.axvspan(low, high, **styles[kind], gid=f"band {kind}")
             if low > x[0]:
                 axes.axvline(low, color=GREY, linewidth=_CUT)
         _curves(axes, x, {label: values[order] for label, values in curves.items()}, verdicts)
-        axes.set_ylabel(_SHOWN.get(stem, stem), fontsize=TEXT)
+        name_axes(axes, y=_SHOWN.get(stem, stem))
     if x[-1] > x[0]:
         rows[-1].set_xlim(x[0], x[-1])
-    rows[-1].set_xlabel(name, fontsize=TEXT)
-    handles = [Patch(**style, label=kind) for kind, style in styles.items()]
-    figure.legend(handles=handles, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
+    name_axes(rows[-1], name)
+    legend_below(figure, 5, [Patch(**style, label=kind) for kind, style in styles.items()], "left")
     return figure
 
 
@@ -241,18 +243,15 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
     figure = Figure(figsize=(WIDTH, 7.0), layout="constrained")
     axes = figure.add_subplot()
     mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap=SCALE, rasterized=shown.size > _MANY, gid="map")
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02)
-    bar.set_label(_SHOWN.get(name, name), fontsize=TEXT)
-    bar.ax.tick_params(labelsize=SMALL)
-    axes.set_xlabel(first, fontsize=TEXT)
-    axes.set_ylabel(second, fontsize=TEXT)
+    colour_bar(figure, axes, mesh, _SHOWN.get(name, name))
+    name_axes(axes, first, second)
     axes.tick_params(labelsize=SMALL)
     if min(verdicts.shape) > 1:
         _regions(axes, x, y, verdicts)
     faults = [kind for kind in _FAULTS if (verdicts == kind).any()]
     handles = [Patch(facecolor="none", edgecolor=GREY, hatch=_FAULTS[kind], label=kind) for kind in faults]
     if handles:
-        figure.legend(handles=handles, loc="outside lower left", ncols=7, fontsize=SMALL, frameon=False)
+        legend_below(figure, 7, handles, "left")
     return figure
 
 

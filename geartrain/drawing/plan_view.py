@@ -12,16 +12,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Patch, Path, PathPatch, Polygon
-from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
-from geartrain.drawing.labels import Box, LabelSpace, text_box
-from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side, oblique_callouts
+from geartrain.drawing.arrangement import Box, Callout, CalloutMargin, LabelSpace, find_margin, text_box
 from geartrain.drawing.projection import (
     ProjectedScene,
     ScaledPage,
+    SideScale,
     arms_of,
     broken_wheels,
     coupling_spans,
+    draw_across,
+    draw_obliquely,
+    draw_side,
+    oblique_callouts,
     project_scene,
 )
 from geartrain.drawing.style import (
@@ -36,6 +38,14 @@ from geartrain.drawing.style import (
     RED,
     SHADE,
     SMALL,
+    Axes,
+    Circle,
+    Figure,
+    Line2D,
+    Patch,
+    Path,
+    PathPatch,
+    Polygon,
     sheet,
     title_of,
     write,

@@ -7,18 +7,36 @@ from fractions import Fraction
 from textwrap import fill
 from typing import Any
 
-from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Path, PathPatch, Rectangle, Stroke
 from geartrain.drawing.sankey import BEND, DROP, TURN, BandSegment, ReturnBand, SankeyLayout, SankeySpot, lay_out_sankey
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WHITE, WIDTH
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    LETTER,
+    PURPLE,
+    RED,
+    SKY,
+    SMALL,
+    TEXT,
+    WHITE,
+    WIDTH,
+    Axes,
+    Figure,
+    Line2D,
+    Patch,
+    Path,
+    PathPatch,
+    Rectangle,
+    write,
+)
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 
 _FINEST = 0.7  # points: a band is never drawn narrower
 _MOST = 300  # nodes
-_LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
 _HEAD, _FOOT = 0.6, 0.45  # inches above and below
-_HALO = (Stroke(linewidth=3.0, foreground="white"),)
 _MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, Path.CLOSEPOLY))
 _ROUND = 0.5523  # of a quarter circle by a cubic
 
@@ -65,7 +83,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
         )
     words = _Words(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
-    title = fill(title, int(placed.width / (TEXT * _LETTER)) + 8)
+    title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
     head = _HEAD + 0.17 * title.count("\n")
     height = placed.height + head + _FOOT
     figure = Figure(figsize=(placed.width, height), dpi=100)
@@ -104,7 +122,7 @@ class _Words:
 
     def width(self, node: PowerNode, power: Fraction) -> float:
         """Of the longer line, in inches."""
-        return max(map(len, self.lines(node, power))) * SMALL * _LETTER
+        return max(map(len, self.lines(node, power))) * SMALL * LETTER
 
     def loss(self, node: PowerNode, power: Fraction) -> str:
         """What a node loses."""
@@ -112,7 +130,7 @@ class _Words:
 
     def loss_width(self, node: PowerNode, power: Fraction) -> float:
         """Of what a node loses, in inches."""
-        return len(self.loss(node, power)) * SMALL * _LETTER
+        return len(self.loss(node, power)) * SMALL * LETTER
 
 
 # --------------------------------------------------------------------------------------------------------------- bands
@@ -204,8 +222,8 @@ def _spot(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNode, w
     name, amount = words.lines(node, spot.power)
     color = {"in": BLUE, "out": GREEN}.get(node.kind, BLACK)
     weight = "normal" if node.kind == "pair" else "bold"
-    _write(axes, x, spot.top - 0.21, name, color, va="bottom", fontweight=weight)
-    _write(axes, x, spot.top - 0.05, amount, color if spot.width == 0 else GREY, va="bottom")
+    write(axes, x, spot.top - 0.21, name, color, va="bottom", fontweight=weight, zorder=5)
+    write(axes, x, spot.top - 0.05, amount, color if spot.width == 0 else GREY, va="bottom", zorder=5)
     if spot.shed:
         _shed(axes, spot, x + spot.width / 2, words.loss(node, placed.sheds[node]))
 
@@ -223,14 +241,7 @@ def _shed(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
     ]  # fmt: skip
     codes = [_MOVE, *[_CURVE] * 3, *[_LINE] * 6, *[_CURVE] * 3, _CLOSE]
     _fill(axes, points, codes, RED, 4.0)
-    _write(axes, middle, tip + 0.03, text, RED, va="top")
-
-
-def _write(axes: Axes, x: float, y: float, text: str, color: str, **how: Any) -> None:
-    """A word, and a halo behind it: a word with a halo of its own is mere outlines in a vector file."""
-    how = {"ha": "center", "fontsize": SMALL, "color": color, "zorder": 5, **how}
-    axes.text(x, y, text, path_effects=_HALO, parse_math=False, **how)
-    axes.text(x, y, text, parse_math=False, **how)
+    write(axes, middle, tip + 0.03, text, RED, va="top", zorder=5)
 
 
 def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from geartrain.drawing.backend import Figure, Patch, Polygon
-from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, headed
+from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, Figure, Patch, Polygon, headed
 from geartrain.numerics.exact import plural
 from geartrain.scene.palette import series_colour
 

@@ -13,9 +13,7 @@ from typing import Any
 import numpy as np
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.drawing.arrangement import arrange
-from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Rectangle
-from geartrain.drawing.labels import Box, LabelSpace, text_box, text_width
+from geartrain.drawing.arrangement import Box, LabelSpace, arrange, text_box, text_width
 from geartrain.drawing.stick_grid import (
     StickCrank,
     StickShaft,
@@ -35,6 +33,11 @@ from geartrain.drawing.style import (
     PALE,
     PURPLE,
     SMALL,
+    Axes,
+    Figure,
+    Line2D,
+    Patch,
+    Rectangle,
     sheet,
     title_of,
     too_many,

@@ -1,24 +1,144 @@
-"""Colours, sizes and wording that the figures share, and words on a picture where there is room for them."""
+"""Shared by all figures: names of matplotlib, colours and sizes, panels for curves and for bars, words, image files.
+
+Importing this module without matplotlib raises an error that names the extra `plot`.
+"""
 
 from __future__ import annotations
 
-from math import degrees
+import re
+from collections.abc import Iterator, Sequence
+from io import BytesIO
 from textwrap import fill, shorten
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Stroke, withStroke
-from geartrain.drawing.theme_colours import SCALES
-from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.scene.palette import THEMES, series_colour, series_dash
-from geartrain.teeth.triangular.real_path import STANDSTILL
-from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError, printable
+from geartrain.scene.palette import THEMES, ThemeName, series_colour, series_dash
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats, Ints
+
+try:
+    from matplotlib import rc_context
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.collections import PolyCollection
+    from matplotlib.figure import Figure as _Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Circle, FancyArrowPatch, Patch, PathPatch, Polygon, Rectangle
+    from matplotlib.path import Path
+    from matplotlib.patheffects import Stroke, withStroke
+    from matplotlib.text import Text
+    from matplotlib.ticker import MaxNLocator
+
+    from geartrain.drawing.theme_colours import SCALES, themed
+except ImportError:
+    raise MissingExtraError("matplotlib", "plot", "a plot") from None
+
+__all__ = [
+    "SUFFIXES",
+    "Axes",
+    "Circle",
+    "FancyArrowPatch",
+    "Figure",
+    "Line2D",
+    "MaxNLocator",
+    "Patch",
+    "Path",
+    "PathPatch",
+    "PolyCollection",
+    "Polygon",
+    "Rectangle",
+    "Stroke",
+    "Text",
+    "rc_context",
+    "render",
+    "withStroke",
+]
+
+
+SUFFIXES = (".svg", ".png", ".pdf")
+
+_METADATA: dict[str, dict[str, str | None]] = {
+    ".svg": {"Date": None},
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None},
+}
+_PATH = re.compile(rb'\bd="[^"]*"')
+_LONG = re.compile(rb"(\.\d{3})\d+")  # a thousandth of a point is finer than any screen
+_ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figures at once
+
+
+class ShownFigure(_Figure):
+    """A figure that a notebook shows as it is: no window, and no state that figures share."""
+
+    def _repr_svg_(self) -> str:
+        return render(self, ".svg").decode("utf-8")
+
+
+Figure = ShownFigure
+
+
+def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName = "light") -> bytes:
+    """A figure as the bytes of an image file; the same figure gives the same bytes with one release of matplotlib.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        From any function of this room.
+    suffix : {".svg", ".png", ".pdf"}
+        The format.
+    dots : float
+        Resolution of a .png [dots per inch], above 0.
+    theme : {"light", "dark", "print"}
+        Colours: on white, on a dark ground, or black and greys for a printer without colours.
+
+    Returns
+    -------
+    bytes
+        What the file holds; control characters in names are written out.
+
+    Raises
+    ------
+    GearTrainError
+        For another suffix.
+
+    Examples
+    --------
+    >>> render(Figure(), ".png")[1:4], render(Figure(), ".pdf")[:4]
+    (b'PNG', b'%PDF')
+    """
+    kind = suffix.lower()
+    if kind not in SUFFIXES:
+        raise GearTrainError(
+            Problem(f"no plot can be written as {suffix or 'a file without suffix'}", fix=f"use {', '.join(SUFFIXES)}")
+        )
+    for text in _texts(figure):
+        if (shown := printable(text.get_text())) != text.get_text():
+            text.set_text(shown)
+    buffer = BytesIO()
+    with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}), themed(figure, theme):
+        if figure.get_layout_engine():
+            figure.draw_without_rendering()  # laid out anew, panels have other ticks, and their words another width
+        figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
+    data = buffer.getvalue()
+    if kind != ".svg":
+        return data
+    data = printable(data.decode("utf-8")).encode("utf-8")  # ids too: XML has no control characters at all
+    return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data)
+
+
+def _texts(artist: Artist) -> Iterator[Text]:
+    """All words in it, but for axes that are not shown: their ticks would be made only to be asked for words."""
+    for child in artist.get_children():
+        if isinstance(child, Text):
+            yield child
+        elif not (isinstance(child, Axis) and not child.axes.axison):
+            yield from _texts(child)
 
 
 WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
@@ -33,33 +153,11 @@ SCALE = SCALES["light"]
 """Of values on a map."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
 LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
-PHASES = {APPROACH: BLUE, RECESS: ORANGE, STANDSTILL: BLACK}
 
 
 def series_look(at: int) -> dict[str, Any]:
     """Colour and dashes of the series at a place from 0 on, as lines take them."""
     return {"color": series_colour(at), "linestyle": series_dash(at)}
-
-
-def pair_text(law: TriangularTransmission, friction: float | None = None) -> str:
-    """Tooth numbers, half angle, clearance factor and friction, by default the law's, of a pair, the driver first."""
-    sizes = law.sizes
-    betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
-    beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
-    wheels = [f"a ring of {z}" if s < 0 else str(z) for z, s in zip((sizes.z1, sizes.z2), sizes.signs, strict=True)]
-    backwards = "" if law.direction > 0 else ", backwards"
-    return (
-        f"{wheels[0]} drives {wheels[1]}{backwards}: half angle {beta}, clearance factor "
-        f"{sizes.clearance_factor:.10g}, friction {law.friction if friction is None else friction:.6g}"
-    )
-
-
-def require_contact(law: TriangularTransmission) -> None:
-    """Raise `GearTrainError` where the pair has no teeth, or none that touch."""
-    if not law.sizes.has_valleys or not law.intervals:
-        raise GearTrainError(
-            Problem("this pair has no contact to draw", law.verdict.text, "change its teeth or its clearance")
-        )
 
 
 def plain(axes: Axes) -> None:
@@ -69,6 +167,60 @@ def plain(axes: Axes) -> None:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT) -> None:
+    """Names of the axes, and a title of the panel at its left."""
+    if x:
+        axes.set_xlabel(x, fontsize=size)
+    if y:
+        axes.set_ylabel(y, fontsize=size)
+    if title:
+        axes.set_title(title, fontsize=size, loc="left", color=BLACK)
+
+
+def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = True) -> tuple[Figure, list[Axes]]:
+    """Panels for curves, below each other, over one axis unless `share` is False.
+
+    heights   of the panels, and `margin` besides (inches)
+    """
+    figure = Figure(figsize=(WIDTH, margin + sum(heights)), layout="constrained")
+    panels = figure.subplots(len(heights), 1, sharex=share, squeeze=False, height_ratios=heights)[:, 0]
+    for axes in panels:
+        plain(axes)
+    return figure, list(panels)
+
+
+def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
+    """A panel for horizontal bars and intervals, one for each name, the first on top; sizes in inches."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    axes.grid(False, axis="y")
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    return figure, axes
+
+
+def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> None:
+    """A whisker at a bar; nothing for None."""
+    if ends is not None:
+        axes.plot(ends, [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=7, gid="within")
+
+
+def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
+    """The scale of a map of colours, beside it."""
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, **how)
+    bar.set_label(name, fontsize=TEXT)
+    bar.ax.tick_params(labelsize=SMALL)
+
+
+def legend_below(
+    figure: Figure, columns: int, handles: Sequence[Artist] | None = None, side: str = "center", **how: Any
+) -> None:
+    """A legend below all panels, by default of what their artists are labelled."""
+    how = {"fontsize": SMALL, "frameon": False, **how} | ({} if handles is None else {"handles": handles})
+    figure.legend(loc=f"outside lower {side}", ncols=columns, **how)
 
 
 def legend_above(axes: Axes, columns: int) -> None:

@@ -14,28 +14,58 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Circle, FancyArrowPatch, Figure, Line2D, Path, Polygon
 from geartrain.drawing.style import (
     BLACK,
+    BLUE,
     GREY,
     HALO,
     ORANGE,
-    PHASES,
     PURPLE,
     SKY,
-    SMALL,
     TEXT,
     WIDTH,
-    pair_text,
-    require_contact,
+    Axes,
+    Circle,
+    FancyArrowPatch,
+    Figure,
+    Line2D,
+    Path,
+    Polygon,
+    legend_below,
+    name_axes,
 )
+from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import DriveInterval
-from geartrain.teeth.triangular.tooth_couple import APPROACH
+from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
+
+PHASES = {APPROACH: BLUE, RECESS: ORANGE, STANDSTILL: BLACK}
+
+
+def pair_text(law: TriangularTransmission, friction: float | None = None) -> str:
+    """Tooth numbers, half angle, clearance factor and friction, by default the law's, of a pair, the driver first."""
+    sizes = law.sizes
+    betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
+    beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
+    wheels = [f"a ring of {z}" if s < 0 else str(z) for z, s in zip((sizes.z1, sizes.z2), sizes.signs, strict=True)]
+    backwards = "" if law.direction > 0 else ", backwards"
+    return (
+        f"{wheels[0]} drives {wheels[1]}{backwards}: half angle {beta}, clearance factor "
+        f"{sizes.clearance_factor:.10g}, friction {law.friction if friction is None else friction:.6g}"
+    )
+
+
+def require_contact(law: TriangularTransmission) -> None:
+    """Raise `GearTrainError` where the pair has no teeth, or none that touch."""
+    if not law.sizes.has_valleys or not law.intervals:
+        raise GearTrainError(
+            Problem("this pair has no contact to draw", law.verdict.text, "change its teeth or its clearance")
+        )
+
 
 Point = tuple[float, float]
 DRIVER, DRIVEN = 1, 2
@@ -192,8 +222,8 @@ def teeth_figure(law: TriangularTransmission, alpha1: float | None = None, whole
     _line_of_centres(axes, here, view)
     if here.touching:
         _contact(axes, here, view)
-    axes.set_title(f"{pair_text(law)}\n{_moment(here)}", fontsize=TEXT, loc="left", color=BLACK)
-    figure.legend(handles=list(_legend(here)), loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
+    name_axes(axes, title=f"{pair_text(law)}\n{_moment(here)}")
+    legend_below(figure, 4, list(_legend(here)))
     return figure
 
 

@@ -10,7 +10,7 @@ from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.drawing.backend import Figure
+    from geartrain.drawing.style import Figure
 
 PictureKind = Literal["plan", "stick", "graph", "lever", "dials"]
 KINDS: tuple[PictureKind, ...] = get_args(PictureKind)

@@ -94,6 +94,8 @@ class TrainMechanics:
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
         """The gear pairs with real teeth by name, whichever side drives, each made when it is first read."""
+        if not any(map(self.declaration.form_of, self.declaration.gears)):
+            return {}  # a train without tooth forms imports none
         from geartrain.dynamics.gear_meshes import find_meshes
         from geartrain.kinematics.circuits.fundamental import shaft_angle
 
@@ -110,6 +112,8 @@ class TrainMechanics:
         GearTrainError
             With all pairs whose teeth cannot be built.
         """
+        if not self.undriven:
+            return ()
         from geartrain.dynamics.gear_meshes import all_meshes
 
         return all_meshes(self.undriven)
@@ -129,6 +133,8 @@ class TrainMechanics:
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
         """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
+        if not self.teeth:
+            return ()
         from geartrain.teeth.gear_mesh import find_faults
 
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
@@ -154,6 +160,8 @@ class TrainMechanics:
     @cached_property
     def pins(self) -> tuple[PinMesh, ...]:
         """The pins in slots whose dimensions are declared, each with its law."""
+        if not self.declaration.couplings:
+            return ()
         from geartrain.dynamics.gear_meshes import find_pins
 
         return find_pins(self.declaration)

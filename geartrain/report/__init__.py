@@ -6,13 +6,20 @@ makes the document of a result, and the result's own `to_dict` its data, so that
 same thing; `answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is worked out here: speeds are
 those of the Willis equation (docs/theory.md, equations 4 and 5), torques and motion those of `geartrain.dynamics`.
 
-Map: `document` and what shows it (`text`, `html_page`, `table_strips`); data and their schema (`answers`,
-`json_schema`, `json_shapes`, `declaration_reference`); a train (`train_data`, `train_report`, `shared_page`,
-`speeds_text`, `soundness`, `graph_tables`, `formula_report`, `gearbox_report`); its forces and motion
-(`torque_figures`, `torque_report`, `torque_cycle_report`, `motion_figures`, `motion_report`); pairs (`gear_pairs`,
-`pair_page` with `triangular_pair_page` and `conjugate_pair_page`, `tooth_form_comparison`); several trains
-(`reconstruction_comparison`), spheres (`spherical_report`), error against run time (`accuracy_report`). Reports of the
-wings are in the wings.
+document             `Document`, sections, tables, and their layout within a width
+text, html_page      a document as Markdown, on a terminal, as a page of HTML
+json_schema          JSON Schema of all answers and of the declaration
+train_data           `TrainReport`, the contents of a report; `train_report` describes it, as a page to share too
+answers              speeds, outputs and targets; `soundness` is what `check` finds
+formula_report       outputs as formulas in tooth counts
+gearbox_report       a train with clutches in all its states
+gear_pairs           real teeth and pins of a train
+torque_report        torques, power flow, losses; torque over some turns
+motion_report        transmission errors
+pair_page            one pair of wheels without a train; `conjugate_pair_page` has conjugate forms and their comparison
+reconstruction_comparison, spherical_report, accuracy_report   several trains; gears on a sphere; error against run time
+
+Reports of the wings are in the wings.
 """
 
 from __future__ import annotations
@@ -33,18 +40,18 @@ if TYPE_CHECKING:
     from geartrain.report.gearbox_report import describe_gearbox as describe_gearbox
     from geartrain.report.html_page import to_html as to_html
     from geartrain.report.json_schema import answer_schema as answer_schema
-    from geartrain.report.motion_figures import MotionFigures as MotionFigures
-    from geartrain.report.motion_figures import collect_motion as collect_motion
+    from geartrain.report.motion_report import MotionFigures as MotionFigures
+    from geartrain.report.motion_report import collect_motion as collect_motion
     from geartrain.report.motion_report import describe_motion as describe_motion
     from geartrain.report.reconstruction_comparison import describe_comparison as describe_comparison
-    from geartrain.report.shared_page import describe_shared_page as describe_shared_page
     from geartrain.report.text import to_markdown as to_markdown
     from geartrain.report.text import to_text as to_text
-    from geartrain.report.torque_figures import TorqueReport as TorqueReport
-    from geartrain.report.torque_figures import collect_torque_report as collect_torque_report
+    from geartrain.report.torque_report import TorqueReport as TorqueReport
+    from geartrain.report.torque_report import collect_torque_report as collect_torque_report
     from geartrain.report.torque_report import describe_torques as describe_torques
     from geartrain.report.train_data import TrainReport as TrainReport
     from geartrain.report.train_data import collect_report as collect_report
+    from geartrain.report.train_report import describe_shared_page as describe_shared_page
     from geartrain.report.train_report import describe_train as describe_train
 
 __all__ = [
@@ -80,12 +87,12 @@ _PLACES = {
     **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
     "to_html": "html_page",
     "answer_schema": "json_schema",
-    **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
+    **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_report"),
     "describe_motion": "motion_report",
     "describe_comparison": "reconstruction_comparison",
-    "describe_shared_page": "shared_page",
+    "describe_shared_page": "train_report",
     **dict.fromkeys(("to_markdown", "to_text"), "text"),
-    **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
+    **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_report"),
     "describe_torques": "torque_report",
     **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
     "describe_train": "train_report",

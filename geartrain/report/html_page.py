@@ -14,8 +14,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from geartrain.errors import MissingExtraError
-from geartrain.report.document import CitedText, Document, Table
-from geartrain.report.table_strips import strips
+from geartrain.report.document import CitedText, Document, Table, strips
 from geartrain.scene.palette import THEMES
 
 ON_PAPER = 110

@@ -1,16 +1,36 @@
-"""The JSON answer of each question: of a command, or of one of its uses that is a question of its own.
+"""JSON Schema (draft 2020-12) of the answers of all commands, and of the declaration.
 
-Shapes are read off the results that are told. Written by hand is what commands add to a result.
+Keys of an answer are those of `geartrain.numerics.results`, kinds of values come from annotations, and descriptions
+from docstrings. What commands add to a result is written by hand. The reference of the declaration is written from its
+models.
 """
 
 from __future__ import annotations
 
+import ast
+import builtins
+import inspect
+import math
+import re
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
 from functools import cache
+from importlib import import_module
+from types import ModuleType, NoneType, UnionType
+from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, Union, get_args, get_origin, is_typeddict
 
-from geartrain.report.json_shapes import Schema, shape_of
-from geartrain.wings import WINGS, has_wing, wing
+from pydantic.json_schema import GenerateJsonSchema
 
-FLAG = shape_of(bool)
+from geartrain.numerics.long_float import LongFloat
+from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.numerics.results import Key, Result, keys_of, whole
+from geartrain.train import Train
+from geartrain.wings import WINGS, WingResult, has_wing, wing
+
+Schema = dict[str, Any]
+
+FLAG: Schema = {"type": "boolean"}
 
 
 def _list(item: Schema) -> Schema:
@@ -44,8 +64,8 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.accuracy_report import AccuracyReport
     from geartrain.report.formula_report import FormulaReport
     from geartrain.report.gear_pairs import DrivenPair
-    from geartrain.report.motion_figures import MotionFigures
-    from geartrain.report.torque_figures import TorqueReport
+    from geartrain.report.motion_report import MotionFigures
+    from geartrain.report.torque_report import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
 
     report = shape_of(TrainReport)
@@ -127,3 +147,294 @@ def answer_schema() -> Schema:
         "description": "What each command prints with --json; keys may be added, and none is left out.",
         "$defs": answers(),
     }
+
+
+# ---------------------------------------------------------------------------------------------------- shapes of results
+
+
+_PLAIN: dict[Any, Schema] = {
+    **{str: {"type": "string"}, Fraction: {"type": "string"}, bool: {"type": "boolean"}},
+    **{int: {"type": "integer"}, float: {"type": "number"}, math.degrees: {"type": "number"}},
+    **{NoneType: {"type": "null"}, LongFloat: {"type": "null"}, Any: {}, object: {}},
+}
+_LINE = re.compile(r"^    (\w+(?:, \w+)*)   *(\S.*(?:\n      .*)*)", re.MULTILINE)
+"""A line of a class's docstring that tells of fields, with those that go on with it."""
+_ENTRY = re.compile(r"^    (\w+(?:, \w+)*) :.*((?:\n {8}.*)+)", re.MULTILINE)
+"""The same as an entry of numpydoc: names and kind, the meaning indented below."""
+
+
+def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
+    """The schema of values of a kind, told as plain data; `to` and `keys` as in `Key`."""
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin is Annotated and isinstance(parts[1], WingResult):
+        result = parts[1].kind()
+        return {} if result is None else shape_of(result, to, keys)
+    if origin in (Annotated, Required, NotRequired):
+        return shape_of(parts[0], to, keys)
+    if origin in (Union, UnionType):
+        return _one_of([_PLAIN[NoneType] if part is NoneType else shape_of(part, to, keys) for part in parts])
+    if hasattr(kind, "_fields") and not keys:  # a named tuple
+        return _object({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
+    if not isinstance(origin, type) or not hasattr(origin, "__iter__"):
+        return _of_one(kind, to, keys)
+    if not hasattr(origin, "__len__") or origin.__module__ == "numpy":
+        return {"type": "array"}
+    if issubclass(origin, Mapping):
+        return {"type": "object", "additionalProperties": shape_of(parts[1], to, keys)}
+    size = {} if origin is not tuple or parts[-1] is ... else {"minItems": len(parts), "maxItems": len(parts)}
+    items = _one_of([shape_of(part, to, keys) for part in parts if part is not ...])
+    return {"type": "array", **size, "items": items}
+
+
+def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, ...]) -> Schema:
+    """The schema of what is no mapping, list or None."""
+    if to is not None:
+        return shape_of(to) if isinstance(to, type) or to in _PLAIN else shape_of(_returned(to))
+    if keys:
+        return _record(kind, whole(keys))
+    if get_origin(kind) is Literal:
+        return {"enum": list(get_args(kind))}
+    if kind in _PLAIN:
+        return _PLAIN[kind]
+    if is_typeddict(kind):
+        return _typed_dict(kind)
+    if hasattr(kind, "model_json_schema"):
+        return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
+    if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # one of its own
+        return shape_of(_returned(kind.to_dict))
+    return _record(kind, keys_of(kind))
+
+
+def _typed_dict(kind: Any) -> Schema:
+    """A dictionary with known keys, of which some may be left out."""
+    kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
+    needed = {Required: True, NotRequired: False}
+    required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
+    return _object({name: shape_of(each) for name, each in kinds.items()}, required, kind)
+
+
+def _one_of(shapes: list[Schema]) -> Schema:
+    """Any of these; one alone as itself."""
+    flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
+    different = [each for at, each in enumerate(flat) if each not in flat[:at]]
+    return different[0] if len(different) == 1 else {"anyOf": different}
+
+
+def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
+    """A result: its keys, and those of its parts that stand among them."""
+    words = _words(kind)
+    properties: dict[str, Schema] = {}
+    required = []
+    for key in keys:
+        shape = shape_of(attribute_kind(kind, key.path) if key.path else kind, key.to, key.keys)
+        if not key.name:
+            parts = [part for part in shape.get("anyOf", [shape]) if "properties" in part]
+            properties |= {name: each for part in parts for name, each in part["properties"].items()}
+            required += shape.get("required", ())  # keys of a part that may be None are not needed
+            continue
+        said = words.get(key.of) or words.get(key.name) or _summary(getattr(kind, key.path, None))
+        properties[key.name] = ({"description": said} if said else {}) | shape
+        required.append(key.name)
+    return _object(properties, required, kind)
+
+
+def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
+    return {
+        "type": "object",
+        "description": _summary(kind),
+        "required": [name for name in properties if name in required],
+        "properties": properties,
+    }
+
+
+def _summary(what: Any) -> str:
+    """The first paragraph of a docstring, on one line; "" for what has none of its own."""
+    own = getattr(what, "__module__", "geartrain").startswith("geartrain")
+    text = what.__doc__ if own and (isinstance(what, type | property) or hasattr(what, "func")) else ""
+    return " ".join((text or "").split("\n\n")[0].split())
+
+
+@cache
+def _words(kind: type) -> dict[str, str]:
+    """What the docstring of a class says of its fields."""
+    found: dict[str, str] = {}
+    for base in reversed(kind.__mro__):
+        said = base.__doc__ or ""
+        for names, text in (*_LINE.findall(said), *_ENTRY.findall(said)):
+            found |= dict.fromkeys(names.split(", "), " ".join(text.split()))
+    return found
+
+
+# ------------------------------------------------------------------------------------------------------- annotations
+
+
+def attribute_kind(kind: Any, path: str) -> Any:
+    """The annotation of a field or property, `part.attribute` for one of a part. Raises `AttributeError`."""
+    for name in path.split("."):
+        kind = _own_kind(kind, name)
+    return kind
+
+
+def _own_kind(kind: type, name: str) -> Any:
+    for base in kind.__mro__:
+        if name in (annotations := inspect.get_annotations(base)):
+            return _evaluated(annotations[name], sys.modules[base.__module__])
+        member = base.__dict__.get(name)
+        if member is not None:
+            return _returned(getattr(member, "fget", None) or getattr(member, "func", member))
+    raise AttributeError(f"{kind.__name__} has no {name}")
+
+
+def _returned(function: Any) -> Any:
+    return _evaluated(function.__annotations__["return"], sys.modules[function.__module__])
+
+
+def _evaluated(annotation: Any, module: ModuleType) -> Any:
+    if isinstance(annotation, ForwardRef):
+        annotation = annotation.__forward_arg__
+    return eval(annotation, {}, _Names(module)) if isinstance(annotation, str) else annotation
+
+
+class _Names(dict[str, Any]):
+    """Names in a module, those among them that it imports for annotations alone."""
+
+    def __init__(self, module: ModuleType) -> None:
+        super().__init__(vars(builtins) | vars(module))
+        self.module = module
+
+    def __missing__(self, name: str) -> Any:
+        home = _imports(self.module)[name]
+        return getattr(import_module(home), name)
+
+
+@cache
+def _imports(module: ModuleType) -> dict[str, str]:
+    """Where names come from that a module imports, be it for annotations alone."""
+    nodes = ast.walk(ast.parse(inspect.getsource(module)))
+    return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
+
+
+class DefaultsAsWritten(GenerateJsonSchema):
+    """Numbers and quantities as a declaration writes them, where pydantic would write out their fields."""
+
+    def encode_default(self, dft: Any) -> Any:
+        """A default value as JSON."""
+        if isinstance(dft, tuple):
+            return [self.encode_default(each) for each in dft]
+        return str(dft) if isinstance(dft, Figure | Quantity) else super().encode_default(dft)
+
+
+# ---------------------------------------------------------------------------------------------------------- declaration
+
+
+_URL = "https://json-schema.org/draft/2020-12/schema"
+_SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
+"""The sections of a numpydoc docstring, from the first on."""
+
+_MERGED = (
+    "Wheel",
+    "GearPair",
+    "Revolute",
+    "PinAndSlot",
+    "PinFollower",
+    "PinsInHoles",
+    "Parallel",
+    "Source",
+    "Published",
+)
+"""Parts that a child of `extends` may give in pieces: an editor must not ask it for all of them."""
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of a declaration, as editors take it."""
+    found = {key: part for key, part in _models().items() if key not in ("title", "required")}
+    for name in _MERGED:
+        part = found["$defs"][name]
+        body = next((option for option in part.get("anyOf", ()) if "properties" in option), part)
+        body["required"] = [key for key in body.pop("required", ()) if key == "kind"]
+    whole = {"if": {"required": ["extends"]}, "then": {}, "else": {"required": ["links"]}}
+    return {"$schema": _URL, "title": "geartrain declaration"} | found | whole
+
+
+def _models() -> dict[str, Any]:
+    found: dict[str, Any] = _without_sections(Train.model_json_schema(schema_generator=DefaultsAsWritten))
+    return found
+
+
+def _without_sections(schema: Any) -> Any:
+    """A schema whose descriptions end where a docstring turns to examples and what else to see."""
+    if isinstance(schema, list):
+        return [_without_sections(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    found = {key: _without_sections(part) for key, part in schema.items()}
+    if isinstance(text := found.get("description"), str):
+        found["description"] = _SECTIONS.sub("", text)
+    return found
+
+
+def declaration_reference() -> str:
+    """One table of keys for the train and for each of its parts, as Markdown."""
+    found = _models()
+    parts: dict[str, Any] = found["$defs"]
+    lines = [
+        "# The declaration, key by key",
+        "",
+        "Written by `geartrain schema --as markdown` from the models that read the files.",
+        "",
+        *_part("Train", found),
+    ]
+    for name, part in parts.items():
+        lines += _part(name, part)
+    return "\n".join(lines)
+
+
+def _part(name: str, part: Mapping[str, Any]) -> Iterator[str]:
+    short = [option for option in part.get("anyOf", ()) if "properties" not in option]
+    body = next((option for option in part.get("anyOf", ()) if "properties" in option), part)
+    if "properties" not in body:
+        return
+    yield from (f"## {name}", "")
+    if text := body.get("description"):
+        yield from (" ".join(text.split()), "")
+    if short:
+        yield from (f"Short form: {' or '.join(_kind(option) for option in short)}.", "")
+    yield "| key | what | value |"
+    yield "|---|---|---|"
+    required = body.get("required", ())
+    for key, field in body["properties"].items():
+        need = " (required)" if key in required else ""
+        default = (
+            f"; default `{field['default']}`"
+            if isinstance(field.get("default"), str | int) and field["default"] != ""
+            else ""
+        )
+        yield f"| `{key}`{need} | {_text(field)} | {_kind(field)}{default} |".replace("\n", " ")
+    yield ""
+
+
+def _text(field: Mapping[str, Any]) -> str:
+    return " ".join(str(field.get("description", "")).split()).replace("|", "\\|")
+
+
+def _kind(field: Mapping[str, Any]) -> str:
+    """What a value may be, in a few words."""
+    if "$ref" in field:
+        name = field["$ref"].rsplit("/", 1)[-1]
+        return f"[{name}](#{name.lower()})"
+    if "enum" in field:
+        return ", ".join(f"`{value}`" for value in field["enum"])
+    if "const" in field:
+        return f"`{field['const']}`"
+    options = field.get("anyOf") or field.get("oneOf")
+    if options:
+        return " or ".join(dict.fromkeys(_kind(option) for option in options if option.get("type") != "null"))
+    kind = field.get("type", "anything")
+    if kind == "object":
+        inside = field.get("additionalProperties")
+        return f"mapping of names to {_kind(inside)}" if isinstance(inside, dict) else "mapping"
+    if kind == "array":
+        items: Mapping[str, Any] = field.get("items") or next(iter(field.get("prefixItems", ())), {})
+        count = f"{len(field['prefixItems'])} times " if "prefixItems" in field else "list of "
+        return count + _kind(items)
+    return " or ".join(kind) if isinstance(kind, list) else str(kind)

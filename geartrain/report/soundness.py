@@ -101,7 +101,7 @@ def _left_out(train: GearTrain) -> Iterator[str]:
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
     """States whose rate is beyond that at which teeth first part."""
-    from geartrain.report.motion_figures import separation_rates
+    from geartrain.report.motion_report import separation_rates
 
     for state in train.kinematics.usable_states:
         rate = train.declaration.case(state).rate

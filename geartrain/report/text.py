@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import printable
 from geartrain.numerics.markdown_text import markdown_text
-from geartrain.report.document import Branch, Document, Table
-from geartrain.report.table_strips import column_widths, gap_of, strips
+from geartrain.report.document import Branch, Document, Table, column_widths, gap_of, strips
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType

@@ -1,19 +1,195 @@
-"""Torques, flow of power and losses of a train, as a page."""
+"""Torques, power flow and losses of a train, and torque over some turns of the input: figures, and the page."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
-from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
+from geartrain.numerics.exact import as_float, percent_of_text, percent_text, watts_text
+from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure
-from geartrain.report.torque_figures import DrivenWays, TorqueFigures, TorqueReport
-from geartrain.wings import wing
+from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import PowerFlow, Torques
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import PlaceInRun, PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
+    from geartrain.dynamics.torques.torque_results import DrivenWay
+
+
+# -------------------------------------------------------------------------------------------------------------- figures
+
+
+class Impact(NamedTuple):
+    """Power (W) that the collisions of a pair dissipate."""
+
+    impact: float
+
+
+@dataclass(frozen=True)
+class LossFigures:
+    """What a pair or bearing loses; of a pair whose collisions are known, their `impact`."""
+
+    KEYS = (Key("", "loss"), Key("", "collisions"))
+
+    loss: PowerLoss
+    collisions: Impact | None
+
+
+@dataclass(frozen=True)
+class DrivenFigures:
+    """The efficiency of a train driven one way; None where it is not determined."""
+
+    KEYS = (
+        *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
+        Key("left_out", "way.torques.left_out"),
+    )
+
+    way: DrivenWay
+
+    @property
+    def verdict(self) -> TorqueVerdict:
+        """Whether the train can be driven so."""
+        return self.way.torques.verdict
+
+    @property
+    def efficiency(self) -> Fraction | float | None:
+        """Power out over power in; None where it is not determined."""
+        return self.way.torques.efficiency if self.verdict else None
+
+    @property
+    def exact_efficiency(self) -> Fraction | None:
+        """The efficiency where it is exact; None for a float."""
+        return self.efficiency if isinstance(self.efficiency, Fraction) else None
+
+
+class DrivenWays(NamedTuple):
+    """Driven from the input, and from the output."""
+
+    forward: DrivenFigures
+    backward: DrivenFigures
+
+
+@dataclass(frozen=True)
+class TorqueFigures(Result):
+    """Torques, flow of power and losses of one state.
+
+    drives             None where it is not plain which link is the output
+    watts_per_unit     None where torques or speeds are plain numbers
+    in_newton_metres   whether torques have a unit
+    blows              what the collisions of each pair dissipate (W), where inertias and a rate are declared
+    """
+
+    KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
+
+    torques: Torques
+    drives: DrivenWays | None
+    watts_per_unit: float | None
+    in_newton_metres: bool
+    flow: PowerFlow
+    blows: Mapping[str, float]
+
+    @property
+    def losses(self) -> tuple[LossFigures, ...]:
+        """What each pair and bearing loses."""
+        struck = {name: Impact(power) for name, power in self.blows.items()}
+        return tuple(
+            LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
+            for loss in self.flow.shares
+        )
+
+
+@dataclass(frozen=True)
+class TorqueReport(Result):
+    """Torques of a train in every state that was asked for.
+
+    Attributes
+    ----------
+    name : str
+        Of the train.
+    title : str
+        One line for a reader.
+    states : tuple of TorqueFigures
+        Torques, powers, flow and losses of each state, in the order asked.
+    over_turn : TorqueCycle or None
+        Torque over some turns of the one state asked for; None where it was not asked for.
+    friction_trials : geartrain.workshop.FrictionTrials or None
+        The same in trials of friction; None where none were asked for.
+
+    See Also
+    --------
+    collect_torque_report : Gives it.
+    """
+
+    name: str
+    title: str
+    states: tuple[TorqueFigures, ...]
+    over_turn: TorqueCycle | None = None
+    friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
+
+
+def collect_torque_report(
+    train: GearTrain,
+    found: Sequence[Torques],
+    over_turn: TorqueCycle | None = None,
+    friction_trials: Any = None,
+) -> TorqueReport:
+    """Torques of some states of a train with their flow of power, what is lost where, and the efficiency both ways.
+
+    Parameters
+    ----------
+    train : GearTrain
+        The train.
+    found : sequence of Torques
+        What `train.torques` gave, one for each state.
+    over_turn : TorqueCycle, optional
+        What `train.torques` gave over some turns.
+    friction_trials : geartrain.workshop.FrictionTrials, optional
+        What `try_frictions` gave.
+
+    Returns
+    -------
+    TorqueReport
+        Its `to_dict` is the answer of `geartrain torques --json`.
+
+    Examples
+    --------
+    A wheel of 20 teeth needs half of the torque on its mate of 40 (docs/torques.md, equation 1):
+
+    >>> import geartrain
+    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
+    ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
+    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
+    >>> data = collect_torque_report(train, [train.torques()]).to_dict()
+    >>> data["states"][0]["links"]["a"]
+    {'torque': 1.5, 'power': 1.5, 'asked': True}
+    """
+    states = tuple(collect_torques(train, each) for each in found)
+    return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)
+
+
+def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
+    """Torques of one state, with the flow of power and the efficiency there and back."""
+    from geartrain.dynamics.torques.power_flow import find_power_flow, has_torque_units, watts_per_unit
+    from geartrain.dynamics.torques.train_torques import drive_both_ways
+
+    declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
+    impacts: Mapping[str, Any] = {}
+    if train.declaration.has_inertia and has_wing("simulation"):
+        impacts = wing("simulation.contacts.train_separation").find_tooth_impacts(train.mechanics, state)
+    return TorqueFigures(
+        found,
+        DrivenWays(*map(DrivenFigures, ways)) if ways else None,
+        watts_per_unit(declared, declared.case(state)),
+        has_torque_units(declared, state),
+        find_power_flow(found),
+        {pair: impact.power for pair, impact in impacts.items()},
+    )
+
+
+# ----------------------------------------------------------------------------------------------------------------- page
+
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
@@ -53,8 +229,6 @@ def describe_torques(found: TorqueReport) -> Document:
     """
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
-        from geartrain.report.torque_cycle_report import cycle_sections
-
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
         sections += wing("workshop.monte_carlo.friction_trials_report").trial_sections(found.friction_trials)
@@ -235,3 +409,149 @@ def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
         elif efficiency is not None:
             word = " (ambiguous)" if torques.verdict.kind == "ambiguous" else ""
             yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 6)}{word}{uncounted_words(torques)}."
+
+
+# --------------------------------------------------------------------------------------------------- torque over a turn
+
+
+_LEAST = 1e-12  # of all that is lost: less is rounding
+
+
+def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
+    """Torque at the crank over a run, energies, and what each pair, pin and bearing takes."""
+    head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
+    lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
+    lines += [f"Left out: {each}: {each.why}." for each in found.left_out]
+    if found.turns is None:
+        yield Section(head, lines)
+        return
+    lines.append(_run(found))
+    lines += _shares(found)
+    lines += _efficiency(found)
+    lines += _remarks(found)
+    yield Section(head, lines, (_torques(found), *_locked(found)))
+    if found.energy is not None:
+        title = "Energy over the run" if found.state is None else f"State {found.state}: energy over the run"
+        yield Section(title, (_energy_unit(found),), (_energies(found), *_parts(found)))
+
+
+def turns_text(turns: float) -> str:
+    """`1 turn`, `2.5 turns`."""
+    return f"{turns:g} turn{'' if turns == 1 else 's'}"
+
+
+def _run(found: TorqueCycle) -> str:
+    assert found.turns is not None
+    text = f"Torque at '{found.link}' over {turns_text(found.span)} of the input, at {len(found.turns)} positions"
+    text += ", corners and both sides of jumps among them"
+    if found.period is not None:
+        whole = found.span / found.period
+        text += f"; everything repeats after {turns_text(found.period)}"
+        text += "" if whole >= 1 - 1e-9 else ", of which this is a part"
+    return text + "."
+
+
+def _shares(found: TorqueCycle) -> Iterator[str]:
+    """Where the train locks, is held from both sides, or may turn in several ways."""
+    shares = {
+        "no torque balances: the train locks": found.locked_share,
+        "loads and the crank both put power in, and all of it is lost": found.held_share,
+        "several patterns of power flow balance; the torque is of the one that loses least": found.ambiguous_share,
+    }
+    for what, share in shares.items():
+        if share:
+            yield f"In {percent_text(share)} of the run {what}."
+
+
+def _efficiency(found: TorqueCycle) -> Iterator[str]:
+    if found.efficiency:
+        yield f"Efficiency, energy out over energy in: {figure(found.efficiency, 10)}."
+    elif found.energy is not None and found.energy.net_in > 0:
+        yield "No energy is taken out on the whole: all that is put in is lost."
+
+
+def _remarks(found: TorqueCycle) -> Iterator[str]:
+    if found.loses_most is not None and len(found.parts) > 1:
+        yield f"Most is lost in {found.loses_most}."
+    if changes := {name: count for name, count in found.flank_changes.items() if count}:
+        words = ", ".join(f"{name} {count} times" for name, count in changes.items())
+        yield f"The torque changes its sense, and play is crossed, at {words}."
+    if found.recirculating:
+        words = ", ".join(f"{figure(share, 4)} times at {name}" for name, share in found.recirculating.items())
+        yield f"More power passes than is put in: {words}."
+    if not found.complete:
+        yield "Not all patterns of power flow were tried."
+
+
+def _torques(found: TorqueCycle) -> Table:
+    unit = f" ({found.unit})" if found.unit else ""
+    rows = [("mean", figure(found.mean, 9), "", "")]
+    for name, extreme in (("greatest", found.greatest), ("least", found.least), ("starting", found.starting)):
+        if extreme is None:
+            rows.append((name, "-", "", ""))
+        else:
+            days = "" if extreme.days is None else figure(extreme.days, 7)
+            rows.append((name, figure(extreme.torque, 9), figure(extreme.turns, 9), days))
+    wanted = 4 if any(row[3] for row in rows) else 3
+    header = (f"torque at {found.link}", unit.strip(" ()") or "torque", "at turn", "day")
+    return Table(header[:wanted], [row[:wanted] for row in rows])
+
+
+def _locked(found: TorqueCycle) -> Iterator[Table]:
+    if found.locked:
+        rows = [(_place(start), _place(end)) for start, end in found.locked]
+        yield Table(("locked from turn", "to turn"), cut(rows))
+
+
+def _place(place: PlaceInRun) -> str:
+    day = "" if place.days is None else f" (day {figure(place.days, 7)})"
+    return f"{figure(place.turns, 9)}{day}"
+
+
+def _energy_unit(found: TorqueCycle) -> str:
+    if found.newton_metres:
+        return "Energies in J."
+    return "Energies in the unit of the loads times radians."
+
+
+def _energies(found: TorqueCycle) -> Table:
+    assert found.energy is not None
+    energy = found.energy
+    whole = energy.put_in + energy.loads_put_in
+    amounts = {
+        f"put in at {found.link}": energy.put_in,
+        f"given back at {found.link}": energy.returned,
+        "put in by loads": energy.loads_put_in,
+        "taken out by loads": energy.taken_out,
+        "lost in teeth": energy.mesh,
+        "lost in pins": energy.pin,
+        "lost in bearings": energy.bearing,
+    }
+    rows = [
+        (name, figure(value, 9), _share(value, whole)) for name, value in amounts.items() if abs(value) > _LEAST * whole
+    ]
+    return Table(("over the run", "energy", "of all put in"), rows)
+
+
+def _parts(found: TorqueCycle) -> Iterator[Table]:
+    """What each pair, pin and bearing takes, the greatest loss first."""
+    assert found.energy is not None
+    lost = found.energy.lost
+    ranked = sorted(found.parts.items(), key=lambda each: -each[1].loss)
+    rows = [
+        (
+            name,
+            figure(part.loss if part.loss > _LEAST * lost else 0.0, 7),
+            _share(part.loss, lost) if part.loss > _LEAST * lost else "",
+            "" if part.kind == "bearing" else figure(part.passed, 7),
+            "" if part.kind == "bearing" else str(part.flank_changes),
+        )
+        for name, part in ranked
+        if part.loss > _LEAST * lost or part.passed
+    ]
+    if rows:
+        yield Table(("where", "lost", "of all lost", "passed on", "flank changes"), cut(rows))
+
+
+def _share(part: float, whole: float) -> str:
+    return percent_text(part / whole) if whole else "-"

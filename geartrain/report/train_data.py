@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
-    from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion
-    from geartrain.report.torque_figures import TorqueFigures
+    from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
+    from geartrain.report.torque_report import TorqueFigures
     from geartrain.train import Train
     from geartrain.train.states import Erratum
 
@@ -180,9 +180,6 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     '2/7'
     """
     from geartrain.kinematics.graph import adjacency_labels
-    from geartrain.report.gear_pairs import driven_pairs, driven_pins
-    from geartrain.report.motion_figures import collect_motions
-    from geartrain.report.torque_figures import collect_torques
 
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
@@ -199,13 +196,29 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
         build_findings=train.build_findings,
         remarks=own.remarks,
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
-        teeth=driven_pairs(train) if whole else (),
-        pins=driven_pins(train) if whole else (),
-        torques=tuple(collect_torques(train, train.torques(state)) for state in loaded),
+        **_teeth_and_motion(train, whole),
+        torques=_torques(train, loaded),
         strength=tuple(train.strength(state) for state in loaded if _has_strength(declared, state)),
-        motion=tuple(collect_motions(train)) if whole else (),
         errata=tuple(declared.errata),
     )
+
+
+def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigures, ...]:
+    if not loaded:
+        return ()
+    from geartrain.report.torque_report import collect_torques
+
+    return tuple(collect_torques(train, train.torques(state)) for state in loaded)
+
+
+def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
+    """The fields on real teeth and pins, empty for a train that has none."""
+    if not (whole and (train.mechanics.teeth or train.mechanics.pins)):
+        return {"teeth": (), "pins": (), "motion": ()}
+    from geartrain.report.gear_pairs import driven_pairs, driven_pins
+    from geartrain.report.motion_report import collect_motions
+
+    return {"teeth": driven_pairs(train), "pins": driven_pins(train), "motion": tuple(collect_motions(train))}
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:

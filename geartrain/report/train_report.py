@@ -1,4 +1,8 @@
-"""What a report on one train says, section by section."""
+"""The report on one train, section by section; its graph as tables; and the report as a page to share.
+
+A page to share has its verdict as a badge, pictures, wheels with their sources, and the animated train.
+Teeth, loads and motion are described in modules of their own, which are imported only where a train declares them.
+"""
 
 from __future__ import annotations
 
@@ -11,16 +15,23 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
 from geartrain.kinematics.answer import Answer, Loop, abridged_names
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.graph import MOST_SQUARE
+from geartrain.kinematics.graph import MOST_SQUARE, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
-from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
+from geartrain.report.document import (
+    MOST_ROWS,
+    CitedText,
+    Document,
+    ExactText,
+    PageExtras,
+    Picture,
+    Section,
+    SourceReference,
+    Table,
+    cut,
+    filled_table,
+)
 from geartrain.report.formula_report import formula_section
-from geartrain.report.gear_pairs import teeth_sections
-from geartrain.report.gearbox_report import gearbox_sections
-from geartrain.report.graph_tables import adjacency_table
-from geartrain.report.motion_report import moving_sections
-from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Link, Source, Train, Wheel
 from geartrain.train.trade_words import trade_words
@@ -29,6 +40,7 @@ from geartrain.wings import wing
 if TYPE_CHECKING:
     from geartrain.analysis.gearbox import Gearbox
     from geartrain.kinematics.phasing import MeshPhasing
+
 
 _CIRCUITS_ABREAST = 6
 SOURCES = "Sources"
@@ -63,10 +75,10 @@ def describe_train(found: TrainReport) -> Document:
     sections = [
         *_answers(train, answers),
         *_findings(train),
-        *teeth_sections(train, found.teeth, found.pins),
-        *loaded_sections(found.torques),
+        *_teeth(found),
+        *_torques(found),
         *_strength(found),
-        *moving_sections(train, found.motion, bool(found.teeth)),
+        *_motion(found),
         *doubtful_wheels(train, answers),
         *_structure(train),
         _circuits(train),
@@ -85,6 +97,8 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
     """What each state shows: outputs against their targets, speeds, formulas; a gearbox in tables of all its states."""
     box = _gearbox(train)
     if box is not None:
+        from geartrain.report.gearbox_report import gearbox_sections
+
         yield from gearbox_sections(box)
     elif train.states:
         yield shift_table(train, answers)
@@ -112,8 +126,32 @@ def _findings(train: GearTrain) -> Iterator[Section]:
         yield Section("Remarks", notes)
 
 
+def _teeth(found: TrainReport) -> Iterator[Section]:
+    """Real teeth and pins; nothing where none are declared."""
+    if found.teeth or found.pins:
+        from geartrain.report.gear_pairs import teeth_sections
+
+        yield from teeth_sections(found.train, found.teeth, found.pins)
+
+
+def _torques(found: TrainReport) -> Iterator[Section]:
+    """Torques of states with loads; nothing where none are declared."""
+    if found.torques:
+        from geartrain.report.torque_report import loaded_sections
+
+        yield from loaded_sections(found.torques)
+
+
+def _motion(found: TrainReport) -> Iterator[Section]:
+    """Motion of states with real teeth or pins; nothing where none are declared."""
+    if found.motion or found.teeth:
+        from geartrain.report.motion_report import moving_sections
+
+        yield from moving_sections(found.train, found.motion, bool(found.teeth))
+
+
 def _strength(found: TrainReport) -> Iterator[Section]:
-    """Strength, where the train declares what bears it; its words are read only then."""
+    """Strength of states with loads; nothing where no material is declared."""
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
 
@@ -306,3 +344,106 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 def _loop(loop: Loop) -> str:
     links, pairs = abridged_names(loop.links, " - "), abridged_names(loop.pairs)
     return f"loop {links} by {pairs}, ratio product {abridged_text(loop.product)}"
+
+
+# ---------------------------------------------------------------------------------------------------------------- graph
+
+
+def adjacency_table(train: GearTrain) -> Table:
+    """Links by links; R(axis) is a turning pair, gear pairs and couplings stand by their ids."""
+    names = list(train.declaration.links)
+    cells = adjacency_labels(train.declaration)
+    return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
+
+
+def describe_adjacency(train: GearTrain) -> Document:
+    """The adjacency matrix alone."""
+    return Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (adjacency_table(train),)),))
+
+
+def describe_edges(train: GearTrain) -> Document:
+    """Which two links are joined by what, a row for each joint, gear pair and coupling."""
+    table = Table(("link", "link", "joined by", "axis or pair"), edge_rows(train.graph))
+    return Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))
+
+
+# -------------------------------------------------------------------------------------------------------- page to share
+
+
+def describe_shared_page(
+    found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
+) -> Document:
+    """The report on a train with all that a page has room for; its sources are links.
+
+    Parameters
+    ----------
+    found : TrainReport
+        From `collect_report`.
+    pictures : sequence of Picture
+        Shown before the sections.
+    viewer : str
+        A whole HTML page in which the train turns, embedded as it is; "" for none.
+    notes : sequence of str
+        Remarks on the page, below the lead.
+
+    Returns
+    -------
+    Document
+        The document of `describe_train` with its `aside` filled, for `to_html`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.report import collect_report
+    >>> page = describe_shared_page(collect_report(geartrain.load("worm")), notes=["Not to scale."])
+    >>> page.aside.badge, page.aside.notes
+    ('determined', ('Not to scale.',))
+    """
+    document, declared = describe_train(found), found.train.declaration
+    badge, sound = _badge(found)
+    aside = PageExtras(
+        badge=badge,
+        sound=sound,
+        notes=tuple(notes),
+        pictures=tuple(pictures),
+        viewer=viewer,
+        sections=tuple(_wheels_with_sources(declared)),
+        references={
+            key: SourceReference(source.cite, source.url or "", source.note or "")
+            for key, source in declared.sources.items()
+        },
+    )
+    shown = [section for section in document.sections if section.title != SOURCES]
+    return replace(document, sections=shown, aside=aside)
+
+
+def _badge(found: TrainReport) -> tuple[str, bool]:
+    """The worst that is to be said of a train, in few words; and whether it is no complaint."""
+    train, answers = found.train, found.states
+    wrong = [answer for answer in answers if not answer.as_expected]
+    if wrong:
+        kind = wrong[0].verdict.kind
+        return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
+    if train.mechanics.faults:
+        return "its teeth cannot turn", False
+    failed = sum(len(answer.failures) for answer in answers)
+    if failed:
+        return f"{failed} expectation{'' if failed == 1 else 's'} failed", False
+    kinds = dict.fromkeys(answer.verdict.kind for answer in answers)
+    return " or ".join(kinds) + (" as expected" if [*kinds] != ["determined"] else ""), True
+
+
+def _wheels_with_sources(declared: Train) -> Iterator[Section]:
+    """Every wheel with what is said of it; nothing where only teeth are."""
+    rows = []
+    for name, (link, wheel) in declared.wheels.items():
+        doubt = wheel.teeth if not isinstance(wheel.teeth, int) else None
+        source = wheel.source or (doubt.source if doubt else None) or ""
+        counts = doubt.allowed if doubt else ()
+        allowed = "" if not counts else f"{min(counts)}-{max(counts)}"
+        note = "; ".join(filter(None, (wheel.note, doubt.note if doubt else None)))
+        rows.append((name, link, str(wheel.count), allowed, wheel.status or "", CitedText(source), note))
+    header = ("wheel", "link", "teeth", "allowed", "status", "source", "note")
+    table = filled_table(header, rows, 3)
+    if len(table.header) > 3:
+        yield Section("Wheels and their sources", (), (replace(table, rows=cut(table.rows)),))

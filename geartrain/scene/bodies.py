@@ -1,13 +1,16 @@
-"""What stands in a scene: links with their axes and which of them bears which; every wheel, where it stands, what is
-known of it, and one tooth of it, as it is cut.
+"""Links of a scene with their axes and parents, and every wheel with its place and one tooth as it is cut.
 
-Wheels without a flat outline (bevels, crowns, worms, and teeth that nobody could cut) get nominal teeth.
+Wheels without a flat outline (bevels, crowns, worms, and teeth that cannot be cut) get nominal teeth.
+
+A train declares the thin wheel of a strain wave on an axis that a generator carries round, as if the wheel were rigid:
+that gives its speed. Bent by the wave, it stays about the generator's own axis, and its teeth meet the ring at each
+lobe (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import acos, atan2, ceil, cos, pi, sqrt, tan
 from typing import TYPE_CHECKING
@@ -15,15 +18,68 @@ from typing import TYPE_CHECKING
 from geartrain.dynamics.train_teeth import STANDARD, TrainTeeth, find_train_teeth
 from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
-from geartrain.scene import bodies as likeness
+from geartrain.numerics.vectors import Vector, across, minus, size, unit_or_z
 from geartrain.scene.context import SceneContext, exact, rounded
-from geartrain.scene.elements import SceneBody, SceneWheel, ToothProfile
-from geartrain.scene.strain_waves import bent_wheels
+from geartrain.scene.elements import SceneBody, SceneWave, SceneWheel, ToothProfile
+from geartrain.teeth.outlines.fixed_teeth import wall
 from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
 if TYPE_CHECKING:
-    from geartrain.scene.layout import WheelPlace
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.scene.layout import Layout, WheelPlace
     from geartrain.train import Wheel as Declared
+
+
+# --------------------------------------------------------------------------------------------------------- strain waves
+
+
+@dataclass(frozen=True, slots=True)
+class BentWheel:
+    """A thin wheel and its generator.
+
+    wheel, link   its own, and the link whose wave bends it
+    axis          label of the generator's axis
+    offset        from that to the axis on which the wheel is declared (mm): how far its wave rises, and towards where
+    lobes         of the wave: as many as the ring has teeth more
+    """
+
+    wheel: str
+    link: str
+    axis: str
+    offset: Vector
+    lobes: int
+
+
+def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
+    """All of a train as placed."""
+    declared = train.declaration
+    for gear in declared.gears:
+        thin = next((name for name in gear.pair if declared.wheels[name][1].flexible), None)
+        place = None if thin is None else layout.axes.get(train.kinematics.tree.axis(declared.wheels[thin][0]) or "")
+        label = None if place is None else train.kinematics.tree.axis(place.carrier)
+        if thin is None or place is None or label is None:
+            continue
+        own = layout.axes[label]
+        counts = (declared.wheels[name][1] for name in gear.pair)
+        lobes = abs(sum((wheel.count or 0) * (1 if wheel.internal else -1) for wheel in counts))
+        offset = across(minus(place.point, own.point), unit_or_z(own.direction))
+        if lobes and size(offset):
+            yield BentWheel(thin, place.carrier, label, offset, lobes)
+
+
+def bend(
+    stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
+) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
+    """Bodies and wheels with those that are bent about the axes of their generators, and the waves that bend them."""
+    told, moved, waves = list(bodies), list(wheels), []
+    for each in bent_wheels(stage.train, stage.layout):
+        at, by = stage.wheel[each.wheel], stage.body[each.link]
+        wheel = wheels[at]
+        told[wheel.body] = replace(bodies[wheel.body], parent=bodies[by].parent, point=bodies[by].point)
+        moved[at] = replace(wheel, centre=minus(wheel.centre, each.offset))
+        way, rise, thin = unit_or_z(each.offset), size(each.offset), wall(wheel.radius)
+        waves.append(SceneWave(at, by, way, rise, each.lobes, wheel.root - thin / 2, thin))
+    return tuple(told), tuple(moved), tuple(waves)
 
 
 # -------------------------------------------------------------------------------------------------------- nominal teeth
@@ -206,7 +262,7 @@ class ToothProfiles:
 
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """The tooth of every wheel, as it is cut where nothing is said of play; of others a likeness."""
+    """The tooth of every wheel, as it is cut where nothing is said of play; of others a"""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
@@ -244,15 +300,15 @@ def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfi
     _, wheel = stage.train.declaration.wheels[name]
     place, z = stage.layout.wheels[name], wheel.count or 1
     if wheel.kind == "worm":
-        return likeness.worm(z, _mate_module(stage, name) / place.radius)
+        return worm(z, _mate_module(stage, name) / place.radius)
     shaped = next((toothed.wheels[mate] for mate in _mates(stage, name) if mate in toothed.wheels), None)
     if place.cone and shaped is not None and shaped.form != STANDARD and shaped.pins is None:
-        return likeness.crown(z, shaped.z, shaped.section())
+        return crown(z, shaped.z, shaped.section())
     if place.cone:
-        return likeness.bevel(z, place.cone)
+        return bevel(z, place.cone)
     mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
-    rooms = [likeness.room(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
-    return (likeness.ring if wheel.internal else likeness.spur)(z, *([min(rooms)] if rooms else []))
+    rooms = [room(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
+    return (ring if wheel.internal else spur)(z, *([min(rooms)] if rooms else []))
 
 
 def _mate_module(stage: SceneContext, name: str) -> float:

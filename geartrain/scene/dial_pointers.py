@@ -1,10 +1,11 @@
-"""Dials, where a scale stands and which way it looks, and pointers, what they show and on which pairs they depend.
+"""Dials, with the place and direction of their scales; pointers, with what they show and on which pairs they depend.
 
-What an output depends on: the pairs whose error would move it, exactly.
+Dependence of an output: the pairs whose error would move it, exactly. An error in one pair is a right-hand side in its
+row. Its effect on an output is the weight of that row in the one combination of rows that gives the output, so that one
+elimination of the transposed system answers for all outputs. The mean speed of a follower does not depend on the speed
+of its pin, but its position does: the pairs that turn the pin count too.
 
-An error in one pair is a right-hand side in its row. What it does to an output is the weight of that row in the one
-combination of rows that gives the output, so that one elimination of the transposed system answers for all outputs.
-A follower stands still in the mean whatever its pin does, and swings with it: what turns the pin counts too.
+Dates of the driving link's turns, and the mean motion that pointers should show.
 """
 
 from __future__ import annotations
@@ -17,23 +18,22 @@ from functools import lru_cache
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
-from geartrain.kinematics.judged_outputs import SpeedValue
+from geartrain.kinematics.judged_outputs import SpeedValue, goal_of
 from geartrain.kinematics.willis_system import axis_sense, relative_speed
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
+from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
-from geartrain.scene.dial_marks import engrave
-from geartrain.scene.dial_scale import RING, DialScale, scale_of
-from geartrain.scene.hand_outlines import HANDS
+from geartrain.scene.dial_scale import RING, DialScale, engrave, scale_of
 from geartrain.scene.layout import WheelPlace
-from geartrain.scene.sky import find_targets
-from geartrain.scene.stroke_letters import Stroke
-from geartrain.scene.train_scene import DialFace, Pointer
+from geartrain.scene.stroke_letters import HANDS, Stroke
+from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch
 from geartrain.train.outputs import looks_away
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.willis_system import WillisSystem
+    from geartrain.train import Output
 
 
 # ---------------------------------------------------------------------------------------------------- output dependence
@@ -371,3 +371,38 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
     if not speed:
         return "stands still" if speed is not None else ""
     return f"{'clockwise' if (speed > 0) == (sense > 0) else 'counter-clockwise'} as read"
+
+
+# ---- the sky: dates of turns of the lead, and what pointers should show in mean motion
+
+
+def find_epoch(stage: SceneContext) -> SceneEpoch | None:
+    """The declared date as turns of the lead; None where none is declared, or nothing is driven."""
+    declared = stage.train.declaration
+    epoch, unit = declared.epoch, declared.unit_days
+    if epoch is None or unit is None or stage.lead is None:
+        return None
+    return SceneEpoch(
+        julian_day=fraction_text(epoch.julian_day),
+        turns=fraction_text(epoch.turns.value),
+        days=fraction_text(unit / stage.step),
+        calendar=epoch.calendar,
+        source=epoch.source or "",
+        note=epoch.note or "",
+    )
+
+
+def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
+    """What an output should show for each turn of the lead.
+
+    speed   its own, in the train's unit; a target without a sense is met by either, and takes that of the output
+    """
+    if stage.lead is None or speed is None:
+        return ()
+    lead = stage.case.inputs[stage.lead]
+    found = []
+    for target in output.targets:
+        goal = goal_of(stage.train.declaration, target)
+        wanted = -goal.speed if not goal.signed and speed < 0 else goal.speed
+        found.append(PointerTarget(goal.label, fraction_text(wanted / lead), target.source or ""))
+    return tuple(found)

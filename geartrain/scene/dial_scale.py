@@ -1,14 +1,18 @@
-"""The scale of a dial: where cells lie along a circle or a spiral, what they are called, what a pointer reads there.
+"""The scale of a dial: cells along a circle or a spiral, their names, the reading of a pointer, and the engraving.
 
-Turns count from the zero mark along the scale, the way it is counted. Radii are over that of the dial.
+Turns count from the zero mark along the scale, in its own direction. Engraved are rims, borders of cells, names,
+numerals and glyphs, as lines over the radius of the dial; the zero mark is above, x to the right and y upwards.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import cos, floor, pi, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
+
+from geartrain.scene.stroke_letters import CurvedLine, Stroke, curved_text, text_length
 
 if TYPE_CHECKING:
     from geartrain.train.outputs import Dial, Graduation
@@ -187,3 +191,194 @@ def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
 
 def _step(count: int, most: int) -> int:
     return next((step for step in _ROUND_STEPS if count / step <= most), max(count // most, 1))
+
+
+# ------------------------------------------------------------------------------------------------------------ engraving
+
+
+_CHORDS = 90  # of a turn
+_MARKS = 400  # divisions of a turn that are still drawn singly
+_SHORT, _LONG = 0.032, 0.05  # borders of cells; of those at numerals
+_TALL, _LEAST = 0.068, 0.03  # of letters
+_BAND = 0.1  # from a rim to the middle of what is written along it
+_FULL = 0.86  # of its part that a name may fill
+_APART = 0.5  # of their height between numerals
+
+Kind = Literal["rim", "fine", "bold", "letters"]
+_WIDTHS: dict[Kind, float] = {"rim": 0.005, "fine": 0.003, "bold": 0.007}
+_PEN = 0.12  # over the height of letters
+
+
+@dataclass(frozen=True, slots=True)
+class Engraving:
+    """Lines of one width.
+
+    Attributes
+    ----------
+    kind : {"rim", "fine", "bold", "letters"}
+        What they are.
+    width : float
+        Over the radius of the dial.
+    lines : sequence of sequence of (float, float)
+        Their points.
+    """
+
+    kind: Kind
+    width: float
+    lines: Sequence[Stroke]
+
+
+def engrave(scale: DialScale) -> list[Engraving]:
+    """All lines of a scale, and of that around it."""
+    found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
+    if scale.around is not None:
+        found += engrave(scale.around)
+    return [each for each in found if each.lines]
+
+
+def _lines(kind: Kind, lines: Sequence[Stroke]) -> Engraving:
+    return Engraving(kind, _WIDTHS[kind], lines)
+
+
+def _letters(lines: Iterator[Stroke], height: float) -> Engraving:
+    return Engraving("letters", _PEN * height, tuple(lines))
+
+
+def _point(scale: DialScale, radius: float, turn: float | Fraction) -> Point:
+    return clock_point(radius, scale.way * turn)
+
+
+def _border(scale: DialScale, radius: float, depth: float, turn: Fraction) -> Stroke:
+    return _point(scale, radius, turn), _point(scale, radius - depth, turn)
+
+
+def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> Stroke:
+    """Along the scale, some way inside it."""
+    steps = max(1, round(_CHORDS * turns))
+    turned = (turns * each / steps for each in range(steps + 1))
+    return tuple(_point(scale, scale.radius(each) - off, each) for each in turned)
+
+
+# ---------------------------------------------------------------------------------------------------------- circle
+
+
+def _circle(scale: DialScale) -> Iterator[Engraving]:
+    """Rim, borders inwards, and inside of these what is written."""
+    at = {line for _, line in scale.numerals}
+    starts = {first for _, first, _ in scale.names}
+    every = -(-scale.divisions // _MARKS)
+    cells = range(0, scale.divisions, every) if scale.divisions > 1 else range(1)
+    deep = _BAND + _TALL / 2 + 0.02
+    yield _lines("rim", [_line(scale, scale.outer, 1)] + ([_line(scale, scale.outer, 1, deep)] if starts else []))
+    yield _lines("bold", [_border(scale, scale.outer, _LONG, scale.turn_of(each)) for each in cells if each in at])
+    plain = [each for each in cells if each not in at and each not in starts]
+    yield _lines("fine", [_border(scale, scale.outer, _depth(scale, each), scale.turn_of(each)) for each in plain])
+    yield _lines("bold", [_border(scale, scale.outer, deep, scale.turn_of(each)) for each in sorted(starts)])
+    yield from _names(scale)
+    yield from _engraved_numerals(scale)
+    yield from _glyphs(scale, scale.outer - _BAND)
+
+
+def _depth(scale: DialScale, cell: int) -> float:
+    """Every fifth border of many is longer."""
+    return _LONG if scale.divisions >= 30 and cell % 5 == 0 else _SHORT
+
+
+def _names(scale: DialScale) -> Iterator[Engraving]:
+    """Each in the middle of its divisions; where the smallest letters do not fit, every second, third..., or none."""
+    radius = scale.outer - _BAND
+    named = [part for part in scale.names if part[0]]
+    for every in range(1, 7):
+        heights = {part: _fitting(scale, radius, part, every) for part in named[::every]}
+        kept = {part: height for part, height in heights.items() if height >= _LEAST}
+        if len(kept) >= 0.8 * len(heights):  # five days at the year's end have no room for their name
+            break
+    height = min([_TALL, *kept.values()])
+    if kept:
+        yield _letters((stroke for part in kept for stroke in _name(scale, radius, part, height)), height)
+
+
+def _fitting(scale: DialScale, radius: float, part: tuple[str, Fraction, Fraction], every: int) -> float:
+    """How high its letters may be."""
+    name, _, span = part
+    room = _FULL * 2 * pi * radius * float(scale.turn_of(span)) * (1 if every == 1 else 0.9 * every)
+    return room / max(text_length(name), 0.5)
+
+
+def _name(scale: DialScale, radius: float, part: tuple[str, Fraction, Fraction], height: float) -> Iterator[Stroke]:
+    name, first, span = part
+    return _written(scale, name, radius, scale.turn_of(first + span / 2), height)
+
+
+def _written(
+    scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
+) -> Iterator[Stroke]:
+    """Along a circle; below the middle it may be turned round, to be read."""
+    angle = 2 * pi * float(scale.way * turn)
+    return curved_text(text, height, CurvedLine(radius, angle, turned and cos(angle) < -0.01))
+
+
+def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
+    """At their lines, inside of the borders; inside of names too, if there are any."""
+    if not scale.numerals:
+        return
+    inside = 0.5 * _TALL + 0.075 if scale.names else 0.0
+    size = 1.5 * _TALL if scale.radial and len(scale.numerals) <= 12 else _TALL
+    radius = scale.outer - _BAND - inside - (size - _TALL) / 2
+    room = 2 * pi * radius / len(scale.numerals)
+    height = min(size, *(room / (text_length(text) + _APART) for text, _ in scale.numerals))
+    strokes = (
+        stroke
+        for text, line in scale.numerals
+        for stroke in _written(scale, text, radius, scale.turn_of(line), height, not scale.radial)
+    )
+    yield _letters(strokes, height)
+
+
+def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
+    """In their cells, as large as the narrowest allows."""
+    if not scale.glyphs:
+        return
+    room = _FULL * 2 * pi * radius * float(scale.turn_of(1))
+    height = min(_TALL, *(room / max(text_length(text), 0.5) for _, text in scale.glyphs))
+    at = ((text, scale.turn_of(Fraction(2 * cell - 1, 2))) for cell, text in scale.glyphs)
+    yield _letters((each for text, turn in at for each in _written(scale, text, radius, turn, height)), height)
+
+
+# ---------------------------------------------------------------------------------------------------------- spiral
+
+
+def _spiral(scale: DialScale) -> Iterator[Engraving]:
+    """The groove, and inside of it cells, as deep as a turn is wide; the first whole cell of a turn has its number."""
+    pitch = (scale.outer - scale.inner) / scale.turns
+    every = -(-scale.divisions // (scale.turns * _MARKS))
+    starts = {first for _, first, _ in scale.names}
+    borders = {
+        each: _border(scale, scale.radius(float(scale.turn_of(each))), pitch, scale.turn_of(each))
+        for each in range(0, scale.divisions + 1, every)
+    }
+    yield _lines("rim", [_line(scale, 0, scale.turns), _line(scale, 0, 1, pitch)])
+    yield _lines("fine", [each for cell, each in borders.items() if cell not in starts])
+    yield _lines("bold", [each for cell, each in borders.items() if cell in starts])
+    written = dict(scale.glyphs)
+    for turn in range(scale.turns):
+        cell = -(-turn * scale.divisions // scale.turns) + 1
+        written.setdefault(cell, str(cell))
+    for cell, text in sorted(written.items()):
+        turn_at = scale.turn_of(Fraction(2 * cell - 1, 2))
+        radius = scale.radius(float(turn_at)) - pitch / 2
+        wide = _FULL * 2 * pi * radius / (scale.divisions / scale.turns)
+        height = min(0.5 * pitch, _TALL, wide / max(text_length(text), 0.5))
+        yield _letters(_written(scale, text, radius, turn_at, height), height)
+    yield from _spiral_names(scale, pitch)
+
+
+def _spiral_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
+    """Along the spiral, where they do not meet a number: that is at the start of a turn."""
+    for name, first, span in scale.names:
+        middle = scale.turn_of(first + span / 2)
+        radius = scale.radius(float(middle)) - pitch / 2
+        wide = _FULL * 2 * pi * radius * float(scale.turn_of(span))
+        height = min(0.5 * pitch, _TALL, wide / max(text_length(name), 0.5))
+        if name and height >= 0.25 * pitch:
+            yield _letters(_written(scale, name, radius, middle, height), height)

@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import read_fraction
-from geartrain.scene.error_steps import ErrorLawTable, ErrorSource, ErrorStep
+from geartrain.scene.movement import ErrorLawTable, ErrorSource, ErrorStep
 from geartrain.scene.train_scene import Scene
 
 if TYPE_CHECKING:

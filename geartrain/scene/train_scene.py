@@ -18,19 +18,20 @@ from typing import Any, Literal
 
 from geartrain.numerics.results import plain
 from geartrain.numerics.vectors import Vector
-from geartrain.scene.built_elements import SceneHanger, ScenePart
 from geartrain.scene.count_formulas import SceneFormulas
 from geartrain.scene.dial_scale import DialScale
 from geartrain.scene.elements import (
     SceneBody,
     SceneCoupling,
+    SceneHanger,
     ScenePair,
+    ScenePart,
     SceneShiftElement,
     SceneWave,
     SceneWheel,
     ToothProfile,
 )
-from geartrain.scene.error_steps import Movement
+from geartrain.scene.movement import Movement
 from geartrain.scene.scene_run import SceneRun
 
 FORMAT = 1

@@ -8,11 +8,19 @@ ratio          one ratio by stages of gear pairs: meet in the middle on sorted p
 train          the free wheels of a declared train: an exact weighted join (`search_train`)
 epicyclic      sets of sun, planets and ring: the Willis equation over all coaxial sets (`find_sets`)
 orrery         many periods that share wheels: branch and bound, beam search (`find_orrery`)
-stern_brocot   fractions near a number: the Stern-Brocot tree (`approximants`)
 reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
 posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
-join           the exact join behind `train` and `posterior`; `constraints`: what else must hold of tooth counts
-teeth_verb     the command `teeth`; `verb_options`, `tooth_numbers_report`: what its searches share
+join           the exact join behind `train` and `posterior`: bucket elimination on lists of products
+constraints    what else must hold of tooth counts: assembly, planets, interference
+
+target_ratio, tooth_count_ranges   what is requested, read from text (`read_ratio`, `read_counts`)
+search_outcome          what every search reports: tooth counts of stages, and where other candidates went
+stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
+weighted_alternatives   totals, marginals and draws by the inside-outside algorithm; information in bits
+integer_columns         ranges of whole numbers as columns
+teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share
+tooth_numbers_report    tooth numbers as documents and tables
+answers                 results that commands print as JSON
 """
 
 from __future__ import annotations
@@ -26,10 +34,12 @@ if TYPE_CHECKING:
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicSet as EpicyclicSet
     from geartrain.search.epicyclic.epicyclic_sets import SetFindings as SetFindings
     from geartrain.search.epicyclic.set_search import find_sets as find_sets
-    from geartrain.search.orrery.orrery_result import Orrery as Orrery
+    from geartrain.search.orrery.orrery_search import Orrery as Orrery
     from geartrain.search.orrery.orrery_search import find_orrery as find_orrery
     from geartrain.search.posterior.corner_plot import counts_figure as counts_figure
     from geartrain.search.posterior.inference import infer_counts as infer_counts
+    from geartrain.search.posterior.inference import joint_posterior as joint_posterior
+    from geartrain.search.posterior.inference import most_informative_wheels as most_informative_wheels
     from geartrain.search.posterior.posterior_report import describe_posterior as describe_posterior
     from geartrain.search.posterior.posterior_result import CountCombination as CountCombination
     from geartrain.search.posterior.posterior_result import CountProbability as CountProbability
@@ -75,6 +85,8 @@ __all__ = [
     "find_sets",
     "find_stages",
     "infer_counts",
+    "joint_posterior",
+    "most_informative_wheels",
     "read_counts",
     "read_ratio",
     "search_train",
@@ -84,10 +96,9 @@ _PLACES = {
     "ConstraintOptions": "constraints.constraint_options",
     **dict.fromkeys(("EpicyclicSet", "SetFindings"), "epicyclic.epicyclic_sets"),
     "find_sets": "epicyclic.set_search",
-    "Orrery": "orrery.orrery_result",
-    "find_orrery": "orrery.orrery_search",
+    **dict.fromkeys(("Orrery", "find_orrery"), "orrery.orrery_search"),
     "counts_figure": "posterior.corner_plot",
-    "infer_counts": "posterior.inference",
+    **dict.fromkeys(("infer_counts", "joint_posterior", "most_informative_wheels"), "posterior.inference"),
     "describe_posterior": "posterior.posterior_report",
     **dict.fromkeys(
         ("CountCombination", "CountProbability", "ToothCountPosterior", "WheelPosterior"), "posterior.posterior_result"

@@ -7,9 +7,8 @@ from typing import Any
 
 def answers() -> dict[str, Any]:
     """Question (a command, or a use of one) -> type of its result."""
-    from geartrain.search.epicyclic.epicyclic_sets import SetFindings
-    from geartrain.search.epicyclic.set_kinds import EpicyclicKind
-    from geartrain.search.orrery.orrery_result import Orrery
+    from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
+    from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.posterior.posterior_result import ToothCountPosterior
     from geartrain.search.ratio.stage_search import StageFindings
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from geartrain.cli.common import Force, Json, Out
-from geartrain.search.verb_options import (
+from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Csv,

@@ -1,14 +1,38 @@
-"""`geartrain teeth`: tooth numbers for a ratio, for the free wheels of a train, for an epicyclic set, for an orrery."""
+"""`geartrain teeth`: tooth numbers for a ratio, for the free wheels of a train, for an epicyclic set, for an orrery.
+
+Each search is a command of its own, in the module that `SearchGroup` names; the options and the forms of answers that
+they share are here.
+"""
 
 from __future__ import annotations
 
 import shlex
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from geartrain.cli.common import (
+    GOOD,
+    INTERRUPTED,
+    STANDARD,
+    VERDICT,
+    Sink,
+    as_json,
+    emit,
+    read_share,
+    show,
+    sink,
+    table_text,
+)
 from geartrain.cli.verbs import LazyGroup, Verbs
+
+if TYPE_CHECKING:
+    from geartrain.report.document import Document
 
 
 class SearchGroup(LazyGroup):
@@ -59,3 +83,100 @@ app = typer.Typer(
 @app.callback()
 def _group() -> None:
     pass
+
+
+# -------------------------------------------- options of several searches, each written once, and how a search answers
+
+
+Ratio = Annotated[str, typer.Argument(help="A ratio: 13.368, 235/19, 'A / B' with periods, or a period by name.")]
+Range = Annotated[str, typer.Option("--range", help="Tooth counts that may be used, such as 15:120 or 30,36,48.")]
+Wheels = Annotated[str | None, typer.Option("--wheels", help="Counts of the larger wheel of each pair.")]
+Pinions = Annotated[str | None, typer.Option("--pinions", help="Counts of the smaller wheel of each pair.")]
+Per = Annotated[str | None, typer.Option("--per", help="With one period by name: the period it is seen in.")]
+Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Greatest relative error: 1e-6, 20 ppm, 0.001 %.")]
+Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many solutions to list.")]
+Pick = Annotated[int, typer.Option("--pick", min=1, help="Which solution -o writes as a declaration.")]
+Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
+
+ANY_COUNT = "12:120"
+NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
+"""Settings of a command whose argument may be a negative number, which is no option."""
+_YAML = (".yaml", ".yml")
+_FORMS = (".md", ".html", ".json", ".csv", *_YAML)
+_WIDEST = 10**12
+
+
+def check_number(ctx: typer.Context, text: str) -> str:
+    """A text that begins with a minus is a negative number, or else an option that there is not."""
+    if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
+        raise typer.BadParameter(f"there is no option '{text}'; {ctx.command_path} -h lists them")
+    return text
+
+
+def read_tolerance(text: str | None) -> Fraction | None:
+    """The greatest relative error."""
+    if text is None:
+        return None
+    found = read_share(text, "--tolerance")
+    if not 0 <= found <= _WIDEST:
+        raise typer.BadParameter(f"a relative error is from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
+    return found
+
+
+@dataclass(frozen=True)
+class SearchAnswer:
+    """Where the solutions of a search go, and in which form.
+
+    csv, json   what is printed
+    pick        which solution is written as a declaration, from 1
+    """
+
+    csv: bool
+    json: bool
+    out: Sink
+    pick: int = 1
+
+    @classmethod
+    def of(cls, csv: bool, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
+        """From the options; a file that may not be written is refused before the search."""
+        return cls(csv, json, sink(out, force, _FORMS), pick)
+
+    def give(
+        self,
+        found: Any,
+        rows: Sequence[Mapping[str, Any]],
+        describe: Callable[[Any], Document],
+        declared: Callable[[int], Mapping[str, Any]] | None = None,
+    ) -> None:
+        """Print or write an answer in the form asked for; exit 0 if something was found, 1 if not, 130 if cut.
+
+        rows       the solutions as a flat table
+        declared   number of a solution, from 0 -> its declaration
+        """
+        suffix = self.out.suffix
+        if suffix in _YAML:
+            self._declare(declared, len(rows))
+        form = suffix or (".json" if self.json else ".csv" if self.csv else ".md")
+        asked = {form} if self.out != STANDARD and form not in _YAML else set[str]()
+        asked |= {".json"} if self.json else {".csv"} if self.csv else set()
+        for each in sorted(asked or {""}):
+            out = self.out if each == form else STANDARD
+            if each == ".json":
+                emit(as_json(found), out)
+            elif each == ".csv":
+                emit(table_text(rows), out)
+            else:
+                show([describe(found)], out, each)
+        if getattr(found, "ended", "") == "interrupted":
+            raise typer.Exit(INTERRUPTED)
+        raise typer.Exit(GOOD if rows else VERDICT)
+
+    def _declare(self, declared: Callable[[int], Mapping[str, Any]] | None, found: int) -> None:
+        from geartrain.train.yaml_nodes import as_yaml
+
+        if declared is None:
+            raise typer.BadParameter("a ratio alone is no train to be written", param_hint="-o")
+        if self.pick <= found:
+            emit(as_yaml(declared(self.pick - 1)), self.out)
+        elif found:
+            raise typer.BadParameter(f"there are {found} solutions in the list", param_hint="--pick")

@@ -128,8 +128,19 @@ class CountRuns(Sequence[int]):
             at += 1
 
     def as_array(self) -> NDArray[np.int64]:
-        """The counts, ascending; `RangeError` for more than a million of them."""
-        return as_array(self)
+        """The counts, ascending; `RangeError` for more than a million of them, which stay runs."""
+        import numpy as np
+
+        if len(self) > _MOST_LISTED:
+            raise RangeError(
+                Problem(
+                    f"{len(self)} tooth counts to list",
+                    "this search takes counts one by one; only a single pair of wheels is found in a range of any "
+                    "length",
+                    "give a shorter range, such as 15:120",
+                )
+            )
+        return np.array(tuple(self), dtype=np.int64)
 
     def __len__(self) -> int:
         return self._before[-1]
@@ -188,21 +199,6 @@ def read_counts(text: str) -> CountRuns:
     if not text.strip():
         raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
     return CountRuns.joined(_span(part) for part in text.split(","))
-
-
-def as_array(counts: Counts) -> NDArray[np.int64]:
-    """The counts as int64, ascending; `RangeError` for more than a million: those stay runs."""
-    import numpy as np
-
-    if len(counts) > _MOST_LISTED:
-        raise RangeError(
-            Problem(
-                f"{len(counts)} tooth counts to list",
-                "this search takes counts one by one; only a single pair of wheels is found in a range of any length",
-                "give a shorter range, such as 15:120",
-            )
-        )
-    return np.array(tuple(counts), dtype=np.int64)
 
 
 def _span(part: str) -> tuple[int, int]:

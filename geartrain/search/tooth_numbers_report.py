@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 from geartrain.report.document import Document, Section, Table, cut, exact, figure
 
 if TYPE_CHECKING:
-    from geartrain.search.epicyclic.epicyclic_sets import SetFindings
-    from geartrain.search.epicyclic.set_kinds import EpicyclicKind
-    from geartrain.search.orrery.orrery_result import Orrery
+    from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
+    from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.ratio.stage_search import StageFindings
     from geartrain.search.search_outcome import GearStages, Shortfall
     from geartrain.search.stern_brocot import Approximants

@@ -5,15 +5,17 @@ of those of the alternatives chosen in it. Of each node the inside sum is the we
 sum that of all ways around it, and their product that of all that pass. Of whole numbers all sums are exact.
 
 Where there are millions, a node is a table: each row is a node of its own, and the alternatives of all rows are arrays.
+`relative_entropy` and `entropy` measure what probabilities tell, in bits.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
-from math import prod
+from math import log2, prod
 from random import Random
 from typing import Any, Generic, TypeVar
 
@@ -180,3 +182,21 @@ def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)
     return found
+
+
+# ---------------------------------------------------------------------------------- information in bits (Shannon 1948)
+
+
+def relative_entropy(after: Iterable[float], before: Iterable[float | Fraction]) -> float:
+    """What is learnt where chances `before` become chances `after` [bit]; 0 where nothing changes."""
+    pairs = zip(after, before, strict=False)
+    # never negative but for rounding
+    return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
+
+
+def entropy(chances: Iterable[float]) -> float:
+    """What an answer is expected to tell [bit]: each leaves itself alone, with its chance.
+
+    It is the mean of the relative entropies of what is known after each answer and before.
+    """
+    return sum((chance * relative_entropy((1.0,), (chance,)) for chance in chances if chance), 0.0)

@@ -133,9 +133,27 @@ def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
 
 
 def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
-    """A declaration with `reconstruct`, from a YAML file, the name of shipped evidence, YAML text, or plain data.
+    """Read evidence: a declaration with `reconstruct`.
 
-    Raises `DeclarationError`, also for a train.
+    Parameters
+    ----------
+    source : str, Path or mapping
+        A YAML file, the name of shipped evidence, YAML text of several lines, or plain data.
+
+    Returns
+    -------
+    Train
+
+    Raises
+    ------
+    DeclarationError
+        If it cannot be read; also for a train.
+
+    Examples
+    --------
+    >>> from geartrain.search.reconstruct import read_evidence
+    >>> list(read_evidence("metonic-l-m").outputs)
+    ['metonic']
     """
     evidence = _read_source(source, shipped_evidence())
     if evidence.reconstruct is None:

@@ -10,7 +10,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from geartrain import load, shipped
-from geartrain.report.declaration_reference import schema
+from geartrain.report.json_schema import schema
 
 
 @pytest.mark.parametrize("name", shipped())

@@ -24,7 +24,6 @@ from places import ROOT, train_files
 from shipped import every_train
 
 from geartrain import load
-from geartrain.cli import main
 
 COMMANDS = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
 
@@ -41,39 +40,20 @@ CONTRADICTORY = RIGHT.replace("inputs: {a: 1}", "inputs: {a: 1, b: 1}").replace(
 LOCKED_POINTER = LOCKED + "outputs: {c: {}}\n"
 PUBLISHED = RIGHT.replace("{expect: 1/2}", "{published: {value: 2.1, as: input/output}}")
 
-Run = Callable[..., tuple[int, str, str]]
+Write = Callable[..., Path]
 
 
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    """Runs `main` as the console script does; the exit code, standard output, standard error."""
-
-    def command(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["geartrain", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        said = capsys.readouterr()
-        code = ended.value.code
-        return (code if isinstance(code, int) else 0 if code is None else 1), said.out, said.err
-
-    return command
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> Callable[..., Path]:
-    def write(text: str, name: str = "t.yaml") -> Path:
-        path = tmp_path / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    return write
+def run(*arguments: object) -> tuple[int, str, str]:
+    """Exit code, standard output and standard error of the console script."""
+    done = ended(*arguments)
+    return done.returncode, done.stdout, done.stderr
 
 
 # ---------------------------------------------------------------------------------------------------------------- help
 
 
 @pytest.mark.parametrize("verb", [name for name, _ in verbs() if name])
-def test_every_verb_that_exists_has_help_and_every_option_of_it_is_in_the_docs(run: Run, verb: str) -> None:
+def test_every_verb_that_exists_has_help_and_every_option_of_it_is_in_the_docs(verb: str) -> None:
     code, out, _ = run(*verb.split(), "--help")
     assert code == 0
     assert f"geartrain {verb}" in out
@@ -89,7 +69,7 @@ def test_every_verb_that_exists_has_help_and_every_option_of_it_is_in_the_docs(r
         assert option.name == "help" or option.help, f"{option.name} has a help text"
 
 
-def test_usage_names_the_command_as_it_was_started(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_usage_names_the_command_as_it_was_started(monkeypatch: pytest.MonkeyPatch) -> None:
     """By the script, or by `python -m geartrain` where there is none on the path; never by what called it in Python."""
     monkeypatch.setattr(sys.modules["__main__"], "__package__", "pytest", raising=False)
     assert "Usage: geartrain solve" in run("solve", "--help")[1]
@@ -98,7 +78,7 @@ def test_usage_names_the_command_as_it_was_started(run: Run, monkeypatch: pytest
     assert "Usage: python -m geartrain solve" in done.stdout
 
 
-def test_a_command_without_a_verb_shows_its_help_and_a_misspelt_verb_is_corrected(run: Run) -> None:
+def test_a_command_without_a_verb_shows_its_help_and_a_misspelt_verb_is_corrected() -> None:
     code, out, err = run()
     assert code == 2
     assert "Usage: geartrain" in out + err
@@ -123,22 +103,22 @@ def test_a_command_without_a_verb_shows_its_help_and_a_misspelt_verb_is_correcte
     ],
 )
 def test_a_verdict_is_a_result_on_standard_output(
-    run: Run, file: Callable[..., Path], verb: str, text: str, kind: str, code: int
+    train_file: Write, verb: str, text: str, kind: str, code: int
 ) -> None:
-    ended, out, err = run(verb, file(text))
+    ended, out, err = run(verb, train_file(text))
     assert ended == code
     assert err == ""
     assert code == 0 or kind in out
 
 
-def test_a_comparison_says_the_verdict_of_trains_without_outputs(run: Run, file: Callable[..., Path]) -> None:
-    code, out, err = run("compare", file(LOCKED, "first.yaml"), file(LOCKED, "second.yaml"))
+def test_a_comparison_says_the_verdict_of_trains_without_outputs(train_file: Write) -> None:
+    code, out, err = run("compare", train_file(LOCKED, "first.yaml"), train_file(LOCKED, "second.yaml"))
     assert code == 1
     assert "locked" in out + err
 
 
 @pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "equations", "graph"])
-def test_a_missing_file_has_no_result_and_a_reason(run: Run, verb: str, tmp_path: Path) -> None:
+def test_a_missing_file_has_no_result_and_a_reason(verb: str, tmp_path: Path) -> None:
     code, out, err = run(verb, tmp_path / "penestri-2002.yaml")
     assert (code, out) == (2, "")
     assert "there is no such file" in err
@@ -146,16 +126,21 @@ def test_a_missing_file_has_no_result_and_a_reason(run: Run, verb: str, tmp_path
 
 
 @pytest.mark.parametrize("verb", ["report", "compare"])
-def test_all_unusable_files_are_told_at_once(run: Run, file: Callable[..., Path], verb: str) -> None:
-    first, second = file(UNUSABLE, "first.yaml"), file("links: []\n", "second.yaml")
+def test_all_unusable_files_are_told_at_once(train_file: Write, verb: str) -> None:
+    first, second = train_file(UNUSABLE, "first.yaml"), train_file("links: []\n", "second.yaml")
     code, out, err = run(verb, first, "worm", second)
     assert (code, out) == (2, "")
-    assert f"{first}:4" in err
+    assert f"{first}:3" in err
     assert f"{second}:1" in err
 
 
-def test_check_returns_the_worst_whatever_the_order(run: Run, file: Callable[..., Path]) -> None:
-    codes = {file(RIGHT, "0.yaml"): 0, file(WRONG, "1.yaml"): 1, file(UNUSABLE, "2.yaml"): 2, file(LOCKED, "3.yaml"): 1}
+def test_check_returns_the_worst_whatever_the_order(train_file: Write) -> None:
+    codes = {
+        train_file(RIGHT, "0.yaml"): 0,
+        train_file(WRONG, "1.yaml"): 1,
+        train_file(UNUSABLE, "2.yaml"): 2,
+        train_file(LOCKED, "3.yaml"): 1,
+    }
     for size in (1, 2, 4):
         for chosen in itertools.permutations(codes, size):
             code, out, err = run("check", *chosen)
@@ -163,21 +148,21 @@ def test_check_returns_the_worst_whatever_the_order(run: Run, file: Callable[...
             assert all(str(path) in (err if codes[path] == 2 else out) for path in chosen)
 
 
-def test_a_quiet_check_says_nothing_of_what_is_right(run: Run, file: Callable[..., Path]) -> None:
-    assert run("check", "--quiet", file(RIGHT), "pennestri-2002") == (0, "", "")
-    code, out, _ = run("check", "--quiet", file(WRONG), "pennestri-2002")
+def test_a_quiet_check_says_nothing_of_what_is_right(train_file: Write) -> None:
+    assert run("check", "--quiet", train_file(RIGHT), "pennestri-2002") == (0, "", "")
+    code, out, _ = run("check", "--quiet", train_file(WRONG), "pennestri-2002")
     assert code == 1
     assert [line.split(" ")[0] for line in out.splitlines()] == ["FAIL"]
 
 
-def test_check_names_the_published_figure_that_fails(run: Run, file: Callable[..., Path]) -> None:
-    _, out, _ = run("check", file(PUBLISHED))
+def test_check_names_the_published_figure_that_fails(train_file: Write) -> None:
+    _, out, _ = run("check", train_file(PUBLISHED))
     assert "output 'c' is 1/2" in out
     assert "published 2.1 as input/output" in out
 
 
-def test_check_names_the_state_that_fails(run: Run, file: Callable[..., Path]) -> None:
-    child = file("extends: planetary\nstates: {ring fixed: {outputs: {carrier: {expect: 3/7}}}}\n")
+def test_check_names_the_state_that_fails(train_file: Write) -> None:
+    child = train_file("extends: planetary\nstates: {ring fixed: {outputs: {carrier: {expect: 3/7}}}}\n")
     code, out, _ = run("check", child)
     assert code == 1
     assert f"FAIL {child}:2: state ring fixed output 'carrier' is 2/7; expected 3/7" in out
@@ -201,22 +186,8 @@ VERDICT = {"kind", "text", "links", "fixes", "prescriptions", "loops"}
 MOBILITY = {"by_count", "by_rank", "rank", "redundant", "redundant_loops", "locked_loops", "still", "never_rolling"}
 OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "expect", "published", "targets"}
 TARGET = {"target", "speed", "compared", "ppm", "days_per_century", "degrees_per_unit", "met"}
-REPORT = {
-    "closure",
-    "build_findings",
-    "gridlock",
-    "sources",
-    "circuits",
-    "adjacency",
-    "remarks",
-    "sensitivity",
-    "teeth",
-    "pins",
-    "torques",
-    "strength",
-    "motion",
-    "errata",
-}
+REPORT = {"closure", "build_findings", "gridlock", "sources", "circuits", "adjacency", "remarks", "sensitivity"}
+REPORT |= {"teeth", "pins", "torques", "strength", "motion", "errata"}
 
 
 def check_answer(answer: Mapping[str, Any]) -> None:
@@ -232,7 +203,7 @@ def check_answer(answer: Mapping[str, Any]) -> None:
         assert all(set(target) == TARGET for target in output["targets"])
 
 
-def test_every_key_of_the_json_is_the_promised_one(run: Run) -> None:
+def test_every_key_of_the_json_is_the_promised_one() -> None:
     whole = json.loads(run("solve", "pennestri-2002", "--json")[1])
     assert set(whole) == TOP
     assert set(whole["mobility"]) == MOBILITY
@@ -252,7 +223,7 @@ def test_every_key_of_the_json_is_the_promised_one(run: Run) -> None:
     assert locked["mobility"]["redundant_loops"], "four wheels in a ring repeat one circuit"
 
 
-def test_the_json_of_one_output_or_state_leaves_out_what_was_not_asked(run: Run) -> None:
+def test_the_json_of_one_output_or_state_leaves_out_what_was_not_asked() -> None:
     data = json.loads(run("solve", "pennestri-2002", "--output", "moon", "--json")[1])
     assert set(data) == TOP
     assert data["mobility"] is None
@@ -267,7 +238,7 @@ def test_the_json_of_one_output_or_state_leaves_out_what_was_not_asked(run: Run)
     assert len(data["states"]) == 9
 
 
-def test_the_json_of_reports_has_the_promised_keys(run: Run) -> None:
+def test_the_json_of_reports_has_the_promised_keys() -> None:
     (data,) = json.loads(run("report", "pennestri-2002", "--json")[1])
     assert set(data) == TOP | REPORT
     assert [c["carrier"] for c in data["circuits"]] == [line.split()[3] for line in TABLES_1_TO_3.strip().splitlines()]
@@ -275,8 +246,8 @@ def test_the_json_of_reports_has_the_promised_keys(run: Run) -> None:
     assert [set(train) for train in both] == [TOP | REPORT, TOP | REPORT]
 
 
-def test_the_json_of_a_free_train_leaves_out_what_is_undetermined(run: Run, file: Callable[..., Path]) -> None:
-    code, out, _ = run("solve", file(FREE), "--json")
+def test_the_json_of_a_free_train_leaves_out_what_is_undetermined(train_file: Write) -> None:
+    code, out, _ = run("solve", train_file(FREE), "--json")
     (data,) = json.loads(out)["states"]
     assert code == 1
     assert data["verdict"]["kind"] == "free"
@@ -285,8 +256,8 @@ def test_the_json_of_a_free_train_leaves_out_what_is_undetermined(run: Run, file
     assert (data["outputs"]["d"]["exact"], data["outputs"]["d"]["value"]) == (None, None)
 
 
-def test_a_pointer_is_solved_without_what_does_not_drive_it(run: Run, file: Callable[..., Path]) -> None:
-    path = file(FREE)
+def test_a_pointer_is_solved_without_what_does_not_drive_it(train_file: Write) -> None:
+    path = train_file(FREE)
     assert run("solve", path)[0] == 1
     code, out, _ = run("solve", path, "--output", "b")
     assert code == 0
@@ -309,14 +280,14 @@ def test_a_part_of_the_work_gives_the_same_number_for_every_pointer_of_the_cosmo
     assert 4 <= load("pennestri-2002").solve(output="moon").work <= 9
 
 
-def test_one_state_is_the_same_alone_and_among_all(run: Run) -> None:
+def test_one_state_is_the_same_alone_and_among_all() -> None:
     every = run("solve", "zf-8hp70")[1]
     alone = [run("solve", "zf-8hp70", "--state", state)[1] for state in load("zf-8hp70").states]
     assert every == "".join(alone)
     assert len(alone) == 9
 
 
-def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true(run: Run) -> None:
+def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true() -> None:
     (data,) = json.loads(run("solve", "pennestri-2002", "--method", "floats", "--json")[1])["states"]
     assert data["method"] == "floats"
     for speed, right in zip(data["speeds"].values(), TWENTY, strict=True):
@@ -350,7 +321,7 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true(run:
     ],
 )
 def test_what_does_not_exist_is_refused_with_what_does(
-    run: Run, arguments: list[str], said: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    arguments: list[str], said: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     code, out, err = run(*arguments)
@@ -397,7 +368,7 @@ def _row(terms: list[tuple[str, str, str]]) -> Row:
 
 
 @pytest.mark.parametrize("name", every_train())
-def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(run: Run, name: str) -> None:
+def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(name: str) -> None:
     train = load(name)
     answers = list(train.answers())
     blocks = run("equations", name)[1].split("\n\n")
@@ -413,7 +384,7 @@ def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(r
             assert sum(value * answer.speeds[link] for link, value in row.items()) == right, label
 
 
-def test_gear_rows_carry_the_tooth_numbers_of_the_paper(run: Run) -> None:
+def test_gear_rows_carry_the_tooth_numbers_of_the_paper() -> None:
     teeth = {name: wheel.count for name, (_, wheel) in load("pennestri-2002").declaration.wheels.items()}
     rows = {label: row for label, row, _ in text_rows(run("equations", "pennestri-2002")[1])}
     for line in TABLES_1_TO_3.strip().splitlines():
@@ -426,7 +397,7 @@ def test_gear_rows_carry_the_tooth_numbers_of_the_paper(run: Run) -> None:
 
 
 @pytest.mark.parametrize("name", ["pennestri-2002", "humpage", "freeth-2021", "wolfrom-175"])
-def test_latex_says_the_same_as_text(run: Run, name: str) -> None:
+def test_latex_says_the_same_as_text(name: str) -> None:
     latex = run("equations", name, "--latex")[1]
     rows = list(latex_rows(latex))
     assert rows == list(text_rows(run("equations", name)[1]))
@@ -435,18 +406,16 @@ def test_latex_says_the_same_as_text(run: Run, name: str) -> None:
     assert latex.count("{") == latex.count("}")
 
 
-def test_latex_escapes_names_that_mean_something_there(run: Run, file: Callable[..., Path]) -> None:
+def test_latex_escapes_names_that_mean_something_there(train_file: Write) -> None:
     text = RIGHT.replace("b: {wheels", '"b_1 & 5%#$": {wheels').replace("frame, b]", 'frame, "b_1 & 5%#$"]')
-    _, out, _ = run("equations", file(text), "--latex")
+    _, out, _ = run("equations", train_file(text), "--latex")
     assert "\\text{b\\_1 \\& 5\\%\\#\\$}" in out
 
 
 # --------------------------------------------------------------------------------------------------------------- graph
 
 
-def test_a_large_train_is_listed_by_its_edges_unless_the_square_is_asked(
-    run: Run, train_file: Callable[..., Path]
-) -> None:
+def test_a_large_train_is_listed_by_its_edges_unless_the_square_is_asked(train_file: Write) -> None:
     """Rows of wheels, one twice as long as the other: the list doubles, the square is four times as large."""
     sizes: dict[str, list[int]] = {"": [], "labels": []}
     for count in (60, 120):
@@ -525,7 +494,7 @@ FORMS = [
 
 @pytest.mark.parametrize(("suffix", "form", "read"), FORMS)
 def test_every_form_of_graph_holds_the_edges_of_the_paper(
-    run: Run, tmp_path: Path, suffix: str, form: str, read: Callable[[Path], dict[frozenset[str], tuple[str, str]]]
+    tmp_path: Path, suffix: str, form: str, read: Callable[[Path], dict[frozenset[str], tuple[str, str]]]
 ) -> None:
     by_suffix, by_name, printed = tmp_path / f"a{suffix}", tmp_path / "b.json", tmp_path / "c"
     assert run("graph", "pennestri-2002", "-o", by_suffix)[:2] == (0, "")
@@ -539,7 +508,7 @@ def test_every_form_of_graph_holds_the_edges_of_the_paper(
         assert read(path) == expected
 
 
-def test_the_matrix_in_numbers_is_the_matrix_in_letters(run: Run) -> None:
+def test_the_matrix_in_numbers_is_the_matrix_in_letters() -> None:
     data = json.loads(run("graph", "pennestri-2002", "--as", "matrix")[1])
     rows, columns = data["labels"]
     ones = {frozenset((rows[i], columns[j])) for i, row in enumerate(data["values"]) for j, n in enumerate(row) if n}
@@ -562,7 +531,7 @@ def keys(part: object, place: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
             yield from keys(child, f"{place}/{at}")
 
 
-def test_every_property_of_the_schema_is_described(run: Run) -> None:
+def test_every_property_of_the_schema_is_described() -> None:
     found = json.loads(run("schema")[1])
     assert found["$schema"] == "https://json-schema.org/draft/2020-12/schema"
     Draft202012Validator.check_schema(found)
@@ -600,9 +569,7 @@ SOUND: dict[str, Any] = {
     ],
     ids=lambda place: ".".join(map(str, place)) or "train",
 )
-def test_the_schema_accepts_a_train_and_refuses_a_key_it_does_not_know_anywhere(
-    run: Run, place: tuple[str | int, ...]
-) -> None:
+def test_the_schema_accepts_a_train_and_refuses_a_key_it_does_not_know_anywhere(place: tuple[str | int, ...]) -> None:
     validator = Draft202012Validator(json.loads(run("schema")[1]))
     data = json.loads(json.dumps(SOUND))
     assert validator.is_valid(data)
@@ -613,7 +580,7 @@ def test_the_schema_accepts_a_train_and_refuses_a_key_it_does_not_know_anywhere(
     assert not validator.is_valid(data)
 
 
-def test_the_schema_is_written_for_editors_and_for_readers(run: Run, tmp_path: Path) -> None:
+def test_the_schema_is_written_for_editors_and_for_readers(tmp_path: Path) -> None:
     out = tmp_path / "schema.json"
     assert run("schema", "-o", out)[0] == 0
     assert out.read_text(encoding="utf-8") == run("schema")[1]
@@ -621,7 +588,7 @@ def test_the_schema_is_written_for_editors_and_for_readers(run: Run, tmp_path: P
     assert markdown.rstrip() == (ROOT / "docs" / "reference.md").read_text(encoding="utf-8").rstrip()
 
 
-def test_the_list_names_every_file_of_trains_with_its_title(run: Run) -> None:
+def test_the_list_names_every_file_of_trains_with_its_title() -> None:
     lines = run("list")[1].splitlines()
     files = sorted(path.stem for path in train_files())
     assert sorted(line.split()[0] for line in lines) == files
@@ -629,7 +596,7 @@ def test_the_list_names_every_file_of_trains_with_its_title(run: Run) -> None:
 
 
 @pytest.mark.parametrize("word", ["saros", "month_", "venus", ""])
-def test_periods_shows_the_rows_with_a_word_and_no_others(run: Run, word: str) -> None:
+def test_periods_shows_the_rows_with_a_word_and_no_others(word: str) -> None:
     with open(ROOT / "geartrain" / "train" / "periods.csv", encoding="utf-8", newline="") as source:
         rows = {row["name"]: row for row in csv.DictReader(source) if word in row["name"]}
     lines = {line.split()[0]: line.split() for line in run("periods", word)[1].splitlines()}
@@ -644,16 +611,18 @@ def test_periods_shows_the_rows_with_a_word_and_no_others(run: Run, word: str) -
 # ----------------------------------------------------------------------------------------------------------- processes
 
 
-def test_the_version_is_the_packages(run: Run) -> None:
+def test_the_version_is_the_packages() -> None:
     assert run("--version")[1].strip() == f"geartrain {version('geartrain')}"
 
 
 @pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "equations", "graph"])
-def test_unusable_input_is_said_on_standard_error_with_its_line_and_without_a_traceback(file, verb: str) -> None:
-    path = file(UNUSABLE)
+def test_unusable_input_is_said_on_standard_error_with_its_line_and_without_a_traceback(
+    train_file: Write, verb: str
+) -> None:
+    path = train_file(UNUSABLE)
     done = ended(verb, path)
     assert done.returncode == 2
-    assert f"{path}:4: unknown key 'geers'" in done.stderr
+    assert f"{path}:3: unknown key 'geers'" in done.stderr
     assert "did you mean 'gears'?" in done.stderr
     assert "Traceback" not in done.stderr
 

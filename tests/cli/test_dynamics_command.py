@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 from answer_schemas import holds
-from commands import HEAVY, call
+from commands import HEAVY, call, interrupt_after
 
 from geartrain.errors import GearTrainError
 
@@ -215,16 +215,7 @@ def test_a_train_without_rate_or_inertia_says_what_to_add(pin: Path) -> None:
 
 
 def test_an_interrupted_run_gives_what_was_done(pin: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.cli.long_runs import ProgressBar
-
-    told = []
-
-    def advance(bar: ProgressBar, steps: int = 1) -> None:
-        told.append(steps)
-        if len(told) == 3:
-            os.kill(os.getpid(), signal.SIGINT)
-
-    monkeypatch.setattr(ProgressBar, "advance", advance)
+    told = interrupt_after(3, monkeypatch)
     before = signal.getsignal(signal.SIGINT)
     done = call("dynamics", pin, *TURN[:-2], "5000", "--no-fast", "--json")
     assert done.exit_code == 130

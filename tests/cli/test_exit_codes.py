@@ -23,7 +23,7 @@ from places import ROOT, TESTS
 from test_output_files import ASKED, DOUBT
 
 from geartrain.cli import app, main
-from geartrain.cli.exit_codes import EndingGroup
+from geartrain.cli.verbs import EndingGroup
 
 OTHERS = {
     "check": ("check", "worm"),
@@ -51,7 +51,7 @@ def run(
     """Runs `main` as the console script does; the exit code, standard output, standard error."""
     monkeypatch.chdir(tmp_path)
     here = SimpleNamespace(mkstemp=functools.partial(tempfile.mkstemp, dir=tmp_path))
-    monkeypatch.setattr("geartrain.cli.exit_codes.tempfile", here)
+    monkeypatch.setattr("geartrain.cli.verbs.tempfile", here)
 
     def command(*arguments: str) -> tuple[int, str, str]:
         monkeypatch.setattr(sys, "argv", ["geartrain", *arguments])
@@ -112,7 +112,7 @@ def test_a_fault_is_told_where_no_file_can_be_made(
     each = dict(runs())["solve"]
     monkeypatch.setattr(each, "callback", broken(each, RuntimeError("x")))
     nowhere = SimpleNamespace(mkstemp=functools.partial(tempfile.mkstemp, dir=tmp_path / "nowhere"))
-    monkeypatch.setattr("geartrain.cli.exit_codes.tempfile", nowhere)
+    monkeypatch.setattr("geartrain.cli.verbs.tempfile", nowhere)
     code, _, err = run("solve", "worm")
     assert code == 3
     assert "GEARTRAIN_TRACEBACK=1" in err
@@ -140,7 +140,7 @@ def test_an_interrupt_is_exit_130_without_a_traceback(
 
 
 def test_an_interrupt_while_python_evaluates_a_string_is_exit_130(tmp_path: Path) -> None:
-    lines = ("import sys", "from geartrain.cli.exit_codes import guarded")
+    lines = ("import sys", "from geartrain.cli.verbs import guarded")
     ending = "sys.exit(guarded(lambda: exec('raise KeyboardInterrupt')))"
     (tmp_path / "interrupted.py").write_text("\n".join((*lines, ending)))
     paths = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}

@@ -52,17 +52,6 @@ def test_existing_files_are_refused_as_a_whole_and_force_writes_over_them(tmp_pa
     assert (to / "own.txt").read_text(encoding="utf-8") == "mine"
 
 
-def test_one_existing_file_is_kept_unless_forced(tmp_path: Path) -> None:
-    out = tmp_path / "s.svg"
-    out.write_text("mine", encoding="utf-8")
-    asked = ("export", "planetary-24-18-60", "--wheel", "s", "-o", out)
-    refused = call(*asked)
-    assert refused.exit_code != 0
-    assert out.read_text(encoding="utf-8") == "mine"
-    assert call(*asked, "--force").exit_code == 0
-    assert "24 teeth" in out.read_text(encoding="utf-8")
-
-
 def test_a_folder_that_is_stopped_half_way_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stop(*_: object) -> str:
         raise KeyboardInterrupt

@@ -25,24 +25,8 @@ from geartrain.teeth.pin_transmission import PinTransmission
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-PLAIN = (
-    "0",
-    "-0",
-    "-1",
-    "1",
-    "0.5",
-    "3.7",
-    "1e-300",
-    "-1e-300",
-    "1e-9",
-    "1e9",
-    "1e17",
-    "1e300",
-    "-1e300",
-    "1e999",
-    "nan",
-)
-PLAIN += ("inf", "-inf", "9" * 25, "", " ", "1/0", "x", "1,1", "1,", "1:2:3")
+PLAIN = ("0", "-0", "-1", "1", "0.5", "3.7", "1e-300", "-1e-300", "1e-9", "1e9", "1e17", "1e300", "-1e300", "1e999")
+PLAIN += ("nan", "inf", "-inf", "9" * 25, "", " ", "1/0", "x", "1,1", "1,", "1:2:3")
 UNITS = {"angle": "deg", "length": "mm", "torque": "N m", "speed": "turn/s", "inertia": "kg m2", "number": ""}
 SECONDS = 60
 
@@ -57,6 +41,8 @@ outputs: {b: }
 """
 
 TRIANGULAR = ("mesh", "triangular", "--teeth", "48", "96")
+CLEARED = (*TRIANGULAR, "--clearance", "1.01")
+SIZED = (*CLEARED, "--module", "2mm")
 CONJUGATE = {
     "involute": ("pressure-angle:angle", "shift", "addendum", "dedendum", "centre-distance"),
     "cycloidal": ("rolling", "addendum", "arcs", "centre-distance"),
@@ -66,15 +52,8 @@ CONJUGATE = {
     "least_friction": ("pressure-angle:angle", "margin", "arcs"),
 }
 SHARED = ("friction", "bevel:angle", "backlash", "driver", "module:length")
-OUTLINED = (
-    "clearance:length",
-    "fillet:length",
-    "bore:length",
-    "rim:length",
-    "tolerance:length",
-    "wheel",
-    "module:length",
-)
+OUTLINED = ("clearance:length", "fillet:length", "bore:length", "rim:length", "tolerance:length", "wheel")
+OUTLINED += ("module:length",)
 
 # the command without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
 CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
@@ -82,20 +61,11 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
         TRIANGULAR,
         ("half-angle:angle", "clearance", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
     ),
-    ((*TRIANGULAR, "--clearance", "1.01"), ("half-angle:angle", "module:length", "friction", "radii")),
-    (
-        (*TRIANGULAR, "--clearance", "1.01", "--module", "2mm", "--rate", "1turn/s", "--load", "1N*m"),
-        ("inertia:inertia",),
-    ),
-    (
-        (*TRIANGULAR, "--clearance", "1.01", "--module", "2mm", "--inertia", "1kg*m2", "--load", "1N*m"),
-        ("rate:speed",),
-    ),
-    (
-        (*TRIANGULAR, "--clearance", "1.01", "--module", "2mm", "--inertia", "1kg*m2", "--rate", "1turn/s"),
-        ("load:torque",),
-    ),
-    ((*TRIANGULAR, "--clearance", "1.01", "--teeth-plot", "{out}/t.svg"), ("at:angle",)),
+    (CLEARED, ("half-angle:angle", "module:length", "friction", "radii")),
+    ((*SIZED, "--rate", "1turn/s", "--load", "1N*m"), ("inertia:inertia",)),
+    ((*SIZED, "--inertia", "1kg*m2", "--load", "1N*m"), ("rate:speed",)),
+    ((*SIZED, "--inertia", "1kg*m2", "--rate", "1turn/s"), ("load:torque",)),
+    ((*CLEARED, "--teeth-plot", "{out}/t.svg"), ("at:angle",)),
     (("mesh", "pin", "--offset", "2"), ("pin-radius", "pin-radius:length")),
     (("mesh", "pin", "--pin-radius", "10"), ("offset", "offset:length", "friction", "driver")),
     (("mesh", "pin", "--pin-radius", "10", "--offset", "12", "--driver", "slot"), ("friction",)),
@@ -198,11 +168,11 @@ def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
 
 
 KEPT = [
-    ("mesh triangular --teeth 48 96 --clearance 1.01", "half-angle:angle", "1e-300"),
-    ("mesh triangular --teeth 48 96 --clearance 1.01", "half-angle:angle", "1e-9"),
-    ("mesh triangular --teeth 48 96 --clearance 1.01", "module:length", "0"),
-    ("mesh triangular --teeth 48 96 --clearance 1.01", "module:length", "-1"),
-    ("mesh triangular --teeth 48 96 --clearance 1.01", "module:length", "1e300"),
+    *(
+        ("mesh triangular --teeth 48 96 --clearance 1.01", option, value)
+        for option, values in {"half-angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
+        for value in values
+    ),
     ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
     ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
     ("mesh pin --offset 2", "pin-radius", "1e300"),

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 from functools import cache
 from math import cos, isclose, pi, radians, sin, sqrt, tan
 from pathlib import Path as File
@@ -13,7 +11,7 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
-from commands import call
+from commands import call, ended, without
 from places import DATA
 
 PRINTED = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
@@ -38,11 +36,6 @@ def compared(*arguments: object) -> dict[str, Any]:
     assert done.exit_code in (0, 1), done.output
     found: dict[str, Any] = json.loads(done.output)
     return found
-
-
-def process(*arguments: object, code: str = "from geartrain.cli import main; main()") -> Any:
-    command = [sys.executable, "-c", code, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize("pair", ["spur(24,36)", "spur(12,60)", "bevel(24,36)", "bevel(15,45)"])
@@ -195,33 +188,13 @@ REFUSED = [
 
 @pytest.mark.parametrize(("arguments", "place", "said"), REFUSED, ids=lambda value: str(value)[:60])
 def test_what_cannot_be_answered_is_refused_with_place_and_what_to_do(
-    arguments: list[object], place: str, said: str, capsys: pytest.CaptureFixture[str]
+    arguments: list[object], place: str, said: str
 ) -> None:
-    from geartrain.cli import main
-
-    before, sys.argv = sys.argv, ["geartrain", "mesh", *map(str, arguments)]
-    try:
-        with pytest.raises(SystemExit) as stopped:
-            main()
-    finally:
-        sys.argv = before
-    told = capsys.readouterr()
-    assert (stopped.value.code, told.out) == (2, "")
-    text = " ".join(told.err.replace("│", " ").split())
+    done = ended("mesh", *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    text = " ".join(done.stderr.replace("│", " ").split())
     assert place in text
     assert said in text
-
-
-BLOCK = """
-import sys
-class Missing:
-    def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] == {missing!r}:
-            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
-sys.meta_path.insert(0, Missing())
-from geartrain.cli import main
-main()
-"""
 
 
 @pytest.mark.parametrize(
@@ -231,8 +204,8 @@ main()
 def test_a_missing_library_is_named_with_its_package(
     missing: str, package: str, option: str, file: str, tmp_path: File
 ) -> None:
-    arguments = ("mesh", "involute", *PAIR, "--module", "2mm", option, tmp_path / file)
-    done = process(*arguments, code=BLOCK.format(missing=missing))
+    arguments: list[object] = ["mesh", "involute", *PAIR, "--module", "2mm", option, tmp_path / file]
+    done = without(missing, arguments=arguments)
     assert done.returncode == 2
     assert f"{missing} is not installed" in done.stderr
     assert f"pip install '{package}'" in done.stderr
@@ -240,8 +213,8 @@ def test_a_missing_library_is_named_with_its_package(
 
 
 def test_an_outline_as_svg_needs_neither(tmp_path: File) -> None:
-    arguments = ("mesh", "involute", *PAIR, "--module", "2mm", "--profile", tmp_path / "w.svg")
-    done = process(*arguments, code=BLOCK.format(missing="scipy"))
+    arguments: list[object] = ["mesh", "involute", *PAIR, "--module", "2mm", "--profile", tmp_path / "w.svg"]
+    done = without("scipy", arguments=arguments)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "w.svg").exists()
 

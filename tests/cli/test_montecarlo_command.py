@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
+from commands import call
 
 from geartrain import GearTrainError, load
-from geartrain.cli import app
 from geartrain.errors import MissingExtraError, QuestionError
 from geartrain.numerics.files import ColumnTable
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
@@ -34,7 +33,7 @@ Write = Callable[..., Path]
 
 
 def ask(*words: object) -> Any:
-    return CliRunner().invoke(app, ["montecarlo", *map(str, words)])
+    return call("montecarlo", *words)
 
 
 @pytest.fixture

@@ -13,11 +13,18 @@ from concrete_trees import explanations, package_arbor
 
 from geartrain import load
 from geartrain.errors import Problem, QuestionError
-from geartrain.search.reconstruct import dropped_facts, expected_cost, reconstruction
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, question_digest
-from geartrain.search.reconstruct.reconstruction_result import Candidate, ExplanationCount, Reconstructions
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct import (
+    Candidate,
+    ExplanationCount,
+    ReconstructionProblem,
+    Reconstructions,
+    dropped_facts,
+    evidence_question,
+    read_evidence,
+    reconstruction,
+    search_tasks,
+)
+from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
 COUNTS = [
     ("metonic-l-m", [(0, 0, 0, 0), (1, 2, 1, 1)]),
@@ -199,7 +206,7 @@ def test_what_is_asked_is_told_before_the_search(monkeypatch: pytest.MonkeyPatch
 
 
 def test_the_time_is_told_where_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(expected_cost, "timed_part", lambda task, _: 6400 / task.parts * (task.part < task.parts))
+    monkeypatch.setattr(search_tasks, "timed_part", lambda task: 6400 / task.parts * (task.part < task.parts))
     result = call("reconstruct", "back-train", "-k", "3", "--count", "--json", "--workers", "2")
     assert "expected: about 100 minutes in one process, shared by 2; one part in 4096" in result.stderr
     found = json.loads(result.stdout)

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
-import signal
 import subprocess
 from base64 import b64encode
 from collections.abc import Callable
@@ -17,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from commands import HEAVY, LOCKED, RIGHT, WRONG, call
+from commands import HEAVY, LOCKED, RIGHT, WRONG, call, interrupt_after
 
 import geartrain.viewer
 from geartrain import GearTrainError, load
@@ -180,15 +178,6 @@ def refusal(*arguments: object) -> str:
     return str(done.exception)
 
 
-def test_a_file_that_is_there_stays_unless_force_is_used(here: Path) -> None:
-    old = here / "planetary-24-18-60.html"
-    old.write_text("mine", encoding="utf-8")
-    assert "--force" in refusal("planetary-24-18-60")
-    assert old.read_text(encoding="utf-8") == "mine"
-    assert call("view", "planetary-24-18-60", "--force").exit_code == 0
-    assert old.stat().st_size > 100_000
-
-
 @pytest.mark.parametrize(
     ("name", "said"),
     [
@@ -274,12 +263,6 @@ def test_the_motion_in_time_is_played_from_one_file_with_the_angles_of_dynamics(
     assert len(run["links"]) == len(scene["bodies"])  # type: ignore[arg-type]
 
 
-def test_options_of_a_motion_in_time_without_one_are_refused(here: Path) -> None:
-    assert "--dynamics" in refusal("worm", "--rate", "1")
-    assert "page for each" in refusal("worm", "worm", "--dynamics", "--rate", "1")
-    assert list(here.iterdir()) == []
-
-
 def test_a_train_that_has_no_motion_in_time_is_refused_as_dynamics_refuses_it(here: Path) -> None:
     for words in (
         ("freeth-2008", "--rate", "1"),
@@ -296,16 +279,7 @@ def test_a_train_that_has_no_motion_in_time_is_refused_as_dynamics_refuses_it(he
 def test_an_interrupted_run_is_played_as_far_as_it_came(
     train_file: Written, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from geartrain.cli.long_runs import ProgressBar
-
-    told = []
-
-    def advance(bar: ProgressBar, steps: int = 1) -> None:
-        told.append(steps)
-        if len(told) == 2:
-            os.kill(os.getpid(), signal.SIGINT)
-
-    monkeypatch.setattr(ProgressBar, "advance", advance)
+    interrupt_after(2, monkeypatch)
     words = ("--rate", "1", "--turns", "1", "--skip", "0", "--steps", "5000", "--no-fast")
     done = call("view", train_file(HEAVY), "--dynamics", *words, "-o", "run.html")
     assert done.exit_code == 130

@@ -26,12 +26,9 @@ from studies.left_out_study import (
 from studies.measurement import gathered
 from studies.page import read
 
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import Additions, ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_wheels
-from geartrain.search.reconstruct.reconstruction_problem import NEW, Additions, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence, lost_wheels
 from geartrain.train.declaration_files import read_declaration, shipped
 
 
@@ -139,7 +136,7 @@ outputs: {d: {expect: -1/8}}
 
 
 def test_a_pointer_of_each_speed_needs_an_arbor() -> None:
-    dials = [exact_dial("a", 2, place=NEW), exact_dial("b", -2, place=NEW), exact_dial("c", 3, place=NEW)]
+    dials = [exact_dial("a", 2, place="new"), exact_dial("b", -2, place="new"), exact_dial("c", 3, place="new")]
     problem = ReconstructionProblem(sure_arbor("x", x1=10), (), (*dials, exact_dial("d", 5)), Additions(1, 5, 6))
     assert fewest_new_arbors(problem) == 2  # magnitudes alone are told apart
     near = replace(dials[2], least=Fraction(1), greatest=Fraction(9, 2))

@@ -9,11 +9,7 @@ from pathlib import Path
 import pytest
 from places import DOCS, ROOT
 
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_problem import Arbor
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct import Arbor, Reconstructions, evidence_question, find_reconstructions, read_evidence
 
 PAGE = (DOCS / "reconstruct.md").read_text(encoding="utf-8")
 FILES = dict(re.findall(r"^<!-- file: (\S+) -->\n```yaml\n(.*?)^```$", PAGE, re.S | re.M))

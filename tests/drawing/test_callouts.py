@@ -14,7 +14,7 @@ from shipped import train as load
 pytest.importorskip("matplotlib")
 
 from geartrain.drawing import picture
-from geartrain.drawing.callouts import Callout, CalloutMargin, find_margin
+from geartrain.drawing.arrangement import Callout, CalloutMargin, find_margin
 from geartrain.drawing.plan_view import PlanNames
 from geartrain.drawing.projection import project_scene
 from geartrain.scene import make_scene

@@ -516,14 +516,6 @@ def test_the_name_of_a_train_never_leads_out_of_the_folder(here: Path) -> None:
     ET.fromstring((here / "script-x-graph.svg").read_bytes())
 
 
-def test_an_existing_file_is_kept_unless_forced(here: Path) -> None:
-    (here / "x.svg").write_text("mine", encoding="utf-8")
-    assert call("draw", "four-gear-loop", "-o", "x.svg").exit_code != 0
-    assert (here / "x.svg").read_text(encoding="utf-8") == "mine"
-    assert call("draw", "four-gear-loop", "-o", "x.svg", "--force").exit_code == 0
-    assert (here / "x.svg").read_bytes().startswith(b"<?xml")
-
-
 @pytest.mark.parametrize(
     ("path", "said"),
     [
@@ -548,12 +540,6 @@ def test_what_cannot_be_a_file_is_refused_with_a_reason_and_a_way_out(
     assert problem.why
     assert problem.fix
     assert problem.place
-
-
-def test_nothing_is_worked_out_for_a_file_that_may_not_be_written(here: Path) -> None:
-    result = call("draw", "longcase-clock", "--kind", "lever", "-o", "nowhere/x.svg")
-    assert isinstance(result.exception, GearTrainError)
-    assert "no such folder" in str(result.exception)
 
 
 @pytest.mark.parametrize(

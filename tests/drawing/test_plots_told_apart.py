@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import radians
 from typing import Any
 
@@ -253,13 +253,15 @@ def test_a_spike_leaves_its_panel_where_the_rest_would_be_flat() -> None:
 
 def test_numbers_of_many_great_counts_stand_apart() -> None:
     counts = {f"wheel {at}": np.arange(220, 229) + at for at in range(6)}
-    figure = corner_figure(CountProbabilities.of({**counts, "of many": np.arange(15, 24) ** 2 // 6}, np.ones(9)))
+    columns = {**counts, "of many": np.arange(15, 24) ** 2 // 6}
+    pairs = {two: dict.fromkeys(zip(*map(columns.get, two), strict=True), 1 / 9) for two in combinations(columns, 2)}
+    figure = corner_figure(CountProbabilities({w: dict.fromkeys(own, 1 / 9) for w, own in columns.items()}, pairs))
     assert not crowded(figure)
     assert min(len(axes.get_xticks()) for axes in figure.axes if axes.axison) > 1
 
 
 def test_many_counts_have_no_bars_of_outlines_alone() -> None:
-    likely = CountProbabilities.of({"wheel": np.arange(15, 82)}, np.ones(67))
+    likely = CountProbabilities({"wheel": dict.fromkeys(range(15, 82), 1 / 67)}, {})
     (axes,) = corner_figure(replace(likely, before=likely.single)).axes
     edged = [bar for bar in axes.patches if bar.get_linewidth() > 0 and to_rgba(bar.get_edgecolor())[3] > 0]
     assert len(edged) == 1, "one line along the tops"

@@ -21,8 +21,7 @@ from matplotlib.patches import Patch, Rectangle
 from PIL import Image
 
 from geartrain.drawing import picture, render
-from geartrain.drawing.backend import Figure
-from geartrain.drawing.style import HALO
+from geartrain.drawing.style import HALO, Figure
 from geartrain.drawing.theme_colours import themed
 from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene.palette import THEMES, series_colour

@@ -19,7 +19,6 @@ pytest.importorskip("matplotlib")
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 
 from geartrain.drawing import law_figure, render, sweep_figure, teeth_figure
 from geartrain.drawing.tooth_contact import DRIVEN, DRIVER, tooth_pair_pose
@@ -278,19 +277,6 @@ def test_arrays_that_are_no_sweep_are_refused() -> None:
 
 
 # ----------------------------------------------------------------------------------------------------------- all plots
-
-
-@pytest.mark.parametrize("pair", [(48, 96, 0.01), STANDS, (12, 18, 0.03)])
-def test_at_900_pixels_everything_is_inside_and_the_words_are_large_enough(pair: tuple[int, int, float]) -> None:
-    for figure in (drawn_law(pair), teeth_figure(law(*pair))):
-        figure.draw_without_rendering()
-        assert figure.get_figwidth() == 9.0
-        inside = figure.get_tightbbox()
-        assert min(inside.x0, inside.y0) > -0.01
-        assert inside.x1 < 9.01
-        assert inside.y1 < figure.get_figheight() + 0.01
-        words = figure.findobj(lambda each: isinstance(each, Text) and each.get_text() and each.get_visible())
-        assert all(word.get_fontsize() >= 10 for word in words if isinstance(word, Text))
 
 
 @pytest.mark.parametrize(("suffix", "start"), [(".svg", b"<?xml"), (".PNG", b"\x89PNG"), (".pdf", b"%PDF")])

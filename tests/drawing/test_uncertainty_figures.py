@@ -23,9 +23,8 @@ from geartrain import load
 from geartrain.drawing import render
 from geartrain.errors import QuestionError
 from geartrain.numerics import IntervalEstimate as Figure_
-from geartrain.search import counts_figure, infer_counts
+from geartrain.search import counts_figure, infer_counts, joint_posterior, most_informative_wheels
 from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure
-from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels
 from geartrain.workshop import (
     MonteCarloResult,
     SobolIndices,
@@ -45,8 +44,12 @@ from geartrain.workshop.monte_carlo.tornado_chart import VarianceShare, tornado_
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)
 ERRORS = RNG.normal(size=(41, 1)) * np.sin(np.pi * TURNS) + 0.1
-COUNTS = {"b1": [223, 223, 224, 224], "e3": [217, 235, 217, 223], "m3": [27, 27, 27, 28]}
-WEIGHTS = [1.0, 2.0, 3.0, 4.0]
+PAIRS = {
+    ("b1", "e3"): {(223, 217): 0.1, (223, 235): 0.2, (224, 217): 0.3, (224, 223): 0.4},
+    ("b1", "m3"): {(223, 27): 0.3, (224, 27): 0.3, (224, 28): 0.4},
+    ("e3", "m3"): {(217, 27): 0.4, (235, 27): 0.2, (223, 28): 0.4},
+}
+SINGLE = {"b1": {223: 0.3, 224: 0.7}, "e3": {217: 0.4, 223: 0.4, 235: 0.2}, "m3": {27: 0.6, 28: 0.4}}
 MAP_X, MAP_Y = np.linspace(1.0, 1.03, 5), np.linspace(1, 8, 6)
 
 
@@ -182,18 +185,8 @@ def test_what_does_not_fit_is_counted() -> None:
     assert "25 more, each 0.17 or less" in axes.get_xlabel()
 
 
-def test_likelihoods_are_the_sums_of_weights() -> None:
-    likely = CountProbabilities.of(COUNTS, WEIGHTS)
-    assert likely.single["b1"] == pytest.approx({223: 0.3, 224: 0.7})
-    assert likely.single["e3"] == pytest.approx({217: 0.4, 223: 0.4, 235: 0.2})
-    assert likely.pairs["b1", "e3"] == pytest.approx(
-        {(223, 217): 0.1, (223, 235): 0.2, (224, 217): 0.3, (224, 223): 0.4}
-    )
-    assert set(likely.pairs) == {("b1", "e3"), ("b1", "m3"), ("e3", "m3")}
-
-
 def test_a_corner_shows_every_chance_at_its_counts() -> None:
-    likely = CountProbabilities.of(COUNTS, WEIGHTS, {"b1": 223})
+    likely = CountProbabilities(SINGLE, PAIRS, {}, {"b1": 223})
     figure = corner_figure(likely)
     panels = np.array(figure.axes).reshape(3, 3)
     bars = {round(bar.get_x() + bar.get_width() / 2): bar.get_height() for bar in panels[0, 0].patches}
@@ -212,11 +205,13 @@ def test_a_corner_shows_every_chance_at_its_counts() -> None:
 
 def test_a_panel_names_every_mode_of_its_wheel() -> None:
     """50 is declared and 49 to 52 are equally likely: none of the four is preferred in the title."""
-    equal = CountProbabilities.of({"w": range(47, 55)}, [1, 2, 7, 7, 7, 7, 2, 1], {"w": 50})
+    equal = dict(zip(range(47, 55), np.array([1, 2, 7, 7, 7, 7, 2, 1]) / 34, strict=True))
     # 0.1 + 0.2 is not 0.3 in floats, and 21 and 23 are equally likely nevertheless
-    apart = CountProbabilities.of({"w": [21, 22, 23, 23]}, [0.3, 0.1, 0.1, 0.2])
-    single = CountProbabilities.of({"w": [21, 22]}, [3, 1])
-    titles = [corner_figure(likely).axes[0].get_title() for likely in (equal, apart, single)]
+    apart = {21: 0.3 / 0.7, 22: 0.1 / 0.7, 23: (0.1 + 0.2) / 0.7}
+    figures = [
+        corner_figure(CountProbabilities({"w": chances}, {})) for chances in (equal, apart, {21: 0.75, 22: 0.25})
+    ]
+    titles = [figure.axes[0].get_title() for figure in figures]
     assert titles == ["49-52: 20.6 % each", "2 of 21-23: 42.9 % each", "21: 75 %"]
 
 
@@ -377,7 +372,7 @@ ALL: dict[str, Callable[[], Figure]] = {
     "tornado": lambda: tornado_figure(
         {f"wheel {at}": VarianceShare(0.9**at, (0.1, 0.2), 1.0) for at in range(25)}, "moon"
     ),
-    "corner": lambda: corner_figure(CountProbabilities.of(COUNTS, WEIGHTS, {"b1": 223}), "what fits"),
+    "corner": lambda: corner_figure(CountProbabilities(SINGLE, PAIRS, {}, {"b1": 223}), "what fits"),
     "settling": lambda: convergence_figure(
         {"a": ConvergenceTrace(np.ones(1), *(np.full(1, each) for each in (0.5, 0.4, 0.6)))}
     ),
@@ -414,11 +409,8 @@ def test_everything_is_inside_and_the_words_are_large_enough(name: str) -> None:
         lambda: jam_map_figure(MAP_X, MAP_Y, np.full((5, 6), 1.5)),
         lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((5, 6)), np.zeros((6, 5))),
         lambda: tornado_figure({}),
-        lambda: corner_figure(CountProbabilities.of({str(at): [1, 2] for at in range(10)}, [1, 1])),
+        lambda: corner_figure(CountProbabilities({str(at): {1: 1.0} for at in range(10)}, {})),
         lambda: corner_figure(CountProbabilities({}, {})),
-        lambda: CountProbabilities.of({"a": [1, 2]}, [0.0, 0.0]),
-        lambda: CountProbabilities.of({"a": [1, 2]}, [1.0, -1.0]),
-        lambda: CountProbabilities.of({"a": [1, 2, 3]}, [1.0, 1.0]),
         lambda: convergence_figure({}),
         lambda: convergence_figure({"a": ConvergenceTrace(*(np.zeros(1) for _ in range(4)))}),
     ],

@@ -28,8 +28,7 @@ from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.dynamics.torques.train_torques import drive_both_ways
 from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
 from geartrain.report import Document, collect_torque_report, describe_torques, to_markdown
-from geartrain.report.torque_figures import collect_torques
-from geartrain.report.torque_report import torque_sections
+from geartrain.report.torque_report import collect_torques, torque_sections
 
 RING = """
 extends: planetary-24-18-60

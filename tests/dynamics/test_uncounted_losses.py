@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 from geartrain import load
 from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
-from geartrain.report.torque_figures import collect_torques
+from geartrain.report.torque_report import collect_torques
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from geartrain.search.information import entropy, relative_entropy
+from geartrain.search.weighted_alternatives import entropy, relative_entropy
 
 
 def test_halving_is_one_bit() -> None:

@@ -128,7 +128,7 @@ def test_the_declarations_in_the_package_satisfy_its_own_json_schema() -> None:
 def test_every_default_of_the_schema_can_be_written_in_a_declaration() -> None:
     """Each default satisfies the schema of its own field, and each keyword is one of JSON Schema."""
     jsonschema = pytest.importorskip("jsonschema")
-    from geartrain.report.declaration_reference import schema
+    from geartrain.report.json_schema import schema
 
     found = schema()
     defaults = [

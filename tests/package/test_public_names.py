@@ -22,6 +22,7 @@ SHOWING = [
     "report",
     "scene",
     "search",
+    "search.reconstruct",
     "simulation",
     "spherical",
     "teeth",

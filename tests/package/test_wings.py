@@ -119,9 +119,9 @@ def test_every_listed_command_exists() -> None:
 
 
 def test_another_distribution_adds_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    added = EntryPoint("levels", "geartrain.cli.list", "geartrain.wings")
+    added = EntryPoint("levels", "geartrain.cli.declarations:list_trains", "geartrain.wings")
     monkeypatch.setattr("importlib.metadata.entry_points", lambda group: [added] if group == "geartrain.wings" else [])
-    verbs = Verbs({"report": "geartrain.cli.report"}, entry_points="geartrain.wings")
+    verbs = Verbs({"report": "geartrain.cli.report:report"}, entry_points="geartrain.wings")
     assert list(verbs) == ["report", "levels"]
     assert verbs["levels"].name == "levels"
     assert verbs.get("absent") is None

@@ -5,8 +5,7 @@ from __future__ import annotations
 from studies.train_families import grid
 
 from geartrain import GearTrain
-from geartrain.report.answers import answer_sections
-from geartrain.report.speeds_text import speeds_text
+from geartrain.report.answers import answer_sections, speeds_text
 
 
 def test_solve_and_report_say_why_floats_were_chosen_and_how_to_get_fractions() -> None:

@@ -15,8 +15,8 @@ from jsonschema import Draft202012Validator, SchemaError
 from sampling import all_but
 
 from geartrain.report import answer_schema
-from geartrain.report.json_schema import answers
 
+ANSWERS = answer_schema()["$defs"]
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
 TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, other: {inputs: {b: 1}}}").replace(
     "{expect: 1/2}", "{}"
@@ -212,7 +212,7 @@ def test_one_shape_for_one_question(files: Path, question: str) -> None:
 
 def test_every_question_is_tried() -> None:
     others = {"solve", "report", "compare", "torques", "sphere --survey", "graph --as json", "graph --as matrix"}
-    assert {*ASKED, *others} == set(answers())
+    assert {*ASKED, *others} == set(ANSWERS)
 
 
 @pytest.mark.parametrize("form", ["json", "matrix"])
@@ -224,18 +224,18 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     """Kinds of values, choices and keys that may be left out, for one answer in full."""
     loop = {key: {"type": "array", "items": {"type": "string"}} for key in ("links", "pairs")}
     text = {"type": "string"}
-    verdict = _undescribed(answers()["solve"]["properties"]["states"]["items"]["properties"]["verdict"])
+    verdict = _undescribed(ANSWERS["solve"]["properties"]["states"]["items"]["properties"]["verdict"])
     assert verdict["required"] == ["kind", "text", "links", "fixes", "prescriptions", "loops"]
     assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory", "refused"]}
     assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
-    methods = answers()["bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
+    methods = ANSWERS["bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
     assert methods["stage"]["enum"] == ["speeds", "transmission functions", "motion", "torques"]
     assert methods["unit"]["enum"] == ["relative", "pitches", "deg"]
-    speeds = answers()["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
+    speeds = ANSWERS["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
     assert speeds["additionalProperties"]["required"] == ["exact", "value"]
     floats = {"estimate", "true_error", "condition"}
     assert set(speeds["additionalProperties"]["properties"]) == {"exact", "value", "decimal", *floats}
-    state = answers()["solve"]["properties"]["states"]["items"]
+    state = ANSWERS["solve"]["properties"]["states"]["items"]
     assert "residual" in state["properties"]
     assert "residual" not in state["required"]
 
@@ -265,7 +265,7 @@ def _without(schema: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...
 def test_an_answer_that_lacks_a_key_or_has_a_strange_one_is_seen(files: Path) -> None:
     """The check itself can fail."""
     whole = data("solve", "plain.yaml", "--json")
-    for path in _without(answers()["solve"]):
+    for path in _without(ANSWERS["solve"]):
         less = copy.deepcopy(whole)
         inner = less
         for step in path[:-1]:

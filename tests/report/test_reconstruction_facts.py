@@ -11,12 +11,19 @@ from rich.console import Console
 from geartrain.report import Document, Section, to_html, to_markdown
 from geartrain.report.document import Branch, SceneText
 from geartrain.report.text import to_terminal
-from geartrain.search.reconstruct.candidate_findings import FamilyBranch, FamilyTrain
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, LoneDial, MissingExplanation
-from geartrain.search.reconstruct.explained_facts import Fact, FactAnswer, FactKind, FactMarginal, NextFact
-from geartrain.search.reconstruct.family_tree_report import family_section
-from geartrain.search.reconstruct.reconstruction_facts import (
+from geartrain.search.reconstruct.explained_facts import (
+    Fact,
+    FactAnswer,
+    FactKind,
+    FactMarginal,
+    FamilyBranch,
+    FamilyTrain,
+    NextFact,
+)
+from geartrain.search.reconstruct.reconstruction_report import (
     assumptions_section,
+    family_section,
     missing_sections,
     next_section,
     shared_sections,

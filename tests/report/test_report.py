@@ -7,7 +7,6 @@ import io
 import json
 import os
 import re
-import stat
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
@@ -19,7 +18,7 @@ from pathlib import Path
 import pytest
 import shipped
 from answer_schemas import holds
-from commands import TWENTY, UNUSABLE, call
+from commands import TWENTY, call
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
@@ -334,20 +333,6 @@ def test_several_trains_stand_in_one_report_in_the_order_asked(suffix: str, tmp_
 # -------------------------------------------------------------------------------------------------------- whole or not
 
 
-@pytest.mark.parametrize("suffix", [".md", ".html", ".json"])
-@pytest.mark.parametrize("verb", ["report", "compare"])
-def test_a_run_that_fails_leaves_the_old_file_and_makes_no_new_one(verb: str, suffix: str, tmp_path: Path) -> None:
-    bad, old, new = tmp_path / "bad.yaml", tmp_path / f"old{suffix}", tmp_path / f"new{suffix}"
-    bad.write_text(UNUSABLE, encoding="utf-8")
-    old.write_text("before", encoding="utf-8")
-    for out in (old, new):
-        result = call(verb, "worm", bad, "pennestri-2002", "-o", out)
-        assert result.exit_code != 0
-        assert result.stdout == ""
-    assert old.read_text(encoding="utf-8") == "before"
-    assert sorted(tmp_path.iterdir()) == [bad, old]
-
-
 def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -362,45 +347,6 @@ def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
     assert "No space left on device" in str(result.exception)
     assert old.read_text(encoding="utf-8") == "before"
     assert list(tmp_path.iterdir()) == [old]
-
-
-@pytest.mark.parametrize(
-    ("where", "said"),
-    [
-        ("no/such/folder/r.md", "there is no such folder"),
-        ("file/r.md", "there is no such folder"),
-        ("folder", "this is a folder"),
-    ],
-)
-def test_a_place_that_cannot_be_written_is_named(where: str, said: str, tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("before", encoding="utf-8")
-    (tmp_path / "folder").mkdir()
-    result = call("report", "worm", "-o", tmp_path / where)
-    assert result.exit_code != 0
-    assert f"{tmp_path / where}: {said}" in str(result.exception)
-    assert (tmp_path / "file").read_text(encoding="utf-8") == "before"
-    assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "folder"]
-
-
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write everywhere")
-def test_a_folder_that_is_closed_is_left_as_it_is(tmp_path: Path) -> None:
-    tmp_path.chmod(0o500)
-    try:
-        assert call("report", "worm", "-o", tmp_path / "r.md").exit_code != 0
-        assert list(tmp_path.iterdir()) == []
-    finally:
-        tmp_path.chmod(0o700)
-
-
-def test_a_written_file_has_the_rights_of_any_other_new_file_and_keeps_those_of_an_old_one(tmp_path: Path) -> None:
-    usual, new, old = tmp_path / "usual", tmp_path / "new.md", tmp_path / "old.md"
-    usual.touch()
-    old.write_text("before", encoding="utf-8")
-    old.chmod(0o640)
-    assert call("report", "worm", "-o", new).exit_code == call("report", "worm", "-o", old, "--force").exit_code == 0
-    assert stat.S_IMODE(new.stat().st_mode) == stat.S_IMODE(usual.stat().st_mode)
-    assert stat.S_IMODE(old.stat().st_mode) == 0o640
-    assert new.read_text(encoding="utf-8") == old.read_text(encoding="utf-8") != "before"
 
 
 def test_a_verdict_is_written_for_it_is_a_result(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ import pytest
 from commands import LOCKED, call, without
 from markdown_it import MarkdownIt
 
-from geartrain import GearTrainError, load
+from geartrain import load
 from geartrain.report import (
     Picture,
     collect_report,
@@ -268,17 +268,6 @@ def test_a_page_has_the_plan_and_the_dials_a_train_has(tmp_path: Path) -> None:
     assert len(page.all("figure")) == len(page.all("svg")) == 1 + dials
     assert call("report", "worm", "-o", out, "--force").exit_code == 0
     assert len(Read(out.read_text(encoding="utf-8")).all("svg")) == 1
-
-
-def test_a_page_that_is_there_stays_unless_force_is_used(tmp_path: Path) -> None:
-    out = tmp_path / "r.html"
-    out.write_text("mine", encoding="utf-8")
-    refused = call("report", "worm", "-o", out)
-    assert isinstance(refused.exception, GearTrainError)
-    assert "--force" in str(refused.exception)
-    assert out.read_text(encoding="utf-8") == "mine"
-    assert call("report", "worm", "-o", out, "--force").exit_code == 0
-    assert Read(out.read_text(encoding="utf-8")).all("h1")
 
 
 def test_without_matplotlib_a_page_comes_without_pictures_and_says_what_brings_them(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain.report import Document, Section, Table, to_text
-from geartrain.report.table_strips import column_widths, gap_of, strips
+from geartrain.report.document import column_widths, gap_of, strips
 
 WORD = st.text("abcdef0123/", min_size=1, max_size=12)
 CELL = st.lists(WORD, max_size=5).map(" ".join)

@@ -12,7 +12,7 @@ import pytest
 from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.parts import frame_plan, plate_places
+from geartrain.scene.parts import frame_plan
 from geartrain.scene.parts.arbor_columns import AxisColumn, FramePlaces
 from geartrain.scene.parts.stack_discs import StackDisc
 
@@ -22,14 +22,15 @@ CORES = (4.0, 3.0, 2.0, 1.5, 1.0, 0.8)
 Search = tuple[Any, Any, Sequence[Any], Sequence[float], Callable[..., int], Callable[[float], int]]
 
 
-def searched(name: str, patch: pytest.MonkeyPatch) -> tuple[Search, plate_places.PlateChoice]:
+def searched(name: str, patch: pytest.MonkeyPatch) -> tuple[Search, frame_plan.PlateChoice]:
     """The arguments of the first search for a train, and its result."""
     calls: list[Any] = []
-    patch.setattr(frame_plan, "best_places", lambda *call: calls.append(call) or plate_places.best_places(*call))
+    search = frame_plan.best_places
+    patch.setattr(frame_plan, "best_places", lambda *call: calls.append(call) or search(*call))
     plan = SolidModel(load(name), ManufacturingSizes()).plan
     assert plan is not None
     assert plan.choice is not None
-    return calls[0], plate_places.best_places(*calls[0])
+    return calls[0], search(*calls[0])
 
 
 def effort(column: AxisColumn, places: FramePlaces) -> Fraction:
@@ -48,11 +49,11 @@ def every_place(search: Search) -> Iterator[tuple[tuple[int, Fraction], bool, Fr
     for inside in (False, True):
         for chosen in product(*seats):
             stack = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
-            problems = [plate_places.with_discs(axis, stack) for axis in axes]
+            problems = [frame_plan.with_discs(axis, stack) for axis in axes]
             for back, front in pairs:
                 if (back > gaps[0] and front < gaps[-1]) == inside:
                     places = FramePlaces((back, back), (front, front))
-                    best = [plate_places.best_column(each.columns(places)) for each in problems]
+                    best = [frame_plan.best_column(each.columns(places)) for each in problems]
                     bad = sum(len(each.hit) + (each.tangled is not None) for each in best)
                     bad += blocked(chosen) + cut(back) + cut(front)
                     yield (bad, sum((effort(each, places) for each in best), Fraction(0))), inside, places, chosen
@@ -73,7 +74,7 @@ def test_the_arbor_is_the_thickest_usual_one_that_passes_all_wheels(monkeypatch:
     thinned = 0
     for back, front in [(gaps[0], gaps[-1]), (gaps[0], gaps[9]), (gaps[5], gaps[-1]), (gaps[3], gaps[12])]:
         places = FramePlaces((back, back), (front, front))
-        for problem in (plate_places.with_discs(axis, discs) for axis in axes):
+        for problem in (frame_plan.with_discs(axis, discs) for axis in axes):
             for at, column in enumerate(problem.columns(places)):
                 usual = {core: list(replace(problem, core=core).columns(places))[at] for core in CORES}
                 fit = [core for core in CORES if not usual[core].hit]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
-from geartrain.scene.solids.wheel_arms import HUB, RIM, arm_windows
+from geartrain.scene.solids.wheel_blanks import HUB, RIM, arm_windows
 
 
 @pytest.mark.parametrize(

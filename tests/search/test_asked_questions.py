@@ -11,13 +11,17 @@ from commands import ended
 from concrete_trees import exact_dial, sure_arbor
 
 from geartrain import GearTrainError
-from geartrain.search.reconstruct import expected_cost, path_lists
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.expected_cost import done_shares, expect_cost, rough
-from geartrain.search.reconstruct.reconstruction_problem import Additions, AskedQuestion, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.search_tasks import TopologyTask, topology_tasks
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct import (
+    Additions,
+    ReconstructionProblem,
+    evidence_question,
+    find_reconstructions,
+    path_lists,
+    read_evidence,
+    search_tasks,
+)
+from geartrain.search.reconstruct.reconstruction_problem import AskedQuestion
+from geartrain.search.reconstruct.search_tasks import TopologyTask, done_shares, expect_cost, rough, topology_tasks
 
 TOY = ReconstructionProblem(
     sure_arbor("in", i=20),
@@ -53,11 +57,11 @@ def test_the_time_is_that_of_a_part_times_their_number(monkeypatch: pytest.Monke
     """Every part begins with 2 s, and all of them share 640 s of work."""
     asked: list[TopologyTask] = []
 
-    def timed(task: TopologyTask, _: object) -> float:
+    def timed(task: TopologyTask) -> float:
         asked.append(task)
         return 2 + (640 / task.parts if task.part < task.parts else 0)  # three in 4096 are half a second
 
-    monkeypatch.setattr(expected_cost, "timed_part", timed)
+    monkeypatch.setattr(search_tasks, "timed_part", timed)
     found = expect_cost(TOY)
     assert found.seconds[:3] == (0, 0, 0)
     assert found.seconds[3] == pytest.approx(642)
@@ -74,7 +78,7 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
     idlers: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """1000 wheels of 36 counts: 36^1000 = 10^1556 choices; 10^40 are those of 25 wheels."""
-    monkeypatch.setattr(expected_cost, "timed_part", lambda *_: pytest.fail("timed"))
+    monkeypatch.setattr(search_tasks, "timed_part", lambda *_: pytest.fail("timed"))
     with pytest.raises(GearTrainError) as caught:
         expect_cost(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
     (problem,) = caught.value.problems
@@ -85,11 +89,11 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
 def test_a_search_that_would_not_end_is_refused_by_how_its_time_grows(monkeypatch: pytest.MonkeyPatch) -> None:
     """640 s with 3 added wheels and ten times as long with each more: 6.4e16 s, 2e9 years, with 17."""
 
-    def timed(task: TopologyTask, _: object) -> float:
+    def timed(task: TopologyTask) -> float:
         assert task.added <= 4, "what follows is not timed"
         return 2 + (640 * 10 ** (task.added - 3) / task.parts if task.part < task.parts else 0)
 
-    monkeypatch.setattr(expected_cost, "timed_part", timed)
+    monkeypatch.setattr(search_tasks, "timed_part", timed)
     with pytest.raises(GearTrainError) as caught:
         expect_cost(replace(TOY, additions=Additions(17, 10, 45)))
     (problem,) = caught.value.problems

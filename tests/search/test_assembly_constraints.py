@@ -24,7 +24,6 @@ from geartrain.search import ConstraintOptions
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import read_constraint_options
 from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
-from geartrain.search.constraints.planet_constraints import bezout
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 
@@ -406,14 +405,6 @@ def test_planets_that_mesh_in_a_loop_are_not_judged() -> None:
     with pytest.raises(QuestionError, match="in a loop"):
         rules_of(data, planets=2)
     assert rules_of(data) == ()
-
-
-@given(st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 10**6)), min_size=1, max_size=20))
-def test_common_divisors_are_sums_of_multiples(pairs: list[tuple[int, int]]) -> None:
-    a, b = (np.array(column, dtype=np.int64) for column in zip(*pairs, strict=True))
-    g, u, v = bezout(a, b)
-    assert g.tolist() == [gcd(*pair) for pair in pairs]
-    assert (u * a + v * b == g).all()
 
 
 # -------------------------------------------------------------------------------------------------------------- limits

@@ -8,10 +8,14 @@ from fractions import Fraction
 import pytest
 from concrete_trees import explanations, package_arbor, random_problem
 
-from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
-from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
-from geartrain.search.reconstruct.reconstruction_result import ExplanationCount, mechanism, prior
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct import (
+    ExplanationCount,
+    RankedTrain,
+    ReconstructionAnswer,
+    describe_reconstruction,
+    find_reconstructions,
+)
+from geartrain.search.reconstruct.reconstruction_search import mechanism, prior
 
 
 @pytest.mark.parametrize("seed", range(60, 100))

@@ -6,14 +6,13 @@ from fractions import Fraction
 
 import pytest
 from concrete_trees import concrete, exact_dial, explanations, package_arbor, random_problem, with_rings
+from places import TRAINS
 from sampling import all_but
 
 from geartrain import GearTrain, load
-from geartrain.search.reconstruct.candidate_train import candidate_data, candidate_text
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
+from geartrain.search.reconstruct import Arbor, PlacedWheel, ReconstructionProblem, evidence_question, read_evidence
+from geartrain.search.reconstruct.train_construction import candidate_data, candidate_text
 from geartrain.train import Train, declare
-from geartrain.train.declaration_files import read_declaration, read_evidence, shipped_evidence
 
 Path = list[tuple[str | None, PlacedWheel, PlacedWheel]]
 """Arbors that follow each other: name, driven wheel, driving wheel."""
@@ -84,7 +83,7 @@ def test_the_four_of_the_back_train(which: str) -> None:
 
 def test_added_parts_have_no_name_of_the_real_machine() -> None:
     """There m3 is a wheel of its own, and so is n1 on n."""
-    real = read_declaration("freeth-2008")
+    real = load("freeth-2008").declaration
     for arbor, _, _ in BACK.values():
         found = load(candidate_text(read_evidence("back-train"), arbor, "one")).declaration
         wheels = {name for name, (_, part) in found.wheels.items() if part.status == "hypothetical"}
@@ -255,8 +254,8 @@ def test_a_small_question_is_read_as_it_was_declared(seed: int) -> None:
 
 
 def test_all_shipped_evidence_is_a_question() -> None:
-    for name in shipped_evidence():
-        question = evidence_question(read_evidence(name))
+    for path in (TRAINS / "evidence").glob("*.yaml"):
+        question = evidence_question(read_evidence(path.stem))
         assert question.unused == ()
         assert question.problem.dials
     dial = evidence_question(read_evidence("back-train")).problem.dials[0]

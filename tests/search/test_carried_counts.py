@@ -12,10 +12,8 @@ from typing import Any
 
 import pytest
 
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct import evidence_question, find_reconstructions, read_evidence
 from geartrain.train import declare
-from geartrain.train.declaration_files import read_evidence
 
 QUESTIONS = json.loads((Path(__file__).parent / "carried_counts.json").read_text(encoding="utf-8"))
 

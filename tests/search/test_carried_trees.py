@@ -9,12 +9,9 @@ import pytest
 from carried_trees import Node, carried_trains, random_evidence
 from concrete_trees import concrete
 
-from geartrain import load
-from geartrain.search.reconstruct.candidate_train import candidate_text
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain import GearTrain
+from geartrain.search.reconstruct import candidate_train, evidence_question, find_reconstructions, read_evidence
 from geartrain.train import declare
-from geartrain.train.declaration_files import read_evidence
 
 
 @cache
@@ -53,7 +50,7 @@ def _turn_as_their_dials_say(seed: int, rings: bool) -> None:
     evidence = declare(data)
     found = find_reconstructions(evidence_question(evidence).problem, listed=10)
     for one in found.candidates[:10]:
-        train = load(candidate_text(evidence, one.arbor, "one"))
+        train = GearTrain(candidate_train(evidence, one.arbor, "one"))
         assert train.mobility.by_rank == 1 + (len(data["inputs"]) - 1)
         solved = train.solve()
         assert solved
@@ -90,7 +87,7 @@ def test_a_pin_in_a_slot_on_the_carrier() -> None:
     found = find_reconstructions(evidence_question(evidence).problem, listed=1000)
     assert [count.mechanisms for count in found.counts] == [0, 2 * 89]
     for one in found.candidates[::20]:
-        train = load(candidate_text(evidence, one.arbor, "one"))
+        train = GearTrain(candidate_train(evidence, one.arbor, "one"))
         assert train.mobility.by_rank == 1
         solved = train.solve()
         assert solved

@@ -7,14 +7,14 @@ from itertools import product
 import pytest
 from concrete_trees import concrete, exact_dial, explanations, random_problem, sure_arbor
 
-from geartrain.search.reconstruct.reconstruction_problem import (
+from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     PlacedWheel,
     ReconstructionProblem,
     SurvivingArbor,
+    find_reconstructions,
 )
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 
 def toy(wheels: dict[str, int], arbor: dict[str, int], dials: dict[str, str], least: int, greatest: int, signed: bool):

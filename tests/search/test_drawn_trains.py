@@ -9,10 +9,8 @@ import pytest
 from concrete_trees import Node, concrete, explanations, random_problem, with_rings
 from sampling import first_few
 
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_search import draw_candidates, find_reconstructions
+from geartrain.search.reconstruct import draw_candidates, evidence_question, find_reconstructions, read_evidence
 from geartrain.search.reconstruct.search_tasks import TopologyTrains
-from geartrain.train.declaration_files import read_evidence
 
 DRAWS = 60
 """For each train, on average."""

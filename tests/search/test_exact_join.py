@@ -16,15 +16,14 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import geartrain.search.join.exact_join as joining
-import geartrain.search.join.partial_assignments as rows
 import geartrain.search.join.product_lists as items
+import geartrain.search.join.product_lists as rows
 from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.search.join.exact_join import ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, find_join_problem
 from geartrain.search.join.product_lists import Item, ItemRecipe, forecast
 from geartrain.search.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
-from geartrain.search.train.best_assignments import AssignmentOrder, BestAssignments
-from geartrain.search.train.search_passes import PassWork, do_task, merged
+from geartrain.search.train.search_passes import AssignmentOrder, BestAssignments, PassWork, do_task, merged
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 Terms = tuple[tuple[int, tuple[int, ...]], ...]

@@ -10,16 +10,18 @@ import pytest
 from concrete_trees import ADDED, concrete, explanations, meshes, nodes, package_arbor, random_problem, with_rings
 from sampling import all_but
 
-from geartrain.search.reconstruct import candidate_findings
+from geartrain.search.reconstruct import (
+    ReconstructionAnswer,
+    ReconstructionProblem,
+    describe_reconstruction,
+    evidence_question,
+    explained_facts,
+    find_reconstructions,
+    read_evidence,
+)
 from geartrain.search.reconstruct.candidate_names import name_train
-from geartrain.search.reconstruct.evidence_question import evidence_question
 from geartrain.search.reconstruct.explained_facts import ExplainedFacts, WeighedTrains, sum_facts
-from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
-from geartrain.search.reconstruct.reconstruction_result import prior, topology_prior
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct.reconstruction_search import prior, topology_prior
 
 Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
 
@@ -104,8 +106,8 @@ def test_facts_are_told_of_all_trains_unless_they_are_too_many(
     evidence = read_evidence("back-train")
     problem = evidence_question(evidence).problem
     found = find_reconstructions(problem)
-    monkeypatch.setattr(candidate_findings, "MOST_SUMMED", most)
-    findings = candidate_findings.find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
+    monkeypatch.setattr(explained_facts, "MOST_SUMMED", most)
+    findings = explained_facts.find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
     assert findings.of_all == (told == 4)
     assert {one.trains for one in findings.marginals} == {told}
     assert (findings.listed, len(findings.family)) == (1, 1)

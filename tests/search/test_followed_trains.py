@@ -11,20 +11,16 @@ from concrete_trees import exact_dial, explanations, package_arbor, random_probl
 from sampling import all_but
 from studies.followed_train import is_reached
 
+from geartrain.search.reconstruct import Additions, ReconstructionProblem
 from geartrain.search.reconstruct.path_choice import PathChoice
 from geartrain.search.reconstruct.path_lists import PathGrowth, PathList
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.reconstruction_problem import (
-    NEW,
-    Additions,
-    ReconstructionProblem,
-)
 
 # a drives an added arbor (30, 18), whose wheel of 18 drives b and an added arbor with a pointer of its own
 QUESTION = ReconstructionProblem(
     sure_arbor("a", a1=20),
     (sure_arbor("b", b1=24),),
-    (exact_dial("p", "1/2", place="b"), exact_dial("q", "1/3", place=NEW)),
+    (exact_dial("p", "1/2", place="b"), exact_dial("q", "1/3", place="new")),
     Additions(3, 10, 40),
 )
 ENDS = (("", ("", 36), ("q",), ()), ("b", ("b1", 24), ("p",), ()))

@@ -7,20 +7,22 @@ import random
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, permutations
-from pathlib import Path
 
 import pytest
 from concrete_trees import random_problem
+from places import TRAINS
 
 from geartrain import GearTrainError
 from geartrain.errors import QuestionError
-from geartrain.search.reconstruct.candidate_train import TrainConstruction
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import Arbor, PlacedWheel, evidence_question, find_reconstructions, read_evidence
 from geartrain.search.reconstruct.geometry_likelihood import can_close, candidate_likelihood, order_exists
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, find_unreachable
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.surviving_geometry import MeasuredWheel, PlacedArbor, SurvivingGeometry
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct.reconstruction_problem import (
+    MeasuredWheel,
+    PlacedArbor,
+    SurvivingGeometry,
+    find_unreachable,
+)
+from geartrain.search.reconstruct.train_construction import TrainConstruction
 
 P, V, W, X = PlacedWheel("p", 20), PlacedWheel("v", 30), PlacedWheel("w", 40), PlacedWheel("x", 60)
 
@@ -412,7 +414,7 @@ PLACES = {"b": 0, "l": 24, "m": 61, "E": 119, "f": 182, "g": 204}
 )
 def test_which_train_modules_prefer_hangs_on_how_their_errors_are_spread(spreads: str, shares: list[float]) -> None:
     """If radii alone are off, the last of the four is the best; shares by a calculator, from the modules by hand."""
-    text = (Path(__file__).parents[2] / "trains" / "evidence" / "back-train-modules.yaml").read_text(encoding="utf-8")
+    text = (TRAINS / "evidence" / "back-train-modules.yaml").read_text(encoding="utf-8")
     evidence = read_evidence(text.replace("module: 4.4 %", spreads))
     problem = evidence_question(evidence).problem
     weights = {}
@@ -425,7 +427,7 @@ def test_which_train_modules_prefer_hangs_on_how_their_errors_are_spread(spreads
 
 def test_places_of_axes_would_single_it_out() -> None:
     """No measured places: they are made for the train of 2006, and show that the others could not stand there."""
-    text = (Path(__file__).parents[2] / "trains" / "evidence" / "back-train-modules.yaml").read_text(encoding="utf-8")
+    text = (TRAINS / "evidence" / "back-train-modules.yaml").read_text(encoding="utf-8")
     text = text.replace("geometry: {module: 4.4 %}", "geometry: {module: 4.4 %, reach: 2 mm}")
     text += f"axes: {{{', '.join(f'{name}: {{position: [{x} mm, 0 mm, 0 mm]}}' for name, x in PLACES.items())}}}\n"
     text += f"revolutes: [{', '.join(f'{{pair: [frame, {name}], axis: {name}}}' for name in PLACES)}]\n"

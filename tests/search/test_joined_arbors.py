@@ -9,12 +9,9 @@ from concrete_trees import concrete, random_problem, with_rings
 from joined_trees import explanations_with_couplings, group, parted
 from sampling import all_but
 
-from geartrain import GearTrainError, load
-from geartrain.search.reconstruct.candidate_train import candidate_text
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain import GearTrain, GearTrainError
+from geartrain.search.reconstruct import candidate_train, evidence_question, find_reconstructions, read_evidence
 from geartrain.search.reconstruct.link_roles import join_arbors
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.train.declaration_files import read_evidence
 
 
 @pytest.mark.parametrize("start", all_but({0, 80, 220}, range(0, 300, 20)))
@@ -59,7 +56,7 @@ def test_joined_arbors_are_one_in_the_question_and_several_in_a_train() -> None:
     assert question.problem.dials[0].place == "m"
     found = find_reconstructions(question.problem)
     assert [count.mechanisms for count in found.counts] == [0, 1]
-    train = load(candidate_text(evidence, found.candidates[0].arbor, "one"))
+    train = GearTrain(candidate_train(evidence, found.candidates[0].arbor, "one"))
     assert train.mobility.by_rank == 1
     assert train.solve()
     assert train.solve()["sun"] == Fraction(-1, 2)
@@ -74,7 +71,7 @@ def test_a_coupling_that_is_declared_as_in_a_train_keeps_its_sizes() -> None:
     evidence = read_evidence(COUPLED.replace("  given: [{pair: [m, k]}]\n", "") + f"couplings: [{said}]\n")
     question, given = evidence_question(evidence), evidence_question(read_evidence(COUPLED))
     assert (question.problem, question.joined) == (given.problem, given.joined)
-    train = load(candidate_text(evidence, find_reconstructions(question.problem).candidates[0].arbor, "one"))
+    train = GearTrain(candidate_train(evidence, find_reconstructions(question.problem).candidates[0].arbor, "one"))
     assert train.solve()
     assert train.declaration.couplings == evidence.couplings
 
@@ -86,7 +83,7 @@ def test_the_input_stands_for_what_is_joined_to_it_and_added_wheels_are_written_
     evidence = read_evidence(text)
     assert evidence_question(evidence).joined == {"a": ("a", "k")}
     found = find_reconstructions(evidence_question(evidence).problem)
-    declared = load(candidate_text(evidence, found.candidates[0].arbor, "one")).declaration
+    declared = candidate_train(evidence, found.candidates[0].arbor, "one")
     assert [count.mechanisms for count in found.counts] == [0, 1]
     assert {link: len(part.wheels) for link, part in declared.links.items()}["new_star"] == 1
     assert [(each.pin, each.slot) for each in declared.couplings] == [("k", "a")]
@@ -98,7 +95,7 @@ def test_what_survives_unused_keeps_its_coupling_out() -> None:
     )
     evidence = read_evidence(text.replace("  add:", "  use: some\n  add:"))
     found = find_reconstructions(evidence_question(evidence).problem)
-    declared = load(candidate_text(evidence, found.candidates[0].arbor, "one")).declaration
+    declared = candidate_train(evidence, found.candidates[0].arbor, "one")
     assert not declared.couplings
     assert declared.note == "Not used: k, m, n."
 
@@ -110,7 +107,7 @@ def test_the_moon_has_as_many_trains_behind_the_pin_as_before_it() -> None:
         found = find_reconstructions(evidence_question(evidence).problem)
         assert [count.mechanisms for count in found.counts] == [0, 0, 2]
         for one in found.candidates:
-            assert load(candidate_text(evidence, one.arbor, "one")).solve()["moon"] == Fraction(sign * 254, 19)
+            assert GearTrain(candidate_train(evidence, one.arbor, "one")).solve()["moon"] == Fraction(sign * 254, 19)
 
 
 AXES = "axes: {B: {position: [0 mm, 1 mm, 0 mm]}}\n"

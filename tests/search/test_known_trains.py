@@ -9,30 +9,29 @@ from itertools import combinations
 import pytest
 from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
 
-from geartrain import GearTrainError
-from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules
-from geartrain.search.reconstruct.candidate_train import TrainConstruction
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain import GearTrainError, load, shipped
+from geartrain.search.reconstruct import (
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    Reconstructions,
+    SearchedDial,
+    SurvivingArbor,
+    evidence_question,
+    find_reconstructions,
+    read_evidence,
+)
+from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules, check_same, find_known_train
 from geartrain.search.reconstruct.known_rank import (
     RankedQuestion,
     find_place,
     find_telling_facts,
     rank_known_train,
 )
-from geartrain.search.reconstruct.known_train import check_same, find_known_train
-from geartrain.search.reconstruct.lost_arbors import lost_evidence
-from geartrain.search.reconstruct.reconstruction_problem import (
-    Arbor,
-    PlacedWheel,
-    ReconstructionProblem,
-    SearchedDial,
-    SurvivingArbor,
-)
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions, mechanism
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.reconstruction_search import mechanism
+from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence
+from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import declare
-from geartrain.train.declaration_files import read_declaration, read_evidence, shipped
 
 
 def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem:
@@ -137,7 +136,7 @@ def test_a_shipped_train_is_read_as_its_own_tree() -> None:
     read = 0
     for name in shipped():
         try:
-            tree = find_spur_tree(read_declaration(name))
+            tree = find_spur_tree(load(name).declaration)
         except GearTrainError:
             continue
         if tree.base.is_carrier:
@@ -169,7 +168,7 @@ def sure_question() -> RankedQuestion:
 
 
 def test_the_train_of_2008_is_one_of_21() -> None:
-    found = rank_known_train(read_declaration("freeth-2008"), sure_question())
+    found = rank_known_train(load("freeth-2008").declaration, sure_question())
     assert found.wheels == {"m3": 27, "n1": 53, "nO": 57}
     assert (found.arbors, found.broken, found.admitted) == (1, (), ())
     assert found.place is not None
@@ -177,7 +176,7 @@ def test_the_train_of_2008_is_one_of_21() -> None:
 
 
 def test_the_train_of_2006_has_another_dial_on_o() -> None:
-    found = rank_known_train(read_declaration("freeth-2006"), sure_question())
+    found = rank_known_train(load("freeth-2006").declaration, sure_question())
     (speed,) = found.broken
     assert (speed.rule, speed.subject, speed.values) == ("speed", ("games",), (Fraction(-1, 76),))
     as_it_has, without = found.admitted
@@ -188,7 +187,7 @@ def test_the_train_of_2006_has_another_dial_on_o() -> None:
 
 
 def test_prices_train_breaks_many_rules() -> None:
-    found = rank_known_train(read_declaration("price-1974"), sure_question(), PRICE)
+    found = rank_known_train(load("price-1974").declaration, sure_question(), PRICE)
     assert {(one.rule, *one.subject) for one in found.broken} >= {
         ("speed", "metonic"),
         ("dial", "saros"),
@@ -209,7 +208,7 @@ def test_prices_train_breaks_many_rules() -> None:
 
 def test_what_admits_a_train_leaves_no_rule_that_it_breaks() -> None:
     """Each rule by itself too: it is broken no more, or less of the train is asked for."""
-    problem, train = sure_back(), read_declaration("price-1974")
+    problem, train = sure_back(), load("price-1974").declaration
     for one in broken_rules(find_known_train(train, problem, PRICE).arbor, problem):
         changed = admitting_question(problem, [one])
         left = broken_rules(find_known_train(train, changed, PRICE).arbor, changed)
@@ -217,7 +216,7 @@ def test_what_admits_a_train_leaves_no_rule_that_it_breaks() -> None:
 
 
 def test_names_are_found_whatever_their_capitals_unless_told_otherwise() -> None:
-    problem, train = sure_back(), read_declaration("price-1974")
+    problem, train = sure_back(), load("price-1974").declaration
     told = find_known_train(train, problem, PRICE).arbor
     assert {wheel.name for wheel in told.wheels()} > {"b2", "l1", "l2", "m1", "m2", "c1", "d2", "e2"}
     plain = {wheel.name for wheel in find_known_train(train, problem).arbor.wheels()}
@@ -231,7 +230,7 @@ def test_names_are_found_whatever_their_capitals_unless_told_otherwise() -> None
 def test_a_train_without_the_input_or_with_a_loop_is_refused() -> None:
     problem = sure_back()
     with pytest.raises(GearTrainError, match="no wheel of 'b'"):
-        find_known_train(read_declaration("vitruvius-hodometer"), problem)
+        find_known_train(load("vitruvius-hodometer").declaration, problem)
     looped = declare(
         {
             "name": "loop",
@@ -340,4 +339,4 @@ def test_what_singles_a_train_out_is_what_plain_sets_of_trains_say(name: str) ->
 
 def test_too_many_trains_single_none_out() -> None:
     question = sure_question()  # of which none is listed
-    assert rank_known_train(read_declaration("freeth-2008"), question).telling is None
+    assert rank_known_train(load("freeth-2008").declaration, question).telling is None

@@ -9,13 +9,23 @@ from concrete_trees import concrete, explanations, nodes, speeds
 from shipped import every_train
 
 from geartrain import GearTrainError, load
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.lost_arbors import lost_evidence, lost_evidence_data, rank_of
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.search.reconstruct.reconstruction_result import Candidate, ExplanationCount, Reconstructions
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_tree, find_spur_trees
-from geartrain.train.declaration_files import read_declaration
+from geartrain.search.reconstruct import (
+    Arbor,
+    Candidate,
+    ExplanationCount,
+    PlacedWheel,
+    Reconstructions,
+    evidence_question,
+    find_reconstructions,
+)
+from geartrain.search.reconstruct.reconstruction_search import rank_of
+from geartrain.search.reconstruct.spur_tree import (
+    SpurTree,
+    find_spur_tree,
+    find_spur_trees,
+    lost_evidence,
+    lost_evidence_data,
+)
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel
 SAMPLE = """\
@@ -55,7 +65,7 @@ outputs:
 
 def sample(old: str = "", new: str = "") -> SpurTree:
     assert not old or SAMPLE.count(old) == 1, old
-    return find_spur_tree(read_declaration(SAMPLE.replace(old, new) if old else SAMPLE))
+    return find_spur_tree(load(SAMPLE.replace(old, new) if old else SAMPLE).declaration)
 
 
 def wheel(teeth: int, name: str | None = None) -> PlacedWheel:
@@ -156,7 +166,7 @@ def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:
 )
 def test_a_train_that_is_not_taken_says_why(name: str, why: str) -> None:
     with pytest.raises(GearTrainError, match=why):
-        find_spur_tree(read_declaration(name))
+        find_spur_tree(load(name).declaration)
 
 
 @pytest.mark.parametrize(
@@ -178,7 +188,7 @@ def test_only_arbors_of_the_tree_can_be_lost(lost: list[str], why: str) -> None:
 def test_pointers_of_every_part_turn_as_the_whole_train_turns_them(name: str) -> None:
     """Also where a part is on a carrier, or begins behind one, and where it has rings and pins in slots."""
     try:
-        trees = find_spur_trees(read_declaration(name))
+        trees = find_spur_trees(load(name).declaration)
     except GearTrainError:
         return
     solved = load(name).solve()
@@ -192,7 +202,7 @@ def test_pointers_of_every_part_turn_as_the_whole_train_turns_them(name: str) ->
 
 
 def parts_of(name: str) -> dict[str, set[str]]:
-    return {tree.name: set(tree.able) for tree in find_spur_trees(read_declaration(name))}
+    return {tree.name: set(tree.able) for tree in find_spur_trees(load(name).declaration)}
 
 
 def test_what_is_borne_by_a_carrier_is_a_part_and_so_is_what_it_drives() -> None:
@@ -212,7 +222,7 @@ def test_what_is_borne_by_a_carrier_is_a_part_and_so_is_what_it_drives() -> None
 
 
 def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
-    tree = find_spur_tree(read_declaration("freeth-2008"), ["k2"])
+    tree = find_spur_tree(load("freeth-2008").declaration, ["k2"])
     assert (tree.source, tree.joined["k1"], tree.wheels_of("k1")) == ("e_pipe", ("k1", "k2"), ("k1", "k2"))
     data = lost_evidence_data(tree, ["e_inner"])
     assert data["inputs"] == {"e_table": "-477/4237", "e_pipe": "-254/19"}
@@ -253,7 +263,7 @@ def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
 def test_what_cannot_be_lost_is_told_with_the_reason(name: str, lost: list[str], why: str) -> None:
     source = "frame" if lost == ["frame"] else "ground" if lost == ["F"] else None
     with pytest.raises(GearTrainError, match=why):
-        lost_evidence(find_spur_tree(read_declaration(name), lost, source), lost)
+        lost_evidence(find_spur_tree(load(name).declaration, lost, source), lost)
 
 
 IN_PARTS = {
@@ -268,7 +278,7 @@ IN_PARTS = {
 @pytest.mark.parametrize("name", IN_PARTS)
 def test_an_arbor_of_a_later_part_is_found_again(name: str) -> None:
     for source in IN_PARTS[name]:
-        tree = find_spur_tree(read_declaration(name), (), source)
+        tree = find_spur_tree(load(name).declaration, (), source)
         for link in tree.able:
             problem = evidence_question(lost_evidence(tree, [link])).problem
             if problem.additions.wheels < 3:
@@ -278,7 +288,7 @@ def test_an_arbor_of_a_later_part_is_found_again(name: str) -> None:
 @pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "price-1974", "clock-10000-years-exact"])
 def test_where_meshes_were_seen_the_search_of_a_large_train_is_small(name: str) -> None:
     """In the first part and in those on carriers; none of these ends within minutes where no mesh is told."""
-    trees = find_spur_trees(read_declaration(name))
+    trees = find_spur_trees(load(name).declaration)
     for tree in trees:
         link = tree.able[0]
         evidence = lost_evidence(tree, [link], seen=True)
@@ -318,7 +328,7 @@ QUICK = {
 
 @pytest.mark.parametrize("name", QUICK)
 def test_a_train_is_found_again_whatever_is_lost(name: str) -> None:
-    tree = find_spur_tree(read_declaration(name))
+    tree = find_spur_tree(load(name).declaration)
     for many in range(1, QUICK[name] + 1):
         for lost in combinations(tree.driven, many):
             problem = evidence_question(lost_evidence(tree, lost)).problem
@@ -347,7 +357,7 @@ gears: [{pair: [a1, b1]}, {pair: [b2, c1]}, {pair: [b3, d1]}]
 inputs: {a: 1}
 outputs: {c: {expect: 117/253}, d: {expect: 78/319}}
 """
-    tree = find_spur_tree(read_declaration(text))
+    tree = find_spur_tree(load(text).declaration)
     found = find_reconstructions(evidence_question(lost_evidence(tree, ["b"])).problem)
     assert [count.mechanisms for count in found.counts] == [0, 0, 0, 1]
     assert rank_of(tree.arbor(["b"]), found) == (1, 1)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from geartrain.search.reconstruct import Arbor, PlacedWheel
 from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
 
 
 def added(teeth: int) -> PlacedWheel:

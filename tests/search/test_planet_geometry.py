@@ -22,8 +22,7 @@ from shapely import affinity
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.numerics import Quantity
-from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
-from geartrain.search.constraints.involute_interference import (
+from geartrain.search.constraints.assembly_constraints import (
     InRing,
     OnInvolute,
     external_terms,
@@ -31,6 +30,7 @@ from geartrain.search.constraints.involute_interference import (
     ring_terms,
     tip_rooms,
 )
+from geartrain.search.constraints.count_conditions import cosine, is_positive, sine
 
 Data = dict[str, Any]
 TWENTY = Fraction(1, 18)

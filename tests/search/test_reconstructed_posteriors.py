@@ -19,11 +19,10 @@ from concrete_trees import random_problem
 from sampling import first_few
 
 from geartrain.search import ToothCountPosterior, infer_counts
+from geartrain.search.reconstruct import PriorFactors, ReconstructionProblem, find_reconstructions
 from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, name_train
 from geartrain.search.reconstruct.explained_facts import Fact, FactTally, sum_facts
-from geartrain.search.reconstruct.reconstruction_problem import PriorFactors, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import topology_prior
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction_search import topology_prior
 from geartrain.search.reconstruct.search_tasks import CountedTopology, TopologyTrains
 from geartrain.train import Train, declare
 

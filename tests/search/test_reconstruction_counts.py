@@ -15,17 +15,16 @@ from typing import Any
 
 import pytest
 
-from geartrain.search.reconstruct.evidence_question import evidence_question
-from geartrain.search.reconstruct.reconstruction_problem import (
-    NEW,
+from geartrain.search.reconstruct import (
     Additions,
     ReconstructionProblem,
     SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
+    evidence_question,
+    find_reconstructions,
+    read_evidence,
 )
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.train.declaration_files import read_evidence
 
 LONG = {  # each some seconds
     "b byzantine",
@@ -67,7 +66,7 @@ def _dial(given: dict[str, Any]) -> SearchedDial:
     else:
         least = greatest = Fraction(given["speed"]) if signed else abs(Fraction(given["speed"]))
     place = given.get("place")
-    return SearchedDial(given["name"], least, greatest, signed, NEW if place == "new" else place)
+    return SearchedDial(given["name"], least, greatest, signed, place)
 
 
 def _parameter(question: dict[str, Any]) -> Any:

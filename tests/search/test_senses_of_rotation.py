@@ -173,7 +173,8 @@ def test_a_speed_of_zero_is_searched_by_difference(tolerance: str) -> None:
 
 
 def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
-    for target in ({"speed": "1/2"}, {"speed": "1/2", "tolerance": "1 %"}, {"period": "2 d", "sense": "direct"}):
+    asked = ({"speed": "1/2"}, {"speed": "1/2", "tolerance": "1 %"}, {"period": "2 d", "sense": "direct"})
+    for output in ({"expect": "1/2"}, *({"targets": [target]} for target in asked)):
         data = {
             "unit": {"per": "1 d"},
             "links": {
@@ -184,7 +185,7 @@ def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
             "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
             "gears": [{"pair": ["p", "w"]}],
             "inputs": {"a": 1},
-            "outputs": {"b": {"targets": [target]}},
+            "outputs": {"b": output},
         }
         found = search_train(GearTrain.declare(data).declaration, rules=())
         assert found.count == 0

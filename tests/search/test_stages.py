@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
@@ -21,9 +20,8 @@ from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
 from geartrain.search import StageConstraints, StageFindings, TargetRatio, find_stages
 from geartrain.search.ratio import search_segments as stages_work
-from geartrain.search.ratio.product_windows import cuts, errors, expand, products_of, rounded_up
-from geartrain.search.ratio.stage_pairs import best_pairing, suited
-from geartrain.search.stern_brocot import farey_neighbours
+from geartrain.search.ratio.product_windows import cuts, errors
+from geartrain.search.ratio.stage_problem import best_pairing, suited
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 Set = tuple[int, ...]
@@ -287,14 +285,6 @@ def test_many_solutions_are_listed_as_well_as_few() -> None:
 # exact windows --------------------------------------------------------------------------------------------------------
 
 
-@given(st.fractions(0, 10**6), st.integers(1, 60))
-def test_neighbours_are_the_nearest_fractions_with_short_denominators(value: Fraction, most: int) -> None:
-    low, high = farey_neighbours(value, most)
-    below = max(Fraction(value.numerator * d // value.denominator, d) for d in range(1, most + 1))
-    above = min(Fraction(-(-value.numerator * d // value.denominator), d) for d in range(1, most + 1))
-    assert (low, high) == (below, above)
-
-
 @given(
     st.lists(st.integers(1, 2**52 - 1), min_size=1, max_size=8),
     st.lists(st.integers(1, 2**52 - 1), min_size=1, max_size=8),
@@ -327,38 +317,6 @@ def test_errors_are_right_to_thirty_places(top: int, beneath: int, off: Fraction
     exact = Fraction(top, beneath) / value - 1
     found = errors(np.array([top]), np.array([beneath]), value)[0]
     assert abs(Fraction(float(found)) - exact) <= 1e-29 + abs(exact) * Fraction(1, 10**10)
-
-
-@given(st.floats(0, 1e6), st.fractions(0, 1))
-def test_a_tolerance_in_few_digits_is_never_less(number: float, share: Fraction) -> None:
-    for exact in (Fraction(number), share):
-        assert exact <= rounded_up(exact) <= exact * Fraction(102, 100)
-
-
-# products -------------------------------------------------------------------------------------------------------------
-
-
-@given(counts(6), st.integers(1, 5), st.integers(0, 10**6), st.integers(0, 10**6))
-def test_products_of_a_window_are_those_of_all_sets(numbers: Set, size: int, low: int, high: int) -> None:
-    every = Counter(prod(chosen) for chosen in combinations_with_replacement(numbers, size))
-    products = products_of(numbers, size)
-    low, high = sorted((max(low, products.least), max(min(high, products.most + 1), products.least)))
-    inside = sorted(value for value in every.elements() if low <= value < high)
-    assert products.values(low, high).tolist() == inside
-    assert products.below(high) == sum(value < high for value in every.elements())
-    assert products.total == every.total()
-    values, chosen = products.members(low, high, np.unique(np.array(inside, dtype=np.int64)))
-    assert values.tolist() == inside
-    assert sorted(map(tuple, chosen.tolist())) == sorted(
-        each for each in combinations_with_replacement(numbers, size) if low <= prod(each) < high
-    )
-
-
-@given(counts(8), st.integers(1, 5), st.data())
-def test_a_product_gives_its_sets_back(numbers: Set, size: int, data: st.DataObject) -> None:
-    every = list(combinations_with_replacement(numbers, size))
-    product = prod(data.draw(st.sampled_from(every)))
-    assert expand(product, numbers, size) == [each for each in every if prod(each) == product]
 
 
 def test_products_past_float64_are_found_exactly() -> None:

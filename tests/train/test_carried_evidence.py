@@ -7,8 +7,7 @@ from fractions import Fraction
 import pytest
 
 from geartrain import GearTrainError
-from geartrain.search.reconstruct.evidence_question import EvidenceQuestion, evidence_question
-from geartrain.train.declaration_files import read_evidence
+from geartrain.search.reconstruct import EvidenceQuestion, evidence_question, read_evidence
 
 SOUND = """\
 links:

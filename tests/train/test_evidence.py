@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.search.reconstruct.evidence_question import EvidenceQuestion, evidence_question
-from geartrain.search.reconstruct.reconstruction_problem import PriorFactors
-from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
+from geartrain.search.reconstruct import EvidenceQuestion, PriorFactors, evidence_question, read_evidence
+from geartrain.train.declaration_files import read_declaration, shipped, shipped_evidence
 
 SOUND = """\
 links:

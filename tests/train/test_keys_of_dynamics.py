@@ -11,7 +11,7 @@ from models import PAIR, refusal
 from geartrain import load
 from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.errors import GearTrainError
-from geartrain.report.declaration_reference import schema
+from geartrain.report.json_schema import schema
 from geartrain.train import Train
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from geartrain.search.posterior.priors import find_priors
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.posterior.inference_problem import find_priors
+from geartrain.search.reconstruct import evidence_question
 from geartrain.train import Teeth, declare
 
 THIRDS = Fraction(1, 3)

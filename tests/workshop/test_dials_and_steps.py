@@ -15,7 +15,7 @@ import shapely
 from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.dial_marks import engrave
+from geartrain.scene.dial_scale import engrave
 from geartrain.scene.palette import THEMES
 from geartrain.workshop import export_files
 from geartrain.workshop.export.assembly_pictures import step_pictures

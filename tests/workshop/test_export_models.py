@@ -19,9 +19,7 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.bevel_solids import likeness_solid
-from geartrain.scene.solids.triangle_solids import Solid
-from geartrain.scene.solids.triangulation import fill
+from geartrain.scene.solids.triangle_solids import Solid, fill, likeness_solid
 from geartrain.workshop import train_file, wheel_file
 
 shapely = pytest.importorskip("shapely")

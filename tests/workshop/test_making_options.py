@@ -15,7 +15,7 @@ from shipped import train as load
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.flat_drawing import FlatDrawing
+from geartrain.scene.solids.bearing_plates import FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.workshop import wheel_file
 from geartrain.workshop.export.cut_sheets import compensated

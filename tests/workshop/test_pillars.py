@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shipped import built
 
-from geartrain.scene.built_elements import ScenePart
+from geartrain.scene.elements import ScenePart
 
 BRASS = 100_000.0  # N/mm2, Young's modulus
 PUSH = 10.0  # N, of a hand at the crank

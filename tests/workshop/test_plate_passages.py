@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shipped import train
 
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
+from geartrain.scene.parts.stack_discs import Passage, clear_passages, with_passages
 from geartrain.scene.solids.bearing_plates import around
 
 PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]

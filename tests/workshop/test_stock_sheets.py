@@ -10,7 +10,7 @@ import pytest
 from shapely.geometry import Polygon, box
 
 from geartrain.errors import QuestionError
-from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.workshop.export.cut_sheets import FlatPart, stock_sheets
 

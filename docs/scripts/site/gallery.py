@@ -151,8 +151,8 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     from geartrain.drawing import picture, render
     from geartrain.report.document import Picture
     from geartrain.report.html_page import to_html
-    from geartrain.report.shared_page import describe_shared_page
     from geartrain.report.train_data import collect_report
+    from geartrain.report.train_report import describe_shared_page
     from geartrain.scene import build_scene
     from geartrain.viewer import page
 

@@ -11,8 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.numerics.arrays import Floats, Ints
-from geartrain.search.posterior.monomial_columns import CombinationColumns, MonomialColumns, Powers
-from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch
+from geartrain.search.posterior.sampled_posterior import (
+    BLOCK,
+    CombinationColumns,
+    LikelihoodBatch,
+    MonomialColumns,
+    Powers,
+)
 
 
 class ScaledColumns(MonomialColumns):

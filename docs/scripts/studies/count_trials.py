@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 
 from geartrain.analysis.gear_train import GearTrain, load
 from geartrain.kinematics.formulas import with_counts
-from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem
-from geartrain.search.posterior.monomial_columns import MonomialColumns
-from geartrain.search.posterior.priors import find_priors
-from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch
+from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem, find_priors
+from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch, MonomialColumns
 from studies.count_grid import CombinationGrid
 
 Bools = NDArray[np.bool_]

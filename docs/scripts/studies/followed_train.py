@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
+from geartrain.search.reconstruct import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.candidate_rules import broken_rules
 from geartrain.search.reconstruct.path_choice import PathChoice
 from geartrain.search.reconstruct.path_lists import PathList, WayThrough
 from geartrain.search.reconstruct.path_trees import PathTrees
 from geartrain.search.reconstruct.quotient_keys import QuotientKeys
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Topology
 
 Shape = tuple[object, ...]

@@ -21,19 +21,17 @@ from typing import Any
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Journal, open_executor, run
-from geartrain.search.reconstruct.evidence_question import evidence_question
+from geartrain.search.reconstruct import ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.lost_arbors import (
-    is_all_listed,
+from geartrain.search.reconstruct.reconstruction_search import is_all_listed, mechanism, prior, rank_of
+from geartrain.search.reconstruct.spur_tree import (
+    SpurTree,
+    find_spur_trees,
     lost_arbors,
     lost_evidence,
     lost_wheels,
-    rank_of,
+    why_not,
 )
-from geartrain.search.reconstruct.reconstruction_problem import NEW, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import mechanism, prior
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
-from geartrain.search.reconstruct.spur_tree import SpurTree, find_spur_trees, why_not
 from geartrain.train.declaration_files import read_declaration, shipped
 from studies.followed_train import is_reached
 from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
@@ -281,7 +279,7 @@ def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterat
 
 def fewest_new_arbors(problem: ReconstructionProblem) -> int:
     """How many arbors must be added at least, for pointers of different speeds that have none."""
-    bounds = [sorted((abs(dial.least), abs(dial.greatest))) for dial in problem.dials if dial.place == NEW]
+    bounds = [sorted((abs(dial.least), abs(dial.greatest))) for dial in problem.dials if dial.place == "new"]
     number, last = 0, Fraction(-1)
     for least, greatest in sorted(bounds, key=lambda each: each[1]):
         if least > last:

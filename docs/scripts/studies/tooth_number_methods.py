@@ -15,13 +15,10 @@ from math import prod
 from typing import Any, Literal
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.search.gear_pair_search import find_pairs
+from geartrain.search import TargetRatio, approximants, find_stages, search_train
+from geartrain.search.ratio.gear_pair_search import find_pairs
 from geartrain.search.ratio.product_windows import expand, multisets
-from geartrain.search.ratio.stage_search import find_stages
-from geartrain.search.stern_brocot import approximants
-from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import Counts
-from geartrain.search.train.train_search import search_train
 from geartrain.train import Train
 
 Pair = tuple[int, int]

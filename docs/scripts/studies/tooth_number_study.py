@@ -12,12 +12,10 @@ from functools import partial
 from statistics import median
 from typing import Any
 
+from geartrain.search import StageConstraints, TargetRatio, find_stages, read_ratio, search_train
 from geartrain.search.ratio.product_windows import multisets, products_of
 from geartrain.search.ratio.search_segments import lay_out, search_segment, task_of
-from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem
-from geartrain.search.ratio.stage_search import find_stages
-from geartrain.search.target_ratio import TargetRatio, read_ratio
-from geartrain.search.train.train_search import search_train
+from geartrain.search.ratio.stage_problem import StageProblem
 from geartrain.train import Train
 from studies import tooth_number_methods as ways
 from studies.measurement import Cost, Step, in_turns, measure, taken

@@ -13,7 +13,11 @@ from geartrain.cli.mesh import any_form
 from geartrain.cli.verbs import LazyGroup, Verbs
 from geartrain.teeth.any_tooth_form import tooth_forms
 
-_OWN = {name: f"geartrain.cli.mesh.{name}" for name in ("triangular", "pin", "compare")}
+_OWN = {
+    "triangular": "geartrain.cli.mesh.triangular",
+    "pin": "geartrain.cli.mesh.any_form:pin",
+    "compare": "geartrain.cli.mesh.compare",
+}
 _FORMS = {name: model for name, model in tooth_forms().items() if name not in (*_OWN, "ideal")}
 
 

@@ -1,11 +1,13 @@
-"""`geartrain mesh FORM` for any tooth form: verdict, motion and losses of a pair, and its wheels to cut."""
+"""`geartrain mesh FORM` for any tooth form: verdict, motion and losses of a pair, and its wheels to cut. `geartrain
+mesh pin`: the transmission function of a pin in a slot or in a follower.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 import typer
 
@@ -22,27 +24,28 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.form_options import (
+    FINE,
+    Bore,
+    Friction,
     Internal,
+    Profile,
+    Rate,
+    Tolerance,
+    WheelNumber,
+    as_options,
     form_command,
     pair_in_mesh,
+    profile_sink,
     read_form,
     read_helix,
     read_module,
+    read_pair_friction,
     read_shaft_angle,
     two_wheels,
-)
-from geartrain.cli.mesh.pair_friction import Friction, Rate, read_pair_friction
-from geartrain.cli.mesh.wheel_profile import (
-    FINE,
-    Bore,
-    Profile,
-    Tolerance,
-    WheelNumber,
-    profile_sink,
     write_profile,
 )
-from geartrain.cli.option_values import at_option, read_quantity
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme, at_option, quantity, read_quantity
+from geartrain.cli.option_values import friction as read_friction
 from geartrain.errors import GearTrainError
 from geartrain.teeth.tooth_form import ToothForm
 
@@ -50,6 +53,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geartrain.teeth.gear_mesh import GearMesh
+
 
 _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
 """Options of conjugate forms: for a ring, for cones, and for the root that their path of contact leaves open."""
@@ -146,3 +150,30 @@ def _figure(mesh: GearMesh) -> Figure:
         return shapes_figure({mesh.form: mesh.path})
     driver, driven = mesh.counts
     return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {driver} drives {driven}")
+
+
+def pin(
+    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from its own axis.")],
+    offset: Annotated[str, typer.Option("--offset", help="Distance of the two axes.")],
+    friction: Annotated[str, typer.Option("--friction", help="Friction of the pin along the slot.")] = "0",
+    driver: Annotated[str, typer.Option("--driver", help="Which drives: pin or slot.")] = "pin",
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
+    from geartrain.report.pair_page import describe_pin
+    from geartrain.teeth.pair_results import pin_figures
+    from geartrain.teeth.pin_coupling import pin_transmission
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    rub = read_friction(friction)
+    if driver not in ("pin", "slot"):
+        raise typer.BadParameter(f"'{driver}' is neither pin nor slot", param_hint="--driver")
+    r = quantity("--pin-radius", pin_radius, "length", plain=True)
+    e = quantity("--offset", offset, "length", plain=True)
+    try:
+        law = pin_transmission(r, e, rub, cast(Literal["pin", "slot"], driver))
+    except GearTrainError as error:
+        raise as_options(error, "--pin-radius") from None
+    give(to, json, lambda: pin_figures(law), lambda: [describe_pin(law)])

@@ -20,8 +20,7 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.form_options import read_wheels
-from geartrain.cli.option_values import read_quantity
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme, read_quantity
 from geartrain.teeth.form_comparison import USUAL, arcs_error, comparable_forms, compare_forms
 
 if TYPE_CHECKING:
@@ -49,7 +48,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
-    from geartrain.report.tooth_form_comparison import describe_form_comparison
+    from geartrain.report.conjugate_pair_page import describe_form_comparison
 
     to, picture = sink(out, force, (".md", ".html", ".json")), picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)

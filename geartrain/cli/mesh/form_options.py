@@ -1,28 +1,37 @@
-"""Tooth forms as options give them: the options of a form are the fields of its model, read back as a declaration is.
+"""Options of `geartrain mesh`: the fields of a tooth form, wheels, friction, and the outline of a whole wheel.
 
-What `geartrain mesh` asks of a pair of wheels besides their form: whether one is a ring, how axes meet, the module.
+The options of a form are the fields of its model, validated as in a declaration. Friction is a coefficient, or a
+function of speed with `--rate`. `--profile` writes the outline of a whole wheel, to scale.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from inspect import Parameter, Signature
 from math import cos, pi
-from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 import typer
 
+from geartrain.cli.common import Sink, emit, sink
 from geartrain.cli.option_values import at_option, quantity
-from geartrain.errors import GearTrainError, Problem
+from geartrain.cli.option_values import friction as read_coefficient
+from geartrain.errors import GearTrainError, Problem, suggest
 
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    from geartrain.teeth.friction_law import FrictionLaw
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.tooth_form import ToothForm
+
+    Mesh = TypeVar("Mesh", bound=GearMesh)
+
 
 FormOptions = dict[str, str | bool | None]
 Internal = Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")]
@@ -213,3 +222,124 @@ def two_wheels(
     pair = GearPair(pair=("wheel 1", "wheel 2"))
     lean = (helix, helix if internal else -helix)
     return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)
+
+
+# --------------------------------------------------------------------------------------------------- outline of a wheel
+
+
+Profile = Annotated[
+    Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
+]
+WheelNumber = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")]
+Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")]
+Tolerance = Annotated[str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")]
+FINE = "0.001mm"
+"""The tolerance where none is given."""
+
+
+def profile_sink(profile: Path | None, force: bool) -> Sink:
+    """Where an outline goes; what cannot be written is refused before the work. Raises `GearTrainError`."""
+    from geartrain.drawing.flat_files import OUTLINES
+
+    to = sink(profile, force, option="--profile")
+    if to.path is not None and to.suffix not in OUTLINES:
+        what = f"'{to.suffix}' is no form of outline"
+        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    return to
+
+
+def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], to: Sink) -> list[WheelOutline]:
+    """The outline of a wheel, written; none where no file is named. `blank` has its sizes as options give them."""
+    if to.path is None:
+        return []
+    from geartrain.drawing import outline_text
+
+    made = mesh.wheel_outline(wheel, _blank_sizes(mesh.wheels.module, blank))
+    emit(outline_text(made, to.suffix), to)
+    return [made]
+
+
+def _blank_sizes(module: float | None, sizes: Mapping[str, str | None]) -> BlankSizes:
+    """Sizes in mm, the module in m."""
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes
+
+    if module is None:
+        why = "an outline is to scale, and nothing gives these wheels a size"
+        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+    given = {name: 1000 * quantity(f"--{name}", text, "length") for name, text in sizes.items() if text is not None}
+    return BlankSizes(1000 * module, **given)
+
+
+# ------------------------------------------------------------------------------------------------------------- friction
+
+
+Friction = Annotated[
+    str,
+    typer.Option(
+        "--friction",
+        help="Coefficient of friction, or a law of speed: buckingham, dokos, "
+        "'stribeck,static=0.2,kinetic=0.08,speed=10 mm/s', or a table.",
+    ),
+]
+Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driver, such as '1 turn/s'.")]
+
+
+@dataclass(frozen=True)
+class PairFrictionOption:
+    """What `--friction` says.
+
+    coefficient   0 where a law is given
+    """
+
+    coefficient: float
+    law: FrictionLaw | None = None
+
+    def number(self, option: str) -> float:
+        """The coefficient. Raises `GearTrainError` where a law is given to an option that asks for a number."""
+        if self.law is not None:
+            what = f"{option} asks for friction as a number"
+            raise GearTrainError(Problem(what, "a law of speed was given", "give a coefficient", "--friction"))
+        return self.coefficient
+
+    def of(self, mesh: Mesh, rate: str | None) -> Mesh:
+        """The mesh with that friction, at the speed of its driver. Raises `GearTrainError` where none is known."""
+        if self.law is None:
+            return mesh
+        radius = mesh.pitch_radius
+        if radius is None or rate is None:
+            missing = {"--rate": ("fast", rate), "--module": ("large", radius)}
+            lacking = {option: word for option, (word, value) in missing.items() if value is None}
+            what = f"friction by the law '{self.law.law}' depends on the speed of the pair"
+            why = f"nothing says how {' or '.join(lacking.values())} it is"
+            raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
+        if mesh.driver != mesh.gear.pair[0]:
+            first, second = mesh.wheels.counts
+            radius *= second / first
+        speed = quantity("--rate", rate, "speed", least="above 0") * radius
+        return replace(mesh, wheels=replace(mesh.wheels, friction=None, friction_law=self.law, pitch_line=speed))
+
+
+def read_pair_friction(text: str) -> PairFrictionOption:
+    """A coefficient, or the law that a text names. Raises `GearTrainError`."""
+    name = text.split(",")[0].strip()
+    if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
+        return PairFrictionOption(read_coefficient(text))
+    from pydantic import TypeAdapter, ValidationError
+
+    from geartrain.teeth.friction_law import FrictionLawOfText
+
+    try:
+        return PairFrictionOption(0.0, TypeAdapter[Any](FrictionLawOfText).validate_python(text))
+    except ValidationError as error:
+        raise GearTrainError(map(_problem, error.errors(include_url=False))) from None
+
+
+def _problem(item: Any) -> Problem:
+    if item["type"] == "union_tag_invalid":
+        from geartrain.train.validation import unknown_tag
+
+        given = item["ctx"]["tag"]
+        return Problem(f"there is no law of friction '{given}'", "", suggest(given, unknown_tag(item)[1]), "--friction")
+    key = ".".join(str(step) for step in item["loc"][1:])
+    what = f"{key}: {item['msg']}" if key else item["msg"]
+    return Problem(what, "", str((item.get("ctx") or {}).get("fix", "see docs/shapes.md, section 15")), "--friction")

@@ -30,26 +30,25 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.form_options import (
+    FINE,
+    Bore,
     FormOptions,
+    Friction,
     Internal,
+    Profile,
+    Rate,
+    Tolerance,
+    WheelNumber,
     form_command,
     option_name,
     pair_in_mesh,
-    read_form,
-    two_wheels,
-)
-from geartrain.cli.mesh.pair_friction import Friction, Rate, read_pair_friction
-from geartrain.cli.mesh.wheel_profile import (
-    FINE,
-    Bore,
-    Profile,
-    Tolerance,
-    WheelNumber,
     profile_sink,
+    read_form,
+    read_pair_friction,
+    two_wheels,
     write_profile,
 )
-from geartrain.cli.option_values import at_option, quantity
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme, at_option, quantity
 from geartrain.errors import GearTrainError
 from geartrain.teeth.triangular.triangular_form import FEWEST, Triangular
 from geartrain.wings import wing

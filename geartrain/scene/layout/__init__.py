@@ -1,21 +1,20 @@
-"""Where axes and wheels stand: positions as declared, or placed so that meshing wheels touch and nothing collides.
+"""Places of axes and wheels: as declared, or chosen so that meshing wheels touch and nothing collides.
 
-`train_layout` first: its `lay_out` runs the steps below in this order, and each hands a record to the next.
+`lay_out` in `train_layout` runs the steps below in this order, and each hands a record to the next.
 
-    declared_geometry   axes as lines, pairs of wheels           DeclaredGeometry
-    wheel_modules       union-find of ratios; closed chains      WheelModules
-    wheel_sizes         radii, seats of crossing pairs           SizedGeometry
-    wheel_reach         how far bodies of wheels reach
-    parallel_groups     groups of parallels, one by one          Arrangement
-                        broad wheels, by backtracking            AxialSlots
-                        wheels that keep their heights           StackProblem
-        plan_problem    what is asked of a plan                  PlanProblem
-        plan_search     beam search: order, clearance            places in plan
-        swept_overlap   distances while carriers turn            SweptDistances, PlanOverlap
-        stack_order     local search of the order of levels      keys
-        wheel_stacks    heights of levels                        WheelStack
-    train_layout        angles at which teeth meet               MeshAlignment
-                        what could not be met                    notices
+    declared_geometry   axes as lines, pairs of wheels               DeclaredGeometry
+    wheel_modules       union-find of ratios; closed chains          WheelModules
+                        radii, seats of crossing pairs               SizedGeometry
+    wheel_reach         extent of the bodies of wheels
+    parallel_groups     groups of parallel axes, one by one          Arrangement
+                        broad wheels, by backtracking                AxialSlots
+        plan_search     distances that a plan must meet              PlanProblem
+                        beam search: order, clearance                places in plan
+        swept_overlap   distances while carriers turn                SweptDistances, PlanOverlap
+        wheel_stacks    local search of the order of levels          StackProblem
+                        heights of levels                            WheelStack
+    train_layout        angles at which teeth meet                   MeshAlignment
+                        conditions that could not be met             notices
 """
 
 from __future__ import annotations

@@ -19,9 +19,8 @@ from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
-from geartrain.scene.layout.wheel_modules import pitch_distance
+from geartrain.scene.layout.wheel_modules import Seat, opposite, pitch_distance, size_geometry
 from geartrain.scene.layout.wheel_reach import bare_reach, span
-from geartrain.scene.layout.wheel_sizes import Seat, opposite, size_geometry
 from geartrain.scene.layout.wheel_stacks import WheelStack
 
 # --------------------------------------------------------------------------------------------------- layout diagnostics
@@ -424,7 +423,7 @@ def lay_out(train: GearTrain) -> Layout:
     Notes
     -----
     In this order: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), of each group
-    the plan (`plan_search`) and the heights of its wheels (`stack_order`, `wheel_stacks`), then the angles at which
+    the plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which
     teeth mesh (`mesh_alignment`).
 
     Examples

@@ -1,19 +1,319 @@
-"""Heights of the wheels of parallel axes, at which none stands in another's way; and where that cannot be had."""
+"""Heights of the wheels of parallel axes at which no wheel collides with another, and where there are none.
+
+The order of levels is found first, so that few arbors pass through wheels and all are short: local search on keys, one
+for each stack, which increase upwards; stacks with one key share a level. Each stack in turn is put where it costs
+least, then runs of levels are moved or reversed together, until nothing improves. In a very large train each stack is
+put into the first level that fits, and stays there.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.numerics.vectors import Vector
-from geartrain.scene.layout.stack_order import StackProblem, order_stacks
-from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock
+from geartrain.scene.layout.declared_geometry import DialEnds
+from geartrain.scene.layout.swept_overlap import PlanOverlap, SweptDistances, WheelBlock
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from geartrain.numerics.arrays import Floats, Indices
+
+_PIERCED = 1.0  # cost of an arbor that goes through a wheel
+_HELD = (0.0, 4.0, 2.0)  # of one that reaches into what stands still: in turn, as dear from the start finds less
+_LONG = 0.02  # of a level that an arbor spans
+_LEVEL = 0.005  # of a level used
+_PASSES = 8  # over all stacks
+_RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved together
+_AT_ONCE = 500  # orders of which costs are worked out together: more would not stay in the cache
+_SEARCHED = 80  # stacks up to which every place is tried
+
+
+@dataclass(frozen=True)
+class StackProblem:
+    """What is to be stacked.
+
+    overlap   of the blocks in plan
+    arbors    links that carry wheels; the rows of `overlap.pierce`
+    ends      of arbors that run out of the stack to a dial
+    plates    arbor -> the wheel on which its axis is carried round
+    pins      wheels with a pin and with its slot; rows of `overlap.pierce` after those of arbors
+    still     the link that stands still: where it has several wheels on an axis, they are as an arbor that does
+    """
+
+    blocks: Sequence[WheelBlock]
+    overlap: PlanOverlap
+    arbors: Sequence[str]
+    ends: Mapping[str, DialEnds]
+    plates: Mapping[str, str]
+    pins: Sequence[tuple[str, str]] = ()
+    still: str = ""
+
+    @property
+    def count(self) -> int:
+        """How many stacks there are."""
+        return 1 + max((block.stack for block in self.blocks), default=-1)
+
+
+def order_stacks(problem: StackProblem) -> Floats:
+    """A key for each stack, growing upwards; stacks of one key share a level."""
+    search = _OrderSearch(problem)
+    return search.first_fit() if problem.count > _SEARCHED else search.local_search()
+
+
+class _OrderSearch:
+    """One search.
+
+    clash     stacks that must not share a level, by stack
+    carried   stacks of each arbor, and of the wheel that carries its axis round
+    bearing   arbors of each stack
+    """
+
+    def __init__(self, problem: StackProblem) -> None:
+        self.problem, self.count = problem, problem.count
+        self.stacks = np.array([block.stack for block in problem.blocks])
+        rows, columns = np.nonzero(problem.overlap.clash)
+        clash = np.unique(np.stack([self.stacks[rows], self.stacks[columns]]), axis=1)
+        ends = np.searchsorted(clash[0], np.arange(self.count + 1))
+        self.clash = [clash[1, low:high] for low, high in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
+        self.carried = self._carried()
+        self.bearing: list[list[int]] = [[] for _ in range(self.count)]
+        for arbor, stacks in enumerate(self.carried):
+            for stack in stacks:
+                self.bearing[stack].append(arbor)
+
+    def _carried(self) -> list[tuple[int, ...]]:
+        problem = self.problem
+        carried: dict[str, dict[int, None]] = {arbor: {} for arbor in problem.arbors}  # keys in order, each once
+        for block in problem.blocks:
+            if block.link in carried:
+                carried[block.link][block.stack] = None
+        stack_of = {block.wheel: block.stack for block in problem.blocks if not block.across}
+        for arbor, plate in problem.plates.items():
+            carried[arbor][stack_of[plate]] = None
+        pins = [(stack_of[pin], stack_of[slot]) for pin, slot in problem.pins]
+        return [*(tuple(stacks) for stacks in carried.values()), *pins]
+
+    @cached_property
+    def _standing(self) -> dict[int, tuple[int, ...]]:
+        """Stacks of wheels that stand still, by axis, where there are several: one piece holds them all."""
+        found: dict[int, dict[int, None]] = {}
+        for block in self.problem.blocks:
+            if block.link and block.link == self.problem.still and not block.across and not block.inner:
+                found.setdefault(block.axis, {})[block.stack] = None
+        return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
+
+    def _mates(self, at: int) -> Iterator[int]:
+        """Stacks that share an arbor with a stack, as often as they do, itself among them."""
+        return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
+
+    @cached_property
+    def order(self) -> list[int]:
+        """From the stack with most arbors on, always one that shares an arbor with those before."""
+        score = np.array([len(arbors) for arbors in self.bearing], float)
+        weight = float(score.sum()) + 1  # one shared arbor outweighs any number of own ones
+        order: list[int] = []
+        for _ in range(self.count):
+            at = int(np.argmax(score))
+            order.append(at)
+            for mate in self._mates(at):
+                score[mate] += weight
+            score[at] = -np.inf
+        return order
+
+    # ------------------------------------------------------------------------------------------------ every place tried
+
+    def local_search(self) -> Floats:
+        """Put in all stacks, then settle each again and move runs of levels until nothing gets better."""
+        keys = np.full(self.count, np.nan)
+        for at in self.order:
+            self._settle(keys, at, 0.0)
+        for held in _HELD if self._standing else (0.0,):
+            keys = self._settled(keys, held)
+        return keys
+
+    def _settled(self, keys: Floats, held: float) -> Floats:
+        for _ in range(_PASSES):
+            before = keys.copy()
+            for at in self.order:
+                self._settle(keys, at, held)
+            keys, better = self._shifted(keys, held)
+            if not better and np.array_equal(before, keys):
+                break
+        return keys
+
+    def _shifted(self, keys: Floats, held: float) -> tuple[Floats, bool]:
+        """Some levels together moved past others, or turned over, where that costs less; and whether it does."""
+        level = np.searchsorted(np.unique(keys), keys)
+        ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
+        costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE], held) for at in range(0, len(ranks), _AT_ONCE)])
+        # rounded, so that of equal costs the first wins, whatever the order of summation made of the last digits
+        best = int(np.argmin(costs.round(9)))
+        return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
+
+    def _settle(self, keys: Floats, at: int, held: float) -> None:
+        """Put one stack where it costs least: in a level (a whole key), or between two (a half)."""
+        keys[at] = np.nan
+        known = np.unique(keys[~np.isnan(keys)])
+        if not len(known):
+            keys[at] = 0.0
+            return
+        keys[:] = np.searchsorted(known, keys) + np.where(np.isnan(keys), np.nan, 0.0)
+        free = np.ones(2 * len(known) + 1, bool)
+        blocked = keys[self.clash[at]]
+        free[2 * blocked[~np.isnan(blocked)].astype(np.intp) + 1] = False
+        tries = (np.nonzero(free)[0] - 1) / 2
+        every = np.repeat(keys[None, :], len(tries), axis=0)
+        every[:, at] = tries
+        # rounded as in `_shifted`: of equal costs the first
+        keys[at] = tries[int(np.argmin(np.round(self._costs(every, held), 9)))]
+
+    def _costs(self, every: Floats, held: float) -> Floats:
+        """Costs of several orders of the same stacks, a row each; stacks not yet put in are nan.
+
+        held   cost of an arbor that reaches into what stands still
+        """
+        keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
+        low, high = keys[self._borne[0]], keys[self._borne[0]]  # two arrays: each is changed in place below
+        for stacks in self._borne[1:]:
+            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin, fmax: pass over nan
+        out_below, out_above = self._running_out
+        low[out_below], high[out_above] = np.nanmin(keys, axis=0), np.nanmax(keys, axis=0)
+        span = np.nansum(high - low, axis=0)  # that to a dial is as long as it is
+        low[out_below] -= np.inf
+        high[out_above] += np.inf
+        tangled = self._tangled(keys, low, high) + (held * self._unheld(keys) if held else 0.0)
+        for core, *pipes in self._coaxial_arbors:  # the arbor inside bears its pipes: it reaches as far as they do
+            low[core] = np.fmin(low[core], np.fmin.reduce(low[pipes]))
+            high[core] = np.fmax(high[core], np.fmax.reduce(high[pipes]))
+        arbor, wheel, times = self._pierced
+        pierced = tangled + times @ ((keys[wheel] > low[arbor]) & (keys[wheel] < high[arbor]))
+        levels = (np.diff(np.sort(keys, axis=0), axis=0) > 0).sum(axis=0)
+        return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
+
+    def _tangled(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
+        """How many pairs of arbors on one axis reach into each other, so that neither can be the other's pipe."""
+        arbor, stack, starts = self._coaxial
+        if not len(starts):
+            return np.zeros(keys.shape[1])
+        inside = (keys[stack] > low[arbor]) & (keys[stack] < high[arbor])
+        covers = np.logical_or.reduceat(inside, starts, axis=0)
+        return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
+
+    def _unheld(self, keys: NDArray[np.float32]) -> Floats:
+        """How often arbors reach into what stands still on their axis, so that nothing can hold it in one piece.
+
+        From below, wheels of the one and of the other come by turns: one turn is an arbor beside what stands still; of
+        more, each is half a reach.
+        """
+        found = np.zeros(keys.shape[1])
+        below, above = (frozenset(each.tolist()) for each in self._running_out)
+        for axis, still in self._standing.items():
+            for arbor, turning in self._hubs.get(axis, {}).items():
+                rows = [keys[list(still)], keys[list(turning)]]
+                rows += [
+                    np.full((1, keys.shape[1]), end) for end, out in ((-np.inf, below), (np.inf, above)) if arbor in out
+                ]
+                heights = np.concatenate(rows)
+                order = np.argsort(heights, axis=0)  # nan last
+                stands, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
+                turns = ((stands[1:] != stands[:-1]) & put[1:]).sum(axis=0)
+                found += np.maximum(turns - 1, 0) / 2
+        return found
+
+    @cached_property
+    def _coaxial(self) -> tuple[Indices, Indices, Indices]:
+        """Arbors beside each stack of another on their axis, and where rows of each pair begin, one way and back."""
+        rows, starts = list[tuple[int, int]](), list[int]()
+        for about in self._hubs.values():
+            for one, other in combinations(about, 2):
+                for arbor, beside in ((one, other), (other, one)):
+                    starts.append(len(rows))
+                    rows += [(arbor, stack) for stack in about[beside]]
+        arbors, stacks = np.array(rows, np.intp).reshape(-1, 2).T
+        return arbors, stacks, np.array(starts, np.intp)
+
+    @cached_property
+    def _hubs(self) -> dict[int, dict[int, dict[int, None]]]:
+        """Stacks of each arbor, by axis, without rings."""
+        hubs: dict[int, dict[int, dict[int, None]]] = {}
+        for block in self.problem.blocks:
+            if block.link in self.problem.arbors and not block.across and not block.inner:
+                arbor = self.problem.arbors.index(block.link)
+                hubs.setdefault(block.axis, {}).setdefault(arbor, {})[block.stack] = None
+        return hubs
+
+    @cached_property
+    def _coaxial_arbors(self) -> list[list[int]]:
+        return [list(about) for about in self._hubs.values() if len(about) > 1]
+
+    @cached_property
+    def _borne(self) -> Indices:
+        """The first stack of every arbor, the second, and so on; the first again where it has no more."""
+        most = max(map(len, self.carried), default=1)
+        filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
+        return np.array(filled, np.intp).reshape(-1, most).T
+
+    @cached_property
+    def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
+        """Arbors, stacks they go through at their height, and how many wheels of each."""
+        times = np.zeros((len(self.carried), self.count), np.float32)
+        rows, blocks = np.nonzero(self.problem.overlap.pierce)
+        np.add.at(times, (rows, self.stacks[blocks]), 1.0)
+        times[np.arange(len(self.carried)), self._borne] = 0
+        arbor, stack = np.nonzero(times)
+        return arbor, stack, times[arbor, stack]
+
+    @cached_property
+    def _running_out(self) -> tuple[Indices, Indices]:
+        """Arbors that run out of the stack at the low end, and at the high one."""
+        ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
+        ends += [DialEnds()] * len(self.problem.pins)
+        low, high = np.array(ends, bool).reshape(-1, 2).T
+        return np.nonzero(low)[0], np.nonzero(high)[0]
+
+    # ------------------------------------------------------------------------------------------------ too many for that
+
+    def first_fit(self) -> Floats:
+        """Each stack in the level nearest to those it shares arbors with that is free; else in a new one on top."""
+        keys = np.full(self.count, np.nan)
+        levels = 0
+        for at in self.order:
+            mates = keys[sorted(set(self._mates(at)))]
+            mates = mates[~np.isnan(mates)]
+            middle = float(mates.mean()) if len(mates) else 0.0
+            free = np.ones(levels + 1, bool)
+            blocked = keys[self.clash[at]]
+            free[blocked[~np.isnan(blocked)].astype(np.intp)] = False
+            open_ = np.nonzero(free[:levels])[0]
+            keys[at] = open_[int(np.argmin(abs(open_ - middle)))] if len(open_) else levels
+            levels = max(levels, int(keys[at]) + 1)
+        return keys
+
+
+def _shifts(count: int) -> Iterator[Indices]:
+    """Ranks of `count` levels, (orders, count): as they are, then with a run of them moved, or turned over in place."""
+    rank = np.arange(count)
+    yield rank[None, :]
+    for length in (each for each in _RUNS if each < count):
+        start, at = np.indices((count - length + 1,) * 2)[..., None]
+        rest = np.where(rank < start, rank, rank - length)
+        run = (rank >= start) & (rank < start + length)
+        moved = np.where(run, rank - start + at, np.where(rest < at, rest, rest + length)).reshape(-1, count)
+        turned = np.where(run, 2 * start + length - 1 - rank, rank)[:, 0]
+        # each turned run follows the same run left where it is
+        stay = np.arange(len(turned)) * (count - length + 2) + 1
+        yield np.insert(moved, stay, turned, axis=0)
+
+
+# -------------------------------------------------------------------------------------------------------------- heights
+
 
 _SLACK = 1e-9  # of the radii: wheels that touch as placed do not collide by rounding
 

@@ -1,24 +1,17 @@
 """Parts that make a mechanism of wheels: plates, pillars, arbors, pipes, studs, and how they fit into each other.
 
-In: wheels as cut, where they stand, what the frame and the carriers bear. Out: a `FramePlan`: every part with the link
-that it belongs to, wheels moved along their axes so that plates have room, the hole of every wheel, and what could not
-be placed and why.
+In: wheels as cut, their places, and what the frame and the carriers bear. Out: a `FramePlan`: every part with its link,
+wheels moved along their axes so that plates have room, the hole of every wheel, and what could not be placed and why.
 
-    processes        laser, mill, printer, hand: kerf, least web, running and press fit, play
-    stack_discs      wheels and plates as discs in the stack; the gaps between them
-    frame_stack      the axes that stand upright, with their wheels as discs, eccentrics and pins in plates
-    arbor_columns    what stands on one axis, from plate to plate; which arbor runs inside which; what is in the way
+    processes        laser, mill, printer, hand: kerf, minimum web, running and press fit, play
+    stack_discs      wheels and plates as discs in the stack; gaps between them; passages through plates
+    frame_stack      the upright axes, with their wheels as discs, eccentrics and pins in plates
+    arbor_columns    the members on one axis, from plate to plate; which arbor runs inside which; obstacles
     carried_axes     plates and studs of carriers; discs of turning rings
-    eccentrics       discs on arbors on which wheels turn that are carried close to their middle
-    flexible_cups    walls between thin wheels, which a wave bends, and their cups
-    pin_circles      pins in plates: of rings, and of round holes
-    plate_places     between which wheels the two plates stand
+    eccentrics       eccentric discs on arbors for wheels carried close to the centre; circles of pins; cups of waves
     turned_parts     arbors, pipes, studs, pillars as bodies of revolution
-    sleeves          spacers between wheels, collars and collets
-    barrels          the barrel on which the line of a weight is wound
-    pillar_places    where pillars stand
-    ring_posts       posts that hold rings
-    plate_passages   openings in plates for wheels across them
+    sleeves          spacers between wheels, collars and collets; the barrel of a weight
+    pillar_places    places of pillars, and of posts that hold rings
     frame_plates     outlines and holes of plates
-    frame_plan       all of these in order, with heights as built and plates of shafts
+    frame_plan       places of the plates, then all of these in order, with heights as built and plates of shafts
 """

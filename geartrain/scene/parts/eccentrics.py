@@ -1,7 +1,11 @@
-"""Eccentrics: round discs on an arbor, out of its middle, on which a wheel turns that is carried round its own axis.
+"""Eccentrics, circles of pins in plates, and the cups of strain waves.
 
-An axis that a link carries so near to its own that a wheel on it reaches far round both is borne on no stud: the
-wheel has a hole for an eccentric. Between two washers it stays where it is.
+An eccentric is a round disc on an arbor, off centre, on which a wheel turns that is carried round its own axis. An axis
+that a link carries so near to its own that a wheel on it extends far round both cannot be a stud: the wheel has a hole
+for an eccentric, and two washers keep it in place.
+
+Circles of pins stand in a plate: those of a ring of pins, and those that work in round holes of a disc. The cup of a
+strain wave is the wall that joins a thin wheel, which a wave bends, to the body that it turns.
 """
 
 from __future__ import annotations
@@ -14,11 +18,55 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, USUAL
+from geartrain.scene.parts.carried_axes import BOSS, NEAREST, WIDEST, CarriedAxis, CarrierSeat, TurningPlate, gap_beside
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.fixed_teeth import bent_line
+
+# ----------------------------------------------------------------------------------------------------------------- cups
+
+
+KIND = "wall"
+"""Of the part that it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlexibleCup:
+    """A thin wheel and the link of its cup.
+
+    name    of the coupling that says that both turn alike
+    link    with the bottom of the cup; `slot`, with the wheel
+    wheel   its name
+    at      of the cup's axis across the stack (mm)
+    reach   outside radius of the wall; `wall`, how thick it is (mm)
+    """
+
+    name: str
+    link: str
+    slot: str
+    wheel: str
+    at: Point
+    reach: float
+    wall: float
+
+    def part(self, plate: tuple[float, float], wheel: StackDisc) -> TurnedPart:
+        """The wall, from the face of the wheel to the bottom."""
+        low, high = (wheel.high, plate[0]) if plate[0] > wheel.middle else (plate[1], wheel.low)
+        band = Band(low, high, self.reach, self.reach - self.wall)
+        return TurnedPart(self.link, f"{self.link} wall", KIND, self.at, (band,), f"one piece with {self.wheel}")
+
+    def told(self) -> Iterator[Problem]:
+        """What no drawing can show of it."""
+        what = f"'{self.wheel}' and the wall of '{self.link}' are one thin piece, which no sheet gives"
+        why = f"a wave bends it: its wall is {self.wall:.3g} mm thick"
+        fix = f"turn it, or print it of what bends, from wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
+        yield Problem(what, why, fix)
+
+
+# ----------------------------------------------------------------------------------------------------------- eccentrics
+
 
 WALL = 1.5  # mm of an eccentric beside its arbor at least, and of a wheel beside a hole
 USUAL_ARBOR = 6.0
@@ -156,3 +204,83 @@ def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -
 def running_hole(eccentric: Eccentric, process: Process) -> float:
     """Diameter (mm) of the hole in which it turns."""
     return 2 * eccentric.radius + process.running
+
+
+# ------------------------------------------------------------------------------------------------------ circles of pins
+
+
+_RIM = 2.0  # mm of plate round a pin
+_HALF_THIN = 0.02  # mm: a plate in a gap before it has its thickness
+
+
+@dataclass(frozen=True, slots=True)
+class PinCircle:
+    """Pins that work in round holes, as they are declared.
+
+    name       of their coupling
+    link       that bears them, `slot` the one with the holes
+    radius     of the circle on which they stand; `pin` and `hole`, diameters (mm)
+    """
+
+    name: str
+    link: str
+    slot: str
+    radius: float
+    pin: float
+    hole: float
+
+    @property
+    def reach(self) -> float:
+        """Radius of a plate that bears them (mm)."""
+        return self.radius + self.pin / 2 + _RIM
+
+    @property
+    def free(self) -> float:
+        """From the axis of the disc to its holes (mm)."""
+        return self.radius - self.hole / 2
+
+
+@dataclass(frozen=True, slots=True)
+class StandingPins:
+    """Pins where they stand.
+
+    name, link   of the pins and of what bears them
+    seat         the plate that turns in which they stand; nothing where that is the nearer plate of the frame
+    wheel        through which they reach, from the plate to its far face
+    spots        their middles across the stack; `radius`, their own (mm)
+    joined       whether they are fixed in the wheel too, and do not work in its holes
+    """
+
+    name: str
+    link: str
+    seat: str
+    wheel: str
+    spots: tuple[Point, ...]
+    radius: float
+    joined: bool = False
+
+    def parts(self, plate: tuple[float, float], wheel: StackDisc, joint: str) -> Iterator[TurnedPart]:
+        """All of them, from the far face of their plate to that of the wheel."""
+        band = Band(min(plate[0], wheel.low), max(plate[1], wheel.high), self.radius)
+        through = (self.seat, wheel.name) if self.joined else (self.seat,)
+        for number, at in enumerate(self.spots, 1):
+            yield TurnedPart(self.link, f"{self.name} {number}", "pin", at, (band,), joint, through)
+
+
+def pin_seats(
+    circle: PinCircle | FlexibleCup,
+    axis: str,
+    at: Point,
+    slots: Sequence[StackDisc],
+    slab_gaps: Sequence[float],
+    carried: Sequence[CarriedAxis] = (),
+) -> list[CarrierSeat]:
+    """A plate for pins beside the disc in which they work, or of a cup: above it, or towards what its link carries."""
+    low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
+    others = [disc.middle for each in carried for disc in each.discs]
+    below = bool(others) and sum(others) / len(others) < (low + high) / 2
+    height = gap_beside(slab_gaps, low, -1) + NEAREST if below else gap_beside(slab_gaps, high, 1) - NEAREST
+    name = f"{circle.link} {'carrier ' if carried else ''}plate"
+    reach = max([circle.reach, *(dist(at, each.at) + BOSS + WIDEST for each in carried)])
+    disc = StackDisc(name, circle.link, axis, at, height - _HALF_THIN, height + _HALF_THIN, reach)
+    return [CarrierSeat(circle.link, name, (TurningPlate(disc, tuple(each.label for each in carried), round=True),))]

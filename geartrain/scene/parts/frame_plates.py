@@ -11,15 +11,11 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
-from geartrain.scene.parts.barrels import Barrel
-from geartrain.scene.parts.eccentrics import Eccentric, running_hole
+from geartrain.scene.parts.eccentrics import Eccentric, StandingPins, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.parts.pillar_places import clear_of, pillar_places
-from geartrain.scene.parts.pin_circles import StandingPins
-from geartrain.scene.parts.plate_passages import Passage, clear_passages, with_passages
-from geartrain.scene.parts.ring_posts import TENON, blocked_posts, nearer_plate, ring_posts
-from geartrain.scene.parts.sleeves import sleeves
-from geartrain.scene.parts.stack_discs import Point, StackDisc, swept_circle
+from geartrain.scene.parts.pillar_places import TENON, blocked_posts, clear_of, nearer_plate, pillar_places, ring_posts
+from geartrain.scene.parts.sleeves import Barrel, sleeves
+from geartrain.scene.parts.stack_discs import Passage, Point, StackDisc, clear_passages, swept_circle, with_passages
 from geartrain.scene.parts.turned_parts import Band, TurnedPart, column_parts, crosses
 from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour

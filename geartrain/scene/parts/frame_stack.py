@@ -19,16 +19,23 @@ import numpy as np
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
 from geartrain.numerics.vectors import Vector, dot, plus, scaled, size
+from geartrain.scene.bodies import BentWheel, bent_wheels
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
 from geartrain.scene.parts.arbor_columns import HEAD_ROOM
 from geartrain.scene.parts.carried_axes import CarriedAxis
-from geartrain.scene.parts.eccentrics import ROOM, USUAL_ARBOR, WALL, Eccentric, Wave, eccentric_radius, on_eccentrics
-from geartrain.scene.parts.flexible_cups import FlexibleCup
-from geartrain.scene.parts.pin_circles import PinCircle
-from geartrain.scene.parts.plate_passages import Passage
-from geartrain.scene.parts.stack_discs import Point, StackDisc, slabs
+from geartrain.scene.parts.eccentrics import (
+    ROOM,
+    USUAL_ARBOR,
+    WALL,
+    Eccentric,
+    FlexibleCup,
+    PinCircle,
+    Wave,
+    eccentric_radius,
+    on_eccentrics,
+)
+from geartrain.scene.parts.stack_discs import Passage, Point, StackDisc, slabs
 from geartrain.scene.solids.bearing_plates import basis
-from geartrain.scene.strain_waves import BentWheel, bent_wheels
 from geartrain.teeth.outlines.fixed_teeth import CUP, wall
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 from geartrain.teeth.standard_teeth import DEDENDUM

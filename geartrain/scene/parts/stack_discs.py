@@ -1,11 +1,19 @@
-"""Wheels and plates as discs in a stack of parallel axes, and the gaps between their levels."""
+"""Wheels and plates as discs in a stack of parallel axes, the gaps between their levels, and passages through plates.
+
+A passage is a window in a plate, wheel or bracket, or a notch at its edge, for an arbor that crosses it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import dist
+from math import ceil, dist, hypot
+
+import numpy as np
+
+from geartrain.numerics.arrays import Floats
+from geartrain.teeth.outlines.contour import Contour
 
 Point = tuple[float, float]
 
@@ -96,4 +104,114 @@ def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[Stack
     found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
         found.setdefault((disc.link, disc.apart), []).append(disc)
+    return found
+
+
+# ------------------------------------------------------------------------------------------------------------- passages
+
+
+_FINE = 0.005  # mm that chords of a notched edge may leave its arcs
+_CORNERS = (-1, -1), (1, -1), (1, 1), (-1, 1)
+_WEB = 1.0  # mm of plate at the least between a window and the edge, and between two windows
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """A rectangle in a plate.
+
+    middle   of it, across the stack (mm)
+    way      unit vector along its length; `length`, half of that, and `width`, half of that (mm)
+    """
+
+    middle: Point
+    way: Point
+    length: float
+    width: float
+
+    @property
+    def corners(self) -> list[Point]:
+        """Counter-clockwise."""
+        (x, y), (u, v) = self.middle, self.way
+        ends = [(a * self.length, b * self.width) for a, b in _CORNERS]
+        return [(x + u * along - v * aside, y + v * along + u * aside) for along, aside in ends]
+
+    @property
+    def circles(self) -> list[tuple[Point, float]]:
+        """Such in a row that hold next to all of it."""
+        (x, y), (u, v), count = self.middle, self.way, ceil(self.length / self.width)
+        steps = [self.length * k / count for k in range(-count, count + 1)]
+        return [((x + u * step, y + v * step), self.width) for step in steps]
+
+    def is_clear_of(self, other: Passage) -> bool:
+        """True if a web of plate is left between them: along a side of one of them they are apart."""
+        for u, v in (self.way, other.way):
+            for x, y in ((u, v), (-v, u)):
+                spans = [[a * x + b * y for a, b in each.corners] for each in (self, other)]
+                if max(min(span) for span in spans) - min(max(span) for span in spans) >= _WEB:
+                    return True
+        return False
+
+    def meets(self, at: Point, radius: float) -> bool:
+        """True if it runs into a round hole."""
+        x, y = at[0] - self.middle[0], at[1] - self.middle[1]
+        along, aside = abs(x * self.way[0] + y * self.way[1]), abs(y * self.way[0] - x * self.way[1])
+        return hypot(max(along - self.length, 0.0), max(aside - self.width, 0.0)) < radius
+
+
+def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
+    """A convex edge with notches, and windows within it; what would cut it in two is left out."""
+    windows = []
+    for each in passages:
+        x, y = each.way
+        turn = np.array([[x, -y], [y, x]])  # columns: along and across
+        line = (edge.flattened(_FINE) - np.array(each.middle)) @ turn
+        corners = np.array([(u * each.length, v * each.width) for u, v in _CORNERS])
+        inside = [_is_inside(line, corner) for corner in corners]
+        if all(inside):
+            windows.append(_contour(corners @ turn.T + np.array(each.middle)))
+        elif inside in ([True, False, False, True], [False, True, True, False]):
+            side = 1.0 if inside[0] else -1.0
+            notched = side * _notched(side * line, -each.length, each.width)
+            edge = _contour(notched @ turn.T + np.array(each.middle))
+    return edge, tuple(windows)
+
+
+def _contour(points: Floats) -> Contour:
+    return Contour(points, np.zeros(len(points)))
+
+
+def _is_inside(line: Floats, point: Floats) -> bool:
+    """Of a closed line: whether it goes round a point, with a web between."""
+    a, b = line - point, np.roll(line, -1, axis=0) - point
+    turned = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)).sum()
+    edge = b - a
+    foot = np.clip(-(a * edge).sum(1) / np.maximum((edge * edge).sum(1), 1e-300), 0.0, 1.0)
+    apart = np.hypot(*(a + foot[:, None] * edge).T).min()
+    return bool(abs(turned) > np.pi and apart >= _WEB)
+
+
+def _notched(line: Floats, start: float, width: float) -> Floats:
+    """A closed line, counter-clockwise, with what lies beyond `start` along x and within `width` of it cut away."""
+    (last, below), (first, above) = (_exit(line, level, start) for level in (-width, width))
+    order = (first + 1 + np.arange((last - first - 1) % len(line) + 1)) % len(line)
+    return np.vstack([above, line[order], below, [[start, -width], [start, width]]])
+
+
+def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
+    """The edge of a line, by its first point, that crosses a level beyond `start` at its farthest, and where."""
+    after = np.roll(line, -1, axis=0)
+    crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
+    a, b = line[crossing], after[crossing]
+    x = a[:, 0] + (level - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+    at = int(np.argmin(np.where(x > start, x, np.inf)))
+    return int(crossing[at]), np.array([x[at], level])
+
+
+def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
+    """Those that run into no hole, and leave a web between each other: middles and radii of holes (mm)."""
+    there, found = list(holes), list[Passage]()
+    for each in passages:
+        apart = all(each.is_clear_of(other) for other in found)
+        if apart and not any(each.meets(at, radius) for at, radius in there):
+            found.append(each)
     return found

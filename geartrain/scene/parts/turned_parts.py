@@ -26,7 +26,7 @@ from geartrain.scene.solids.triangle_solids import SIDES, Solid, joined
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene.solids.triangulation import Integers
+    from geartrain.scene.solids.triangle_solids import Integers
 
 _SAME = 1e-9
 

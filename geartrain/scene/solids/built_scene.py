@@ -10,11 +10,11 @@ import numpy as np
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.vectors import Vector, dot, minus, plus
-from geartrain.scene.built_elements import SceneHanger, ScenePart
 from geartrain.scene.construction import make_scene
 from geartrain.scene.dial_pointers import with_balls
+from geartrain.scene.elements import SceneHanger, ScenePart
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.solids.hangers import HangingParts, hanging_solids
+from geartrain.scene.solids.carrier_cages import HangingParts, hanging_solids
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.solid_assembly import SolidModel
 from geartrain.scene.solids.solid_part import SolidPart

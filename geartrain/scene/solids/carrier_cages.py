@@ -1,31 +1,301 @@
-"""Cages: what a carrier holds axes with that lie at an angle to its own, as those of the pinions of a differential.
+"""Supports of axes that are not parallel to the frame's, and parts that hang on a train.
 
-An eye bears the outer end of the pinion's arbor. A post leads from it along the carrier's axis: to a wheel of the
-carrier that reaches so far out, else to an arm beyond all wheels which reaches in to the carrier's axis; to one beside
-the pinion where a plate of the frame stands before the wheel.
+A bracket is a plate across an arbor, at a right angle to the plates of the frame, which bears its ends.
+
+A cage holds axes of a carrier that lie at an angle to its own, as those of the pinions of a differential. An eye bears
+the outer end of the pinion's arbor. A post leads from it along the carrier's axis: to a wheel of the carrier of
+sufficient radius, else to an arm beyond all wheels which reaches in to the carrier's axis; to an arm beside the pinion
+where a plate of the frame stands before the wheel.
+
+The pendulum of an escapement and the driving weight hang on a train in true size.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
+from math import dist, pi, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.parts.ring_posts import TENON
+from geartrain.numerics.vectors import Vector, cross, dot, plus, scaled
+from geartrain.scene.elements import SceneHanger
+from geartrain.scene.parts.frame_plates import FramePlates
+from geartrain.scene.parts.pillar_places import TENON
+from geartrain.scene.parts.stack_discs import Passage, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import around, basis
-from geartrain.scene.solids.brackets import GAP, LAND, on_axis, wheel_ends
 from geartrain.scene.solids.solid_part import SolidPart
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.train.wheel_stock import material_named
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneBody, SceneWheel
     from geartrain.scene.parts.frame_plan import FramePlan
+    from geartrain.scene.parts.sleeves import Barrel
     from geartrain.scene.train_scene import Scene
+    from geartrain.train import Train
+
+
+# -------------------------------------------------------------------------------------------------- pendulum and weight
+
+
+_BOB, _THICK = 0.05, 0.25  # a bob's radius over the pendulum's length, and half its thickness over its radius
+_ROD = 0.04  # a pendulum's rod: its radius over the bob's
+_TALL = 4.0  # height of a weight over its radius
+_ANCHOR = sqrt(2)  # of the escape wheel's radius: where an anchor over a quarter of it turns
+_COCK = 2.0  # mm: radius of what bears a pendulum
+_AWAY = 2.0  # mm between the frame and a bob
+_LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
+
+
+@dataclass(frozen=True)
+class HangingParts:
+    """Of a train that declares them, and that has a dial by which one knows the way down."""
+
+    scene: Scene
+    declared: Train
+    plan: FramePlan
+    barrel: Barrel | None
+
+    def found(self) -> tuple[SceneHanger, ...]:
+        """The pendulum, then the line and the weight."""
+        return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
+
+    @property
+    def frame(self) -> int:
+        """Index of the body of the frame."""
+        return next(at for at, body in enumerate(self.scene.bodies) if body.id == self.plan.stack.frame)
+
+    @cached_property
+    def front(self) -> tuple[Vector, Vector] | None:
+        """Towards the reader, and down."""
+        normal = self.plan.stack.normal
+        assert normal is not None
+        faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
+        face = next(faces, None)
+        return None if face is None else (face.normal, scaled(face.zero, -1.0))
+
+    @cached_property
+    def pendulum(self) -> SceneHanger | None:
+        """Behind the frame, above the escape wheel."""
+        escapement, normal = self.declared.escapement, self.plan.stack.normal
+        assert normal is not None
+        if self.front is None or escapement is None or escapement.pendulum is None:
+            return None
+        index = next(at for at, body in enumerate(self.scene.bodies) if body.id == escapement.link)
+        body = self.scene.bodies[index]
+        if body.parent != self.frame:
+            return None  # pallets ride on a carriage, which takes no pendulum round
+        wheels = (each for each in self.scene.wheels if each.body == index and each.teeth == escapement.teeth)
+        wheel = next(wheels, None)
+        if wheel is None or abs(dot(body.direction, normal)) < 1 - 1e-6:
+            return None
+        length, down = 1000 * escapement.pendulum.si, self.front[1]
+        bob = _BOB * length
+        behind = self._side * (_AWAY + _THICK * bob) + self._last
+        above = plus(body.point, down, -_ANCHOR * wheel.radius)
+        point = plus(above, normal, behind - dot(above, normal))
+        return SceneHanger("pendulum", index, point, body.direction, down, length, escapement.teeth, bob)
+
+    @property
+    def _side(self) -> float:
+        """1 where the reader looks against the normal, and what is behind the frame is above it; else -1."""
+        assert self.front is not None
+        assert self.plan.stack.normal is not None
+        return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
+
+    @property
+    def _last(self) -> float:
+        """Height of what is behind all else."""
+        places, way = self.plan.places, max if self._side > 0 else min
+        faces = [face for plate in (places.back, places.front, self.plan.bridge or ()) for face in plate]
+        return way([*faces, *(face for disc in self.plan.discs for face in (disc.low, disc.high))])
+
+    def cock(self) -> Iterator[TurnedPart]:
+        """The stud in the frame on which a pendulum hangs."""
+        if self.pendulum is None:
+            return
+        stack, places, side = self.plan.stack, self.plan.places, self._side
+        assert stack.normal is not None
+        plate = max((places.back, places.front), key=lambda faces: side * faces[0])
+        end = dot(self.pendulum.point, stack.normal) + side * 2 * _COCK
+        low, high = sorted((plate[1] if side > 0 else plate[0], end))
+        bands = Band(*plate, TENON * _COCK), Band(low, high, _COCK)
+        at, joint = stack.flat(self.pendulum.point), f"in its plate, {self.plan.process.joint}"
+        yield TurnedPart(stack.frame, "pendulum cock", "cock", at, bands if side > 0 else bands[::-1], joint)
+
+    def _weight(self) -> Iterator[SceneHanger]:
+        """On a line from the barrel."""
+        barrel, drive, crank = self.barrel, self.declared.drive, self.scene.crank
+        if barrel is None or drive is None or drive.weight is None or crank is None or self.front is None:
+            return
+        body, down = self.scene.bodies[crank], self.front[1]
+        way = Fraction(body.speed or 0) * body.sense
+        if not way:
+            return
+        middle = self.plan.stack.in_space(barrel.at, (barrel.low + barrel.high) / 2)
+        # where the rim of the barrel goes down as it turns forward
+        rate = barrel.radius if way > 0 else -barrel.radius
+        side = plus(middle, cross(down, body.direction), rate)
+        lead = material_named(self.declared, "lead").density
+        assert lead is not None
+        radius = 1000 * (drive.weight.si / lead.si / (pi * _TALL)) ** (1 / 3)
+        yield SceneHanger("line", crank, side, body.direction, down, _START, rate, _LINE)
+        yield SceneHanger("weight", crank, side, body.direction, down, _START, rate, radius)
+
+
+def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
+    """The turned parts of what hangs, which hang still with the frame (its index); a line is bought."""
+    end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
+    if hanger.kind == "pendulum":
+        rod = Band(_COCK, hanger.length - wide, _ROD * wide)
+        yield _turned(frame, "pendulum rod", (hanger.point, hanger.down, hanger.direction), rod)
+        bob = Band(-_THICK * wide, _THICK * wide, wide)
+        yield _turned(frame, "pendulum bob", (end, hanger.direction, hanger.down), bob)
+    elif hanger.kind == "weight":
+        yield _turned(frame, "weight", (end, hanger.down, hanger.direction), Band(0.0, _TALL * wide, wide))
+
+
+def _turned(frame: int, name: str, place: tuple[Vector, Vector, Vector], band: Band) -> SolidPart:
+    at, z, x = place
+    turn = np.column_stack([x, cross(z, x), z])
+    kind = name.split()[-1]
+    part = TurnedPart("", name, kind, (0.0, 0.0), (band,))
+    return SolidPart(frame, name, kind, turn, np.array(at), turned=part)
+
+
+# ------------------------------------------------------------------------------------------------------------- brackets
+
+
+GAP = 0.5
+"""Along an arbor, from its last wheel to what bears it [mm]."""
+_ROOM = 1.5  # mm, the same of a bracket: the wheel's window in the plate and a web of that stand between
+LAND = 2.0
+"""Metal round a bearing [mm]."""
+_FLAT = 1e-6
+
+
+@dataclass(frozen=True)
+class Bracket:
+    """What bears one end of an arbor.
+
+    body   that it bears; `reach`, how far along the arbor's direction its outer face stands (mm)
+    side   of the frame's plate in which it stands, through the `mortise` there
+    """
+
+    body: int
+    reach: float
+    side: str
+    mortise: Passage
+    part: SolidPart
+
+
+def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
+    """Of every arbor that the frame bears across its plates' normal.
+
+    bores   diameters (mm) of arbors by axis
+    """
+    sides = FramePlates(plan).sides
+    borne = {column.axis for column in plan.all_columns}
+    found: list[Bracket] = []
+    for at, body in enumerate(scene.bodies):
+        frame = body.parent is not None and scene.bodies[body.parent].id == plan.stack.frame
+        across = abs(float(np.dot(body.direction, plan.stack.normal or ()))) < _FLAT if frame else False
+        if across and body.axis not in borne and bores.get(body.axis):
+            found += _brackets(scene, plan, sides, at, bores[body.axis] / 2)
+    return tuple(found)
+
+
+def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
+    """Along a body's direction, from its point: between which places its wheels stand; None if it has none."""
+    body = scene.bodies[at]
+    along = np.array(body.direction)
+    own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
+    centres = [float((np.array(wheel.centre) - np.array(body.point)) @ along) for wheel in own]
+    ends = [centre + end for wheel, centre in zip(own, centres, strict=True) for end in wheel.span]
+    return (min(ends), max(ends)) if ends else None
+
+
+def _brackets(
+    scene: Scene, plan: FramePlan, sides: Mapping[str, tuple[float, float]], at: int, radius: float
+) -> Iterator[Bracket]:
+    body, ends = scene.bodies[at], wheel_ends(scene, at)
+    if ends is None:
+        return
+    middle = np.mean([plan.stack.in_space(column.at) for column in plan.columns], axis=0)
+    centre = float((middle - np.array(body.point)) @ np.array(body.direction))
+    low, high = ends
+    faces = {1: high + _ROOM, -1: low - _ROOM}
+    ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
+    if len(ways) == 1:  # on the inner side, unless wheels are in its way there
+        ways = [min(ways[0], -ways[0], key=lambda way: _in_the_way(plan, body, faces[way], way, sides)[0])]
+    for way in ways:
+        yield _bracket(scene, plan, sides, at, faces[way], way, radius)
+
+
+def _in_the_way(
+    plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
+) -> tuple[int, float, str]:
+    """How many wheels stand before the plate to which a bracket goes best, how far it is (mm), and which it is."""
+    place, stack = _middle(plan, body, face, way), plan.stack
+    height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
+
+    def cost(side: str) -> tuple[int, float, str]:
+        low, high = sorted((height, sum(sides[side]) / 2))
+        wheels = [swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high]
+        return sum(dist(foot, middle) < reach for middle, reach in wheels), high - low, side
+
+    return min(map(cost, sides), key=lambda each: each[:2])
+
+
+def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
+    """Of a bracket, on the axis that it bears."""
+    return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
+
+
+def _bracket(
+    scene: Scene,
+    plan: FramePlan,
+    sides: Mapping[str, tuple[float, float]],
+    at: int,
+    face: float,
+    way: int,
+    radius: float,
+) -> Bracket:
+    """At one end of an arbor, on the plate that is nearest of those with the fewest wheels before them."""
+    body, stack = scene.bodies[at], plan.stack
+    place, normal = _middle(plan, body, face, way), np.array(stack.normal)
+    height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
+    _, _, side = _in_the_way(plan, body, face, way, sides)
+    away = max(sides[side], key=lambda each: abs(each - height)) - height
+    down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
+    hole = Contour.circle(radius + plan.process.running / 2)
+    cut = around([(0.0, 0.0), (down, 0.0)], edge), hole
+    name = f"{body.id} bracket" + (" 2" if way < 0 else "")
+    aside = np.cross(body.direction, normal)
+    turn = np.column_stack([normal, aside, body.direction])
+    mortise = Passage(foot, stack.flat(tuple(aside.tolist())), edge, (plan.thickness + plan.process.press) / 2)
+    part = SolidPart(_frame(scene, plan), name, "plate", turn, place, "", cut, plan.thickness)
+    return Bracket(at, face + way * plan.thickness, side, mortise, part)
+
+
+def _frame(scene: Scene, plan: FramePlan) -> int:
+    return next(at for at, body in enumerate(scene.bodies) if body.id == plan.stack.frame)
+
+
+def on_axis(body: SceneBody, along: float) -> Floats:
+    """The point of a body's axis at a place along it (mm)."""
+    return np.asarray(np.array(body.point) + along * np.array(body.direction))
+
+
+# ---------------------------------------------------------------------------------------------------------------- cages
+
 
 _ARM = 1.0  # mm: thickness of an arm
 _PAST = 0.25  # mm between a wheel and an arm

@@ -14,14 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.vectors import cross, dot
-from geartrain.scene.dial_marks import engrave
-from geartrain.scene.dial_scale import DialScale
+from geartrain.scene.dial_scale import DialScale, engrave
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import clear_of, pillar_places
 from geartrain.scene.parts.stack_discs import Point, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import around
-from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing, around
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
 from geartrain.scene.layout import Layout, WheelPlace
-from geartrain.scene.layout.wheel_sizes import WIDE
+from geartrain.scene.layout.wheel_modules import WIDE
 from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import DEDENDUM, PLAY
 from geartrain.train import GearPair, Train

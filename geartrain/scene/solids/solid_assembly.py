@@ -12,28 +12,26 @@ import numpy as np
 from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
 from geartrain.scene.layout.declared_geometry import read_geometry
-from geartrain.scene.parts.barrels import find_barrel
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.frame_plates import FramePlates
 from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.processes import Process, process_named
+from geartrain.scene.parts.sleeves import find_barrel
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs
-from geartrain.scene.solids.bevel_solids import likeness_solid
-from geartrain.scene.solids.brackets import Bracket, find_brackets
-from geartrain.scene.solids.carrier_cages import Cage, find_cages
+from geartrain.scene.solids.carrier_cages import Bracket, Cage, HangingParts, find_brackets, find_cages, hanging_solids
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
-from geartrain.scene.solids.hangers import HangingParts, hanging_solids
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_play
-from geartrain.scene.solids.pin_couplings import (
+from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
+from geartrain.scene.solids.standing_pins import (
     CouplingParts,
     CutCoupling,
     cut_couplings,
     holes,
+    side_bars,
+    standing_pins,
 )
-from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
-from geartrain.scene.solids.standing_pins import side_bars, standing_pins
-from geartrain.scene.solids.triangle_solids import wheel_solid
+from geartrain.scene.solids.triangle_solids import likeness_solid, wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks, with_seats
 from geartrain.teeth.outlines.contour import Contour
 

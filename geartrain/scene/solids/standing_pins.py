@@ -1,13 +1,14 @@
-"""Where pins and bars stand in plates and wheels.
+"""Pins, slots and bars: cut into wheels, standing in plates, or parts of their own.
 
-Plates bear the pins of rings of pins, and those that work in holes of a disc. A bar beside an axis joins an arm to its
-link; it stands on the widest of its wheels.
+A wheel whose root circle extends beyond the pin bears the pin; one that covers the whole path of the pin has the slot.
+Otherwise the slot is in a bar of its own. Plates bear the pins of rings of pins, and those that work in holes of a
+disc. A bar beside an axis joins an arm to its link; it stands on the widest of its wheels.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from math import asin, atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
@@ -16,17 +17,221 @@ import numpy as np
 from geartrain.scene.elements import ToothProfile
 from geartrain.scene.parts.arbor_columns import APART
 from geartrain.scene.parts.carried_axes import seen_from_carrier
+from geartrain.scene.parts.eccentrics import StandingPins
 from geartrain.scene.parts.pillar_places import clear_of
-from geartrain.scene.parts.pin_circles import StandingPins
 from geartrain.scene.parts.stack_discs import Point, StackDisc
-from geartrain.scene.solids.pin_couplings import slot_reach
-from geartrain.scene.solids.solid_part import wheel_frame
+from geartrain.scene.parts.turned_parts import Band, TurnedPart
+from geartrain.scene.solids.bearing_plates import around, basis, holed_bar, pin_diameter, slotted_bar
+from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
+from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneCoupling, SceneWheel
     from geartrain.scene.parts.frame_plan import FramePlan
+    from geartrain.scene.parts.processes import Process
     from geartrain.scene.solids.wheel_blanks import Blank
     from geartrain.scene.train_scene import Scene
+
+
+# --------------------------------------------------------------------------------------------- pins and slots in wheels
+
+
+WIDE = 0.55
+"""Half the width of a slot over the diameter of its pin."""
+_WEB = 0.6  # mm of a wheel that stay round a pin and round a slot, at least
+
+
+@dataclass(frozen=True, slots=True)
+class CutCoupling:
+    """A pin in one wheel, and its slot in another; None where no wheel bears the pins of round holes."""
+
+    coupling: SceneCoupling
+    pin: SceneWheel | None
+    slot: SceneWheel
+
+
+def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
+    """Couplings that find their place in two flat wheels, by name; `bores` are diameters of holes for arbors (mm)."""
+    found = {}
+    for coupling in scene.couplings:
+        r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
+        far = coupling.hole / 2 if coupling.hole else e + half
+        pins = _roomy(scene, coupling.pin, blanks, bores, (r - half, r + half))
+        slots = _roomy(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
+        if coupling.drawn and slots and not pins and coupling.hole:
+            found[coupling.id] = CutCoupling(coupling, None, slots[0])
+        elif coupling.drawn and pins and slots:
+            along = np.array(scene.bodies[coupling.slot].direction)
+            near = min(
+                ((pin, slot) for pin in pins for slot in slots), key=lambda both: _apart(both[0], both[1], along)
+            )
+            found[coupling.id] = CutCoupling(coupling, *near)
+    return found
+
+
+def pin_width(coupling: SceneCoupling) -> float:
+    """Diameter of its pins (mm)."""
+    return coupling.pin_diameter or pin_diameter(coupling.pin_radius)
+
+
+def _roomy(
+    scene: Scene, body: int, blanks: Mapping[str, Blank], bores: Mapping[str, float], reach: tuple[float, float]
+) -> list[SceneWheel]:
+    """Flat wheels of a body with material from the one radius to the other (mm)."""
+    low, high = reach
+    return [
+        wheel
+        for wheel in scene.wheels
+        if wheel.body == body
+        and (blank := blanks.get(wheel.id)) is not None
+        and blank.kind == "external"
+        and bores.get(wheel.id, 0.0) / 2 + _WEB <= low
+        and high + _WEB <= min(blank.root_radius, blank.tip_radius)
+    ]
+
+
+def _apart(one: SceneWheel, other: SceneWheel, along: Floats) -> float:
+    return float(abs(np.subtract(one.centre, other.centre) @ along))
+
+
+def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
+    """The bar that has the slot: where nobody declares the sizes, a hole in which the pin goes round evenly."""
+    shape = slotted_bar if coupling.drawn else holed_bar
+    return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
+
+
+def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
+    """In a bar of its own: from the slot's axis to the middle of its outer end, and half the bar's width (mm)."""
+    return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
+
+
+def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
+    """Along the slot from its axis outwards, across it, and along the axis: columns, in the zero pose."""
+    along = np.array(scene.bodies[coupling.slot].direction)
+    out = np.subtract(coupling.pin_at, coupling.slot_at)
+    x = out / np.linalg.norm(out)
+    x = cos(coupling.slot_turn) * x + sin(coupling.slot_turn) * np.cross(along, x)
+    return np.column_stack([x, np.cross(along, x), along])
+
+
+def pin_axis(scene: Scene, coupling: SceneCoupling) -> tuple[Floats, Floats]:
+    """Across and along a pin as columns, and its axis at height 0."""
+    direction = scene.bodies[coupling.slot].direction
+    along, at = np.array(direction), np.array(coupling.pin_at)
+    return np.column_stack([*basis(direction), along]), at - along * (at @ along)
+
+
+def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
+    """What a wheel, whose own axes are `turn` at `place`, has cut out for a pin and for a slot."""
+    coupling, thick = cut.coupling, pin_width(cut.coupling)
+    found = []
+    if cut.pin is not None and wheel == cut.pin.id:
+        found += [
+            Contour.circle((thick + process.press) / 2, _flat(at, turn, place))
+            for at in coupling.pins_at or (coupling.pin_at,)
+        ]
+    if wheel == cut.slot.id and coupling.hole:
+        found += [
+            Contour.circle((coupling.hole + process.running) / 2, _flat(at, turn, place)) for at in coupling.holes_at
+        ]
+    elif wheel == cut.slot.id:
+        x = slot_frame(scene, coupling)[:, 0]
+        ends = abs(coupling.pin_radius - coupling.offset), coupling.pin_radius + coupling.offset
+        points = [_flat(coupling.slot_at + x * end, turn, place) for end in ends]
+        found.append(around(points, WIDE * thick))
+    return found
+
+
+def _flat(point: object, turn: Floats, place: Floats) -> tuple[float, float]:
+    x, y, _ = turn.T @ (np.array(point, float) - place)
+    return float(x), float(y)
+
+
+# --------------------------------------------------------------------------------------------------------------- solids
+
+_GAP = 1.0  # mm between a plate and what turns before it
+
+
+@dataclass(frozen=True)
+class CouplingParts:
+    """All of a scene that no plate bears; pins that stand in plates are parts of these.
+
+    cut      couplings that are cut into wheels
+    wheels   flat shapes by name
+    """
+
+    scene: Scene
+    cut: Mapping[str, CutCoupling]
+    wheels: Mapping[str, Blank]
+    process: Process
+
+    def parts(self) -> Iterator[SolidPart]:
+        """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
+        for coupling in self.scene.couplings:
+            turn, axis = pin_axis(self.scene, coupling)
+            along, cut = turn[:, 2], self.cut.get(coupling.id)
+            if coupling.hole and (cut is None or cut.pin is None):
+                continue  # no wheel bears such pins
+            if cut is None or cut.pin is None:
+                height = float(coupling.pin_at @ along)
+                levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
+                low, high = min(levels) - _GAP, max(levels) + _GAP
+            else:
+                low, high = self._faces(cut.pin, cut.slot, along)
+            band = Band(low, high, pin_width(coupling) / 2)
+            joint, first = self.process.joint, np.array(coupling.pin_at)
+            for at, place in enumerate(coupling.pins_at or (coupling.pin_at,)):
+                name = f"{coupling.id} pin" + (f" {at + 1}" if coupling.pins_at else "")
+                part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
+                middle = axis + np.array(place) - first
+                yield SolidPart(coupling.pin, name, part.kind, turn, middle, turned=part)
+            if cut is None:
+                yield self._pin_arm(coupling, turn, levels[0])
+                yield self._bar(coupling, along)
+
+    def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
+        """From the far face of the pin's wheel to that of the slot's."""
+        ends = [
+            float(wheel.centre @ along) + side * self._thick(wheel) / 2 for wheel in (pin, slot) for side in (-1, 1)
+        ]
+        return min(ends), max(ends)
+
+    def _pin_arm(self, coupling: SceneCoupling, turn: Floats, level: float) -> SolidPart:
+        """From the axis of the pin's link out to the pin."""
+        body = self.scene.bodies[coupling.pin]
+        along, pin = turn[:, 2], np.array(coupling.pin_at)
+        hub = np.array(body.point) + along * (level - float(np.array(body.point) @ along))
+        aside = pin - hub - along * float((pin - hub) @ along)
+        away = float(np.linalg.norm(aside))
+        x = aside / away
+        cut = (around([(0.0, 0.0), (away, 0.0)], 0.9 * pin_width(coupling)),)
+        name, own = f"{coupling.id} pin arm", np.column_stack([x, np.cross(along, x), along])
+        return SolidPart(coupling.pin, name, "plate", own, hub, "", cut, _GAP)
+
+    def _bar(self, coupling: SceneCoupling, along: Floats) -> SolidPart:
+        hub, turn = np.array(coupling.slot_at), slot_frame(self.scene, coupling)
+        level = self._level(coupling.slot, float(coupling.pin_at @ along), along)
+        place = hub + along * (level - hub @ along)
+        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", slot_bar(coupling), _GAP)
+
+    def _level(self, body: int, height: float, along: Floats) -> float:
+        """The face, nearest to a height, of the wheels of a body."""
+        own = [wheel for wheel in self.scene.wheels if wheel.body == body]
+        faces = [
+            float(np.array(wheel.centre) @ along) + side * (self._thick(wheel) + _GAP) / 2
+            for wheel in own
+            for side in (-1, 1)
+        ]
+        return min(faces, key=lambda face: abs(face - height), default=float(height))
+
+    def _thick(self, wheel: SceneWheel) -> float:
+        blank = self.wheels.get(wheel.id)
+        return wheel.thickness if blank is None else blank.thickness
+
+
+# ------------------------------------------------------------------------------------------------------- pins in plates
+
 
 _CHORDS = 13  # of half a seat
 

@@ -1,22 +1,175 @@
-"""Closed surfaces of triangles: flat shapes raised along an axis, arbors, wheels."""
+"""Closed surfaces of triangles: flat shapes raised along an axis, arbors, wheels.
+
+A polygon with holes is filled by ear clipping, its holes first joined to the outside by bridges (Eberly, "Triangulation
+by ear clipping"). A corner is an ear if it is convex and no other point lies in its triangle; every polygon has one
+(Meisters 1975). The fattest ear is cut off first, to avoid slivers.
+
+Wheels whose teeth lie in no plane (bevel wheels, crown wheels, worms) are approximate.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import ceil, pi
+from heapq import heapify, heappop, heappush
+from itertools import pairwise
+from math import ceil, isnan, nan, pi, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.numerics.polylines import simplified
-from geartrain.scene.solids.triangulation import fill
+from geartrain.scene.layout.wheel_reach import CROWN, LAND, back_of_cone, height_on_cone, taper
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.standard_teeth import MOST_TEETH
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene.solids.triangulation import Integers
+    from geartrain.scene.elements import SceneWheel, ToothProfile
+
+    Integers = NDArray[np.int64]
     from geartrain.scene.solids.wheel_blanks import Blank
+
+_FLAT = 1e-12  # twice the area (mm2) of a triangle that is none
+_NEXT = [1, 2, 0]
+
+
+def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
+    """Points (n, 2), those given in their order, and triangles (m, 3) of them, counter-clockwise.
+
+    Polygons (k, 2) do not cross themselves or each other, whichever way they go round.
+    """
+    parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
+    points = np.concatenate(parts)
+    starts = np.cumsum([0, *map(len, parts)])
+    rings = [list(range(start, end)) for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
+    loop = rings[0]
+    # from the right, and of equal ones from above, so that a bridge meets no hole that is not joined yet
+    for ring in sorted(rings[1:], key=lambda ring: max(map(tuple, points[ring].tolist())), reverse=True):
+        loop = _bridged(points, loop, ring)
+    return points, np.array(_ears(points, loop), dtype=np.int64).reshape(-1, 3)
+
+
+def area(polygon: Floats) -> float:
+    """Signed area, positive counter-clockwise."""
+    x, y = polygon.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
+    """The loop with a hole joined to it: from the hole's rightmost point to the nearest one it sees on its right."""
+    at = int(np.lexsort(points[hole].T[::-1])[-1])
+    hole = hole[at:] + hole[:at]
+    start = points[hole[0]]
+    a, b = points[loop], points[loop[1:] + loop[:1]]
+    for k in np.argsort(np.hypot(*(a - start).T), kind="stable"):
+        end = a[k]
+        if tuple(end) <= tuple(start) or not _inside(points, loop, int(k), start):
+            continue
+        away = (a != end).any(axis=1) & (b != end).any(axis=1)
+        cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)
+        if not (cross & away).any():
+            return [*loop[: k + 1], *hole, hole[0], *loop[k:]]
+    raise ValueError("a hole does not lie inside its polygon")
+
+
+def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
+    """True if the way from vertex k of the loop to a point begins inside."""
+    before, here, after = points[loop[k - 1]], points[loop[k]], points[loop[(k + 1) % len(loop)]]
+    left, right = _turn(here, after, to) > 0, _turn(before, here, to) > 0
+    return bool(left and right if _turn(before, here, after) > 0 else left or right)
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
+    """Twice the signed area of the triangle a b c; of any shapes that go together."""
+    turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
+    return turn
+
+
+def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
+    """Ear clipping: the fattest ear is cut off first."""
+    corners = _Corners(points[loop])
+    found: list[tuple[int, int, int]] = []
+    while len(corners.left) > 3:
+        at = corners.find_ear()
+        if corners.turn[at] != 0:
+            found.append((loop[corners.before[at]], loop[at], loop[corners.after[at]]))
+        corners.cut(at)
+    a, b, c = corners.left.tolist()
+    return [*found, (loop[a], loop[b], loop[c])]
+
+
+class _Corners:
+    """The corners that are left of a polygon. A cut changes two of them, and all others keep their place in a heap."""
+
+    def __init__(self, corners: Floats) -> None:
+        count = len(corners)
+        self.corners, self.left = corners, np.arange(count)
+        self.points = [(x, y) for x, y in corners.tolist()]
+        self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
+        self.turn, self.fatness = [0.0] * count, [0.0] * count
+        self.blocker = [-1] * count  # a corner that was found in the triangle of each; -1: none yet
+        for at in range(count):
+            self._measure(at)
+        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness)]
+        heapify(self.heap)
+
+    def find_ear(self) -> int:
+        """A corner that can be cut off: convex, no other point in it; the fattest first."""
+        passed, ear = [], -1
+        while self.heap:
+            fat, at = heappop(self.heap)
+            if -fat != self.fatness[at]:  # it was cut off, or its shape has changed since
+                continue
+            if self.turn[at] > _FLAT and self._empty(at):
+                ear = at
+                break
+            passed.append((fat, at))
+            if self.turn[at] <= _FLAT:
+                break
+        for each in passed:
+            heappush(self.heap, each)
+        # without an ear nothing but flat corners is left
+        return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
+
+    def _empty(self, at: int) -> bool:
+        """True if no point but its own lies in the triangle of a convex corner."""
+        blocker = self.blocker[at]
+        if blocker >= 0 and not isnan(self.fatness[blocker]):  # it is left
+            return False
+        here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
+        (ax, ay), (x, y) = own.T[..., None], here.T
+        side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # of each edge, (3, n)
+        within = np.flatnonzero(side.min(axis=0) >= 0)
+        if len(within) == 3:
+            return True
+        others = within[~(here[within][:, None] == own).all(-1).any(-1)]
+        if len(others):
+            self.blocker[at] = int(self.left[others[0]])
+        return not len(others)
+
+    def cut(self, at: int) -> None:
+        """Cut a corner off."""
+        a, c = self.before[at], self.after[at]
+        self.left = np.delete(self.left, np.searchsorted(self.left, at))
+        self.after[a], self.before[c], self.fatness[at] = c, a, nan
+        for k in (a, c):
+            self._measure(k)
+            heappush(self.heap, (-self.fatness[k], k))
+
+    def _measure(self, at: int) -> None:
+        """Twice the signed area of the triangle of a corner, and that over the square of its greatest length."""
+        (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
+        turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
+        longest = max((cx - ax) * (cx - ax) + (cy - ay) * (cy - ay), first + second)
+        self.turn[at], self.fatness[at], self.blocker[at] = turn, turn / (longest or 1.0), -1
+
+
+# --------------------------------------------------------------------------------------------- raised and turned shapes
+
 
 FINE = 0.02  # mm, how far the chords of a solid may leave a curve
 _SAME = 7  # decimals of a mm to which points are one
@@ -143,3 +296,133 @@ def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, 
     _, first, index = np.unique(every.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3)
     return every[first], np.asarray(index).reshape(-1)[faces]
+
+
+# ------------------------------------------------------------------------------------------------ bevels, crowns, worms
+
+
+_SLICES = 48  # of a worm
+_RIDGE = 0.01  # of a pitch: half of what is left of a crown's tooth that runs out, or its flanks would be one line
+_SIDES = 720  # of a wheel without teeth
+
+
+def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
+    """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z.
+
+    bore   diameter of the hole in it, unless it is a ring (mm)
+    """
+    if wheel.kind == "worm":
+        return _worm(wheel, profile, bore)
+    if wheel.cone:
+        return welded(_coned(wheel, profile, bore))
+    points, triangles = _section(wheel, profile, bore)
+    return raised(points, triangles, wheel.thickness)
+
+
+def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
+    """Radius (mm) and angle of the whole outline; a point where two teeth meet stands once.
+
+    Of a wheel of more teeth than are cut it is the pitch circle.
+    """
+    if wheel.teeth > MOST_TEETH:
+        return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
+    r, angle = np.array(profile.points, dtype=float)[:-1].T
+    turn = angle[None, :] + 2 * pi * np.arange(wheel.teeth)[:, None] / wheel.teeth
+    return np.tile(r * wheel.radius, wheel.teeth), turn.reshape(-1)
+
+
+def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Floats, Integers]:
+    r, turn = _polar(wheel, profile)
+    outline = np.stack([r * np.cos(turn), r * np.sin(turn)], axis=1)
+    if wheel.kind == "ring":
+        sides = min(max(48, wheel.teeth), MOST_TEETH)
+        around = np.arange(sides) * 2 * pi / sides
+        rim = (wheel.root + 2 * wheel.module) * np.stack([np.cos(around), np.sin(around)], axis=1)
+        return fill(rim, [outline])
+    if bore:
+        return fill(outline, [round_about(Contour.circle(bore / 2))])
+    # every tooth is seen from the middle: a fan
+    count = len(outline)
+    spokes = np.arange(count)
+    fan = np.stack([spokes, (spokes + 1) % count, np.full(count, count)], axis=1)
+    return np.concatenate([outline, [[0.0, 0.0]]]), fan
+
+
+def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
+    """A bevel or crown wheel: its back, teeth from the wide end to the narrow one, and what is within them.
+
+    Rows of points, from the bore at the back round the outside to the bore before it.
+    """
+    radius, cone, thickness = wheel.radius, wheel.cone, wheel.thickness
+    r, turn = _polar(wheel, profile)
+    rho = r / radius
+    roots = np.full(len(rho), rho.min() - LAND)
+    behind = back_of_cone(cone, radius, thickness, wheel.root - radius)
+    wide, narrow = 1.0, taper(cone, radius, thickness)
+    rows = [
+        _cone_points(wheel, r, turn, scale) for r, scale in ((roots, wide), (rho, wide), (rho, narrow), (roots, narrow))
+    ]
+    back = rows[0].copy()
+    back[:, 2] = behind
+    rows = [_at_bore(back, bore), back, *rows, _at_bore(rows[-1], bore)]
+    toothed = _revolved(rows, closed=bore > 0)
+    if wheel.facing < 0:  # the apex lies up its axis
+        return toothed
+    return Solid(toothed.vertices * (1.0, 1.0, -1.0), toothed.faces[:, ::-1])
+
+
+def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
+    """Points (n, 3) of its outline on its back cone, or as much nearer the apex as `scale` says, the apex upwards."""
+    depth = (rho - 1) * wheel.radius
+    r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
+    if wheel.cone > CROWN:
+        turn = _aslant(wheel, turn, scale)
+    z = height_on_cone(wheel.cone, wheel.radius, 0.0, scale) + depth * np.sin(wheel.cone) * scale
+    return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
+
+
+def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
+    """Angles at which a crown's flanks stand: what runs in its spaces is as wide further in, and comes aslant."""
+    pitch = 2 * pi / wheel.teeth
+    middle = np.round(turn / pitch) * pitch
+    angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
+    space = pitch / 2 - abs(angle) + off - np.sin(off) + (1 - scale) * off / 2
+    return np.asarray(middle + np.sign(angle) * np.maximum(_RIDGE * pitch, pitch / 2 - space / scale))
+
+
+def _at_bore(row: Floats, bore: float) -> Floats:
+    """A row drawn in to the bore, or to one point where there is none."""
+    angle = np.arctan2(row[:, 1], row[:, 0])
+    if not bore:
+        return np.array([[0.0, 0.0, row[:, 2].mean()]])
+    r = bore / 2 / np.cos(pi / len(row))  # round it, as other holes
+    return np.column_stack([r * np.cos(angle), r * np.sin(angle), row[:, 2]])
+
+
+def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
+    """The surface through rows of points, each counter-clockwise; through the bore too, or with a point at each end."""
+    count, starts = len(rows[1]), np.cumsum([0, *map(len, rows)])
+    here, after = np.arange(count), (np.arange(count) + 1) % count
+    faces = []
+    rings = [(low, high) for low, high in pairwise(starts[:-1])] + ([(starts[-2], starts[0])] if closed else [])
+    for low, high in rings if closed else rings[1:-1]:
+        faces.append(np.stack([low + here, low + after, high + after], axis=1))
+        faces.append(np.stack([low + here, high + after, high + here], axis=1))
+    if not closed:
+        first, last = starts[1], starts[-3]
+        faces.append(np.stack([first + after, first + here, np.zeros(count, dtype=int)], axis=1))
+        faces.append(np.stack([last + here, last + after, np.full(count, starts[-2])], axis=1))
+    return Solid(np.concatenate(rows), np.concatenate(faces))
+
+
+def _worm(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
+    """A section with as many lobes as starts, turned on along the axis as its thread winds."""
+    points, triangles = _section(wheel, profile, bore)
+    heights = np.linspace(-0.5, 0.5, _SLICES + 1) * wheel.thickness
+    slices = []
+    for height in heights:
+        turn = height * tan(wheel.helix) / wheel.radius
+        c, s = np.cos(turn), np.sin(turn)
+        x, y = points.T
+        slices.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height)]))
+    return piled(slices, triangles)

@@ -1,4 +1,4 @@
-"""Constraints on tooth counts besides ratios: which there are in a declared train.
+"""Constraints on the tooth counts of a declared train besides ratios: assembly, positions of axes, interference.
 
 `find_constraints` makes them out of a train and of `ConstraintOptions`. There are two kinds: a `CountEquation`, which
 can be solved for a wheel, and a `Condition`, which only tells. Both judge many candidates at once.
@@ -8,18 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import ROUND_CEILING, localcontext
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
-from math import sqrt
-from typing import TYPE_CHECKING
+from math import pi, sqrt
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
+from geartrain.kinematics.buildability.pitch_distances import tip_room
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing import MeshPhasing, find_phasing
+from geartrain.numerics.graphs import joined_groups
 from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
 from geartrain.search.constraints.count_conditions import (
     Condition,
@@ -32,186 +35,32 @@ from geartrain.search.constraints.count_conditions import (
     LinearSum,
     NearZero,
     WholeSum,
+    counts_of,
+    decimal,
     distance_of,
     equality,
     free_of,
+    is_positive,
     plainest,
+    sine,
     teeth_of,
     whole,
 )
-from geartrain.search.constraints.involute_interference import interference, least_teeth
 from geartrain.search.constraints.planet_constraints import PlanetRoom, equal_planets, reason
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, TrainAssembly
-    from geartrain.numerics.arrays import Bools
+    from decimal import Decimal
+
+    from geartrain.kinematics.buildability.equal_planets import CountRef
+    from geartrain.numerics.arrays import Bools, Floats
     from geartrain.numerics.quantity import Quantity
     from geartrain.search.constraints.count_conditions import CandidateColumns
     from geartrain.search.tooth_count_ranges import Counts
     from geartrain.train import Train
 
 
-# Declared positions of axes: which counts reach each other there, and which teeth meet around loops.
-
-
 PLAY = 0.05
 """Half modules by which positions may be off: they are rounded, and teeth have play."""
-
-
-@dataclass(frozen=True, slots=True)
-class CentreDistanceMatch:
-    """A sum of teeth as near as `most` to a multiple of another: centre distances in the proportion of positions."""
-
-    teeth: WholeSum
-    other: WholeSum
-    ratio: float
-    most: float
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where it is, (candidates,)."""
-        return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
-
-
-@dataclass(frozen=True)
-class LoopPhasing:
-    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each).
-
-    train, tree, circuits  with some counts; those of `wheels` are put in
-    """
-
-    train: Train
-    tree: Tree
-    circuits: tuple[Circuit, ...]
-    wheels: tuple[str, ...]
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """True where no loop misses or cannot be told, (candidates,)."""
-        rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
-        each, back = np.unique(rows, axis=0, return_inverse=True)
-        found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
-        return np.array(found, dtype=bool)[back.reshape(-1)]
-
-    def holds(self, counts: Mapping[str, int]) -> bool:
-        """True if the loops close with these counts."""
-        return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
-
-
-@dataclass(frozen=True)
-class DeclaredPositions:
-    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet.
-
-    shift   half modules that profile shift bridges
-    """
-
-    fitting: TrainAssembly
-    shift: int = 0
-
-    @cached_property
-    def closure(self) -> MeshPhasing:
-        """Phase closure with the stand-in counts."""
-        return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
-
-    def conditions(self) -> Iterator[Condition]:
-        """Distances first, loops last. `QuestionError` where no loop has known places."""
-        found = self.closure
-        if found.kind == "open" and not found.rigid:
-            raise QuestionError(_no_places(self.fitting.train))
-        yield from self._reaching()
-        yield from self._meeting()
-
-    # ------------------------------------------------------------------------------------------------------- distances
-
-    def _reaching(self) -> Iterator[Condition]:
-        """Meshes that share a wheel, or have modules of one measure, share a unit: distances are as their teeth."""
-        groups: dict[int, list[AssemblyMesh]] = {}
-        for mesh in self.fitting.meshes:
-            if mesh.spur and self._length(mesh):
-                groups.setdefault(self.fitting.kin[mesh.wheels[0]], []).append(mesh)
-        for meshes in groups.values():
-            yield from self._by_module([mesh for mesh in meshes if self._is_sized(mesh)])
-            yield from self._by_each_other([mesh for mesh in meshes if not self._is_sized(mesh)])
-
-    def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
-        for mesh in meshes:
-            assert mesh.module is not None
-            yield from self._as(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
-
-    def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
-        fixed = [mesh for mesh in meshes if not mesh.is_free]
-        for mesh in meshes:
-            first = (fixed or meshes)[0]
-            if mesh is not first:
-                yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
-
-    def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """True if the module of a mesh and the positions of its axes are in one measure."""
-        if not mesh.measure or mesh.module is None:
-            return False
-        places = [self.fitting.train.axes[label].position for label in mesh.axes]
-        return {part.unit is None for place in places for part in place or () if part.value} == {
-            mesh.measure == "plain"
-        }
-
-    def _as(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
-        one, two = whole(teeth_of(mesh), other)
-        wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
-        if wheels:
-            name = f"declared positions: '{mesh.name}' reaches as {what} says"
-            yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, PLAY + self.shift))
-
-    def _length(self, mesh: AssemblyMesh) -> float:
-        """Distance of the two axes of a mesh (m, or plain); 0 where a position is not declared."""
-        axes = self.fitting.train.axes
-        ends = [axes[label].position for label in mesh.axes if label in axes]
-        if len(ends) < 2 or ends[0] is None or ends[1] is None:
-            return 0.0
-        way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
-        arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
-        along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
-        return sqrt(max(sum(x * x for x in arm) - along, 0.0))
-
-    # ------------------------------------------------------------------------------------------------------------ loops
-
-    def _meeting(self) -> Iterator[Condition]:
-        """One condition on all loops: by their rule where it is known, else candidate by candidate."""
-        wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
-        if not wheels:
-            return
-        alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
-        # with several carriers, or loops that do not turn, which loops there are depends on the counts
-        rule = replace(self.closure, alike=dict).rule if alone else None
-        name = "phase closure: teeth of all loops meet at the declared positions"
-        if rule is None:
-            train = self.fitting.train.model_copy()
-            train._marks = None  # it leads to a file, which other processes do not need
-            yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
-            return
-        sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
-        asked = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
-        if asked:
-            yield Condition(f"{name}: {rule.text}", asked, Divisible(tuple(sums)))
-
-    def _sum(self, terms: Mapping[str, int]) -> WholeSum:
-        (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
-        return total
-
-    def _in_loops(self) -> Sequence[str]:
-        """The wheels of all pairs in loops, closing and rigid ones."""
-        problem = self.closure.problem
-        meshes = {mesh for condition in problem.conditions for mesh in condition.row}
-        pairs = {problem.circuits[mesh].id for mesh in meshes}
-        pairs |= {pair for chord in problem.parts.breaking for pair in problem.parts.loop(chord).pairs}
-        circuits = (circuit for circuit in self.fitting.circuits if circuit.id in pairs)
-        return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
-
-
-def _no_places(train: Train) -> Problem:
-    return Problem(
-        f"no loop of '{train.name}' has known places",
-        "teeth meet or miss around loops of meshes, where the positions of axes are declared",
-        "declare `axes` with positions, or leave phase closure out",
-        train.place("axes"),
-    )
 
 
 def find_constraints(train: Train, free: Mapping[str, Counts], asked: ConstraintOptions) -> tuple[CountConstraint, ...]:
@@ -348,33 +197,18 @@ class _Asking:
     def _different(self) -> Iterator[CountConstraint]:
         """Of each free wheel and all fixed counts, then of each two free wheels."""
         words = "different counts: two wheels have the same"
-        alike = self._alike([{*pair} for one in self.fitting.sets for pair in self._copied(one)])
+        copied = (pair for one in self.fitting.sets for pair in self._copied(one))
+        groups = joined_groups(self.fitting.train.wheels, copied)
+        alike = {wheel: at for at, wheels in enumerate(groups) for wheel in wheels}
         free = [wheel for wheel in self.fitting.train.wheels if wheel in self.fitting.free]
         fixed = [wheel for wheel in self.fitting.train.wheels if wheel not in self.fitting.free]
         for wheel in free:
-            others = [self.fitting.part(other) for other in fixed if not self._are_alike(alike, wheel, other)]
+            others = [self.fitting.part(other) for other in fixed if alike[wheel] != alike[other]]
             if others:
                 yield Condition(words, (wheel,), DifferentCount(wheel, tuple(dict.fromkeys(others))))
         for first, second in combinations(free, 2):
-            if not self._are_alike(alike, first, second):
+            if alike[first] != alike[second]:
                 yield Condition(words, (first, second), DifferentCount(first, (second,)))
-
-    @staticmethod
-    def _are_alike(alike: list[set[str]], *wheels: str) -> bool:
-        return any(group.issuperset(wheels) for group in alike)
-
-    @staticmethod
-    def _alike(pairs: list[set[str]]) -> list[set[str]]:
-        """Wheels of equal planets, joined where the pairs have one in common."""
-        found: list[set[str]] = []
-        for pair in pairs:
-            for group in found:
-                if group & pair:
-                    group |= pair
-                    break
-            else:
-                found.append(set(pair))
-        return found
 
     @staticmethod
     def _copied(one: PlanetSet) -> Iterator[tuple[str, str]]:
@@ -466,3 +300,260 @@ def _not_so_many(one: PlanetSet, number: int, declared: int) -> Problem:
         why,
         "ask for as many as are declared, or declare one that stands for all; or ask by carrier: planets={'arm': 3}",
     )
+
+
+# ------------------------------------------------- declared positions: which counts reach each other, which teeth meet
+
+
+@dataclass(frozen=True, slots=True)
+class CentreDistanceMatch:
+    """A sum of teeth as near as `most` to a multiple of another: centre distances in the proportion of positions."""
+
+    teeth: WholeSum
+    other: WholeSum
+    ratio: float
+    most: float
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where it is, (candidates,)."""
+        return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
+
+
+@dataclass(frozen=True)
+class LoopPhasing:
+    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each).
+
+    train, tree, circuits  with some counts; those of `wheels` are put in
+    """
+
+    train: Train
+    tree: Tree
+    circuits: tuple[Circuit, ...]
+    wheels: tuple[str, ...]
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where no loop misses or cannot be told, (candidates,)."""
+        rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
+        each, back = np.unique(rows, axis=0, return_inverse=True)
+        found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
+        return np.array(found, dtype=bool)[back.reshape(-1)]
+
+    def holds(self, counts: Mapping[str, int]) -> bool:
+        """True if the loops close with these counts."""
+        return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
+
+
+@dataclass(frozen=True)
+class DeclaredPositions:
+    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet.
+
+    shift   half modules that profile shift bridges
+    """
+
+    fitting: TrainAssembly
+    shift: int = 0
+
+    @cached_property
+    def closure(self) -> MeshPhasing:
+        """Phase closure with the stand-in counts."""
+        return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
+
+    def conditions(self) -> Iterator[Condition]:
+        """Distances first, loops last. `QuestionError` where no loop has known places."""
+        found = self.closure
+        if found.kind == "open" and not found.rigid:
+            raise QuestionError(_no_places(self.fitting.train))
+        yield from self._reaching()
+        yield from self._meeting()
+
+    def _reaching(self) -> Iterator[Condition]:
+        """Meshes that share a wheel, or have modules of one measure, share a unit: distances are as their teeth."""
+        groups: dict[int, list[AssemblyMesh]] = {}
+        for mesh in self.fitting.meshes:
+            if mesh.spur and self._length(mesh):
+                groups.setdefault(self.fitting.kin[mesh.wheels[0]], []).append(mesh)
+        for meshes in groups.values():
+            yield from self._by_module([mesh for mesh in meshes if self._is_sized(mesh)])
+            yield from self._by_each_other([mesh for mesh in meshes if not self._is_sized(mesh)])
+
+    def _by_module(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
+        for mesh in meshes:
+            assert mesh.module is not None
+            yield from self._as(mesh, LinearSum({}).plus(2), self._length(mesh) / float(mesh.module), "its module")
+
+    def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
+        fixed = [mesh for mesh in meshes if not mesh.is_free]
+        for mesh in meshes:
+            first = (fixed or meshes)[0]
+            if mesh is not first:
+                yield from self._as(mesh, teeth_of(first), self._length(mesh) / self._length(first), f"'{first.name}'")
+
+    def _is_sized(self, mesh: AssemblyMesh) -> bool:
+        """True if the module of a mesh and the positions of its axes are in one measure."""
+        if not mesh.measure or mesh.module is None:
+            return False
+        places = [self.fitting.train.axes[label].position for label in mesh.axes]
+        return {part.unit is None for place in places for part in place or () if part.value} == {
+            mesh.measure == "plain"
+        }
+
+    def _as(self, mesh: AssemblyMesh, other: LinearSum, ratio: float, what: str) -> Iterator[Condition]:
+        one, two = whole(teeth_of(mesh), other)
+        wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
+        if wheels:
+            name = f"declared positions: '{mesh.name}' reaches as {what} says"
+            yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, PLAY + self.shift))
+
+    def _length(self, mesh: AssemblyMesh) -> float:
+        """Distance of the two axes of a mesh (m, or plain); 0 where a position is not declared."""
+        axes = self.fitting.train.axes
+        ends = [axes[label].position for label in mesh.axes if label in axes]
+        if len(ends) < 2 or ends[0] is None or ends[1] is None:
+            return 0.0
+        way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
+        arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
+        along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
+        return sqrt(max(sum(x * x for x in arm) - along, 0.0))
+
+    def _meeting(self) -> Iterator[Condition]:
+        """One condition on all loops: by their rule where it is known, else candidate by candidate."""
+        wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
+        if not wheels:
+            return
+        alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
+        # with several carriers, or loops that do not turn, which loops there are depends on the counts
+        rule = replace(self.closure, alike=dict).rule if alone else None
+        name = "phase closure: teeth of all loops meet at the declared positions"
+        if rule is None:
+            train = self.fitting.train.model_copy()
+            train._marks = None  # it leads to a file, which other processes do not need
+            yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
+            return
+        sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
+        asked = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
+        if asked:
+            yield Condition(f"{name}: {rule.text}", asked, Divisible(tuple(sums)))
+
+    def _sum(self, terms: Mapping[str, int]) -> WholeSum:
+        (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
+        return total
+
+    def _in_loops(self) -> Sequence[str]:
+        """The wheels of all pairs in loops, closing and rigid ones."""
+        problem = self.closure.problem
+        meshes = {mesh for condition in problem.conditions for mesh in condition.row}
+        pairs = {problem.circuits[mesh].id for mesh in meshes}
+        pairs |= {pair for chord in problem.parts.breaking for pair in problem.parts.loop(chord).pairs}
+        circuits = (circuit for circuit in self.fitting.circuits if circuit.id in pairs)
+        return list(dict.fromkeys(wheel for circuit in circuits for wheel in circuit.wheels))
+
+
+def _no_places(train: Train) -> Problem:
+    return Problem(
+        f"no loop of '{train.name}' has known places",
+        "teeth meet or miss around loops of meshes, where the positions of axes are declared",
+        "declare `axes` with positions, or leave phase closure out",
+        train.place("axes"),
+    )
+
+
+# -------------------------------------------------- involute teeth: undercut, and tips beyond the involute of the mate
+
+
+def least_teeth(pressure: Fraction, addendum: Fraction) -> int:
+    """Least teeth of a spur wheel that a rack does not undercut: z >= 2 h / sin(alpha)^2, rounded up.
+
+    pressure   alpha, turns (0 to 1/4); addendum h of the rack, modules. 18 at 20 degrees (17.1), 32 at 14.5
+    The rack's tip reaches h below the pitch line; the involute ends where the line of action leaves the base circle,
+    r sin(alpha)^2 below it.
+    """
+    with localcontext(prec=50):
+        limit = decimal(2 * addendum) / sine(pressure) ** 2
+        # what agrees with a whole number in 25 digits is that number, and is not rounded up past it
+        return int((limit - decimal(Fraction(1, 10**25))).to_integral_value(ROUND_CEILING))
+
+
+def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
+    """Terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h): 0 or more if the tip of 2 stays on the involute of 1.
+
+    The tip circle of 2 must cut the line of action before the point where that touches the base circle of 1:
+    r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares of z2
+    cancel. For z2 without end it is z1 sin(alpha)^2 >= 2 h, the rack. Solved for z1 it is the least pinion that
+    textbooks of machine elements print (Shigley, at 20 degrees: 13 teeth go with 16 at most, 14 with 26, 15 with 45).
+    """
+    return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
+
+
+def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
+    """Terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h): 0 or more if the ring's tip stays on the involute of 1.
+
+    h is the ring's addendum. As for an external pair with z2 and h negative; derived apart: the ring's tip circle must
+    cut the line of action beyond the point where that touches the base circle of 1, counted from the ring's own,
+    r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
+    """
+    return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
+
+
+def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
+    """`tip_room` of each candidate (rad); arguments as there, tooth counts as arrays of one shape."""
+    planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
+    # many candidates share a few pairs of counts
+    pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
+    rooms = np.array([tip_room(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
+    return np.asarray(rooms[which.ravel()].reshape(planets.shape))
+
+
+@dataclass(frozen=True, slots=True)
+class OnInvolute:
+    """Tips of an external pair stay on each other's involute, exactly."""
+
+    first: CountRef
+    second: CountRef
+    pressure: Fraction
+    addendum: Fraction
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where they do, (candidates,)."""
+        z1, z2 = counts_of(columns, self.first), counts_of(columns, self.second)
+        constants = _square(self.pressure), decimal(self.addendum)
+        one = is_positive(external_terms, [z1, z2], constants, False)
+        return np.asarray(one & is_positive(external_terms, [z2, z1], constants, False))
+
+
+@dataclass(frozen=True, slots=True)
+class InRing:
+    """Tips of a planet and a ring keep clear of each other's flanks. Tips that pass by less than 1e-9 rad meet."""
+
+    planet: CountRef
+    ring: CountRef
+    pressure: Fraction
+    addendum: Fraction
+    ring_addendum: Fraction
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where they do, (candidates,)."""
+        z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
+        fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
+        fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
+        angle = float(self.pressure) * 2 * pi
+        return np.asarray(fits & (tip_rooms(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
+
+
+def _square(pressure: Fraction) -> Decimal:
+    with localcontext(prec=70):
+        return sine(pressure) ** 2
+
+
+def interference(
+    mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
+) -> Iterator[Condition]:
+    """The condition on a spur pair with a free count. Angles in turns, addenda in modules."""
+    wheels = free_of(*mesh.parts)
+    if not wheels or not mesh.spur:
+        return
+    name = f"interference: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' at {float(pressure * 360):g} deg"
+    if mesh.ring is None:
+        yield Condition(name, wheels, OnInvolute(*mesh.parts, pressure, addendum))
+    else:
+        planet, ring = mesh.parts[1 - mesh.ring], mesh.parts[mesh.ring]
+        yield Condition(name, wheels, InRing(planet, ring, pressure, addendum, ring_addendum))

@@ -22,13 +22,15 @@ from geartrain.kinematics.buildability.equal_planets import (
 from geartrain.search.constraints.count_conditions import (
     Condition,
     LinearSum,
+    cosine,
     counts_of,
     distance_of,
     free_of,
+    is_positive,
+    sine,
     teeth_of,
     whole,
 )
-from geartrain.search.constraints.decimal_sines import cosine, is_positive, sine
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, Planet, PlanetSet, TrainAssembly

@@ -1,19 +1,257 @@
-"""What a search for epicyclic sets found, and a set as a declaration, with its counts or with wheels still to be
-found.
+"""Kinds of epicyclic sets, sets that were found, and a set as a declaration, with its counts or with bounds for them.
+
+Every central wheel of a set turns, seen from the carrier, `f = sign P / z` times as fast as the planets' reference
+wheel, with P the planet wheel that reaches it (Willis 1841, with the carrier held). That table is all a kind is:
+ratios of every mode, places of equal planets and the coaxial equation follow from it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
+from itertools import permutations
+from types import MappingProxyType
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import abridged_text, as_float, decimal, fraction_text
+from geartrain.numerics.exact import abridged_text, as_float, decimal
 from geartrain.numerics.results import Key, Result, finite
-from geartrain.search.epicyclic.set_kinds import CARRIER, EpicyclicKind, EpicyclicMode, epicyclic_kind, mode_key
 from geartrain.search.search_outcome import CountSizes, Shortfall
+
+CARRIER = "carrier"
+
+
+@dataclass(frozen=True, slots=True)
+class CentralWheel:
+    """A central wheel.
+
+    link      its link
+    wheel     its wheel
+    mesh      the planet wheel it meets
+    sign      of its speed against the planets' reference wheel, carrier held
+    step      the planet wheel P in f = sign P / z; empty where all of a kind have the same, which then cancels
+    internal  True for a ring
+    """
+
+    link: str
+    wheel: str
+    mesh: str
+    sign: int
+    step: str = ""
+    internal: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class EpicyclicMode:
+    """A way to use a set: which member is driven, which drives, which is held."""
+
+    input: str
+    output: str
+    held: str
+
+    @property
+    def key(self) -> str:
+        """As it is asked for: `sun:carrier:ring` for input, output, held."""
+        return f"{self.input}:{self.output}:{self.held}"
+
+    def __str__(self) -> str:
+        return f"{self.input} in, {self.output} out, {self.held} held"
+
+
+def mode_key(mode: EpicyclicMode) -> str:
+    """A mode as it is asked for."""
+    return mode.key
+
+
+@dataclass(frozen=True, slots=True)
+class EpicyclicKind(Result):
+    """A kind of epicyclic set.
+
+    members     its central wheels
+    planets     the wheels of each planet link
+    between     meshes of planets with each other
+    free        wheels whose counts are chosen freely; coaxiality gives those of the other central wheels
+    idle        planet wheels that change no ratio and stand under no equation: they take the least count that fits
+    with_carrier  True if the carrier may be driven, drive or be held in `modes`
+    mirrored    link -> link: exchanging these gives the same set again, so half of the modes say all
+    bevel       True if the planets' axes cross the central one
+    """
+
+    KEYS = ("title", "wheels", Key("modes", to=mode_key))
+
+    name: str
+    title: str
+    members: tuple[CentralWheel, ...]
+    planets: tuple[tuple[str, ...], ...]
+    free: tuple[str, ...]
+    between: tuple[tuple[str, str], ...] = ()
+    idle: tuple[str, ...] = ()
+    with_carrier: bool = True
+    mirrored: tuple[tuple[str, str], ...] = ()
+    bevel: bool = False
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """All wheels: central ones and planets, in the order a reader expects."""
+        planets = [wheel for link in self.planets for wheel in link]
+        return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Links that a mode may name."""
+        return (*(member.link for member in self.members), CARRIER)
+
+    @property
+    def modes(self) -> tuple[EpicyclicMode, ...]:
+        """All modes; of two that are mirror images, the first."""
+        links = self.links if self.with_carrier else self.links[:-1]
+        swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
+        found: dict[EpicyclicMode, None] = {}
+        for mode in (EpicyclicMode(*three) for three in permutations(links, 3)):
+            if EpicyclicMode(*(swap.get(link, link) for link in (mode.input, mode.output, mode.held))) not in found:
+                found[mode] = None
+        return tuple(found)
+
+    def member(self, link: str) -> CentralWheel | None:
+        """The central wheel of a link; None for the carrier."""
+        return next((member for member in self.members if member.link == link), None)
+
+    def chosen(self, modes: str | Iterable[str | EpicyclicMode]) -> tuple[EpicyclicMode, ...]:
+        """Modes by name: "all", or `input:output:held` each. Raises `QuestionError` for members it does not have."""
+        if isinstance(modes, str):
+            if modes == "all":
+                return self.modes
+            modes = [modes]
+        return tuple(mode if isinstance(mode, EpicyclicMode) else self._mode(mode) for mode in modes)
+
+    def _mode(self, text: str) -> EpicyclicMode:
+        parts = [part.strip() for part in text.split(":")]
+        if len(parts) == 3 and len(set(parts)) == 3 and set(parts) <= set(self.links):
+            return EpicyclicMode(*parts)
+        raise QuestionError(
+            Problem(
+                f"'{text}' is no mode of the kind '{self.name}'",
+                f"a mode is input:output:held, of three different ones of {', '.join(self.links)}",
+                f"write one such as {self.modes[0].key}, or all",
+            )
+        )
+
+
+_ORDER = ("s", "s1", "p", "ps", "pl", "p1", "r", "r1", "p2", "s2", "r2")
+_TWO = (("sun1", "sun2"),)
+
+_KINDS = (
+    EpicyclicKind(
+        "planetary",
+        "sun, planet, ring",
+        (CentralWheel("sun", "s", "p", -1), CentralWheel("ring", "r", "p", 1, internal=True)),
+        (("p",),),
+        ("s", "p"),
+    ),
+    EpicyclicKind(
+        "stepped-suns",
+        "two suns, stepped planet",
+        (CentralWheel("sun1", "s1", "p1", -1, "p1"), CentralWheel("sun2", "s2", "p2", -1, "p2")),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+        mirrored=_TWO,
+    ),
+    EpicyclicKind(
+        "stepped-sun-ring",
+        "sun and ring, stepped planet",
+        (CentralWheel("sun", "s1", "p1", -1, "p1"), CentralWheel("ring", "r2", "p2", 1, "p2", internal=True)),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+    ),
+    EpicyclicKind(
+        "stepped-rings",
+        "two rings, stepped planet",
+        (
+            CentralWheel("ring1", "r1", "p1", 1, "p1", internal=True),
+            CentralWheel("ring2", "r2", "p2", 1, "p2", internal=True),
+        ),
+        (("p1", "p2"),),
+        ("r1", "p1", "p2"),
+        mirrored=(("ring1", "ring2"),),
+    ),
+    EpicyclicKind(
+        "meshed-planets",
+        "sun and ring, two equal planets in mesh between them",
+        (CentralWheel("sun", "s", "p1", -1), CentralWheel("ring", "r", "p2", -1, internal=True)),
+        (("p1",), ("p2",)),
+        ("s", "r"),
+        between=(("p1", "p2"),),
+        idle=("p1", "p2"),
+    ),
+    EpicyclicKind(
+        "ravigneaux",
+        "small sun on short planets, large sun and ring on long ones",
+        (
+            CentralWheel("small", "s1", "ps", 1),
+            CentralWheel("large", "s2", "pl", -1),
+            CentralWheel("ring", "r", "pl", 1, internal=True),
+        ),
+        (("ps",), ("pl",)),
+        ("s1", "s2", "pl"),
+        between=(("ps", "pl"),),
+        idle=("ps",),
+    ),
+    EpicyclicKind(
+        "bevel",
+        "two side wheels and a planet across them",
+        (CentralWheel("sun1", "s1", "p", -1), CentralWheel("sun2", "s2", "p", 1)),
+        (("p",),),
+        ("s1", "s2"),
+        idle=("p",),
+        mirrored=_TWO,
+        bevel=True,
+    ),
+    EpicyclicKind(
+        "wolfrom",
+        "3K: sun and ring on one step of the planet, a second ring on the other",
+        (
+            CentralWheel("sun", "s1", "p1", -1, "p1"),
+            CentralWheel("ring1", "r1", "p1", 1, "p1", internal=True),
+            CentralWheel("ring2", "r2", "p2", 1, "p2", internal=True),
+        ),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+        with_carrier=False,
+    ),
+    EpicyclicKind(
+        "3k-two-suns",
+        "3K: sun and ring on one step of the planet, a second sun on the other",
+        (
+            CentralWheel("sun1", "s1", "p1", -1, "p1"),
+            CentralWheel("ring", "r1", "p1", 1, "p1", internal=True),
+            CentralWheel("sun2", "s2", "p2", -1, "p2"),
+        ),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+        with_carrier=False,
+    ),
+)
+
+
+@cache
+def kinds() -> Mapping[str, EpicyclicKind]:
+    """All kinds by name."""
+    return MappingProxyType({kind.name: kind for kind in _KINDS})
+
+
+def epicyclic_kind(name: str) -> EpicyclicKind:
+    """A kind by name. Raises `QuestionError`."""
+    if name in kinds():
+        return kinds()[name]
+    raise QuestionError(
+        Problem(f"there is no kind of epicyclic set '{name}'", "it is not in the list", f"one of {', '.join(kinds())}")
+    )
+
+
+# ------------------------------------------------------------------------------------------------ sets that were found
+
 
 RatioIs = Literal["input/output", "output/input"]
 SetOrder = Literal["error", "total", "largest"]
@@ -88,17 +326,21 @@ class EpicyclicSet(CountSizes, Result):
         """True if the planets can be put in at equal distances."""
         return self.places % self.planets == 0
 
-    @property
-    def clears(self) -> bool:
-        """True if neighbouring planets do not touch."""
-        # wheels that just touch clear each other, whatever rounding says
-        return self.room >= -1e-9
-
     def to_train(self) -> dict[str, Any]:
         """A declaration as plain data: the set with one planet, driven at 1, whose output expects its exact ratio."""
-        data = declare(self.kind, self.mode, self.teeth)
-        data["outputs"] = {self.mode.output: {"expect": str(self.inverse)}}
-        return data
+        kind, mode = epicyclic_kind(self.kind), self.mode
+        return {
+            "name": f"{kind.name}-{mode.key.replace(':', '-')}",
+            "title": f"{kind.title}: {mode}",
+            "links": _links(kind, self.teeth),
+            **({"axes": _AXES} if kind.bevel else {}),
+            "revolutes": list(_revolutes(kind)),
+            "gears": [{"pair": [member.wheel, member.mesh]} for member in kind.members]
+            + [{"pair": list(pair)} for pair in kind.between],
+            "inputs": {mode.input: 1},
+            "fixed": [mode.held],
+            "outputs": {mode.output: {"expect": str(self.inverse)}},
+        }
 
     def __str__(self) -> str:
         teeth = ", ".join(f"{wheel} = {count}" for wheel, count in self.teeth.items())
@@ -168,62 +410,13 @@ def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
     return (measures[by], *measures.values(), mode, counts)
 
 
-Teeth = Mapping[str, int | tuple[int, int]]
-
-
-def declare(
-    kind: str | EpicyclicKind,
-    mode: str | EpicyclicMode,
-    teeth: Teeth,
-    wanted: Fraction | None = None,
-    tolerance: Fraction | None = None,
-    ratio_is: RatioIs = "input/output",
-) -> dict[str, Any]:
-    """A train as plain data, with one planet (or one pair in mesh), driven at 1.
-
-    teeth   of every wheel: a count, or the bounds (lowest, highest) within which it is to be found
-    wanted  the ratio, negative for an output that turns against the input, which the output gets as its target;
-            `tolerance` relative
-
-    Raises `QuestionError` for wheels it does not have or lacks.
-    """
-    kind = epicyclic_kind(kind) if isinstance(kind, str) else kind
-    (mode,) = kind.chosen([mode])
-    _check(kind, teeth)
-    output: dict[str, Any] = {}
-    if wanted is not None:
-        speed = Fraction(wanted) if ratio_is == "output/input" else 1 / Fraction(wanted)
-        target = {"speed": fraction_text(speed)}
-        if tolerance is not None:
-            target["tolerance"] = str(float(tolerance))
-        output = {"targets": [target]}
-    return {
-        "name": f"{kind.name}-{mode.key.replace(':', '-')}",
-        "title": f"{kind.title}: {mode}",
-        "links": _links(kind, teeth),
-        **({"axes": _AXES} if kind.bevel else {}),
-        "revolutes": list(_revolutes(kind)),
-        "gears": [{"pair": [member.wheel, member.mesh]} for member in kind.members]
-        + [{"pair": list(pair)} for pair in kind.between],
-        "inputs": {mode.input: 1},
-        "fixed": [mode.held],
-        "outputs": {mode.output: output},
-    }
+# ---------------------------------------------------------------------------------------------- a set as a declaration
 
 
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
 
 
-def _check(kind: EpicyclicKind, teeth: Teeth) -> None:
-    unknown = [wheel for wheel in teeth if wheel not in kind.wheels]
-    missing = [wheel for wheel in kind.wheels if wheel not in teeth]
-    if unknown or missing:
-        what = f"'{unknown[0]}' is no wheel of" if unknown else f"wheel '{missing[0]}' is missing from"
-        why = f"its wheels are {', '.join(kind.wheels)}"
-        raise QuestionError(Problem(f"{what} the kind '{kind.name}'", why, "give a count or bounds for each of them"))
-
-
-def _links(kind: EpicyclicKind, teeth: Teeth) -> dict[str, Any]:
+def _links(kind: EpicyclicKind, teeth: Mapping[str, int]) -> dict[str, Any]:
     links: dict[str, Any] = {"frame": {}}
     for at, member in enumerate(kind.members):
         facing = {"facing": -1} if kind.bevel and at else {}
@@ -234,8 +427,8 @@ def _links(kind: EpicyclicKind, teeth: Teeth) -> dict[str, Any]:
     return links
 
 
-def _wheel(kind: EpicyclicKind, teeth: int | tuple[int, int], internal: bool) -> dict[str, Any]:
-    wheel: dict[str, Any] = {"teeth": teeth if isinstance(teeth, int) else {"search": list(teeth)}}
+def _wheel(kind: EpicyclicKind, teeth: int, internal: bool) -> dict[str, Any]:
+    wheel: dict[str, Any] = {"teeth": teeth}
     if internal:
         wheel["internal"] = True
     if kind.bevel:

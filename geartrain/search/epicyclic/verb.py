@@ -8,7 +8,7 @@ import typer
 
 from geartrain.cli.common import Force, Json, Out, give
 from geartrain.cli.option_values import decimal
-from geartrain.search.verb_options import (
+from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,
@@ -88,7 +88,7 @@ def run(
 
 def _list(answer: SearchAnswer) -> None:
     """The kinds there are."""
-    from geartrain.search.epicyclic.set_kinds import kinds
+    from geartrain.search.epicyclic.epicyclic_sets import kinds
     from geartrain.search.tooth_numbers_report import describe_set_kinds
 
     found = kinds()

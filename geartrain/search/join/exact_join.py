@@ -13,14 +13,13 @@ from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.join.join_plan import JoinProblem, PlanNode, extents
-from geartrain.search.join.partial_assignments import BLOCK, ItemMonomial, PartialAssignments
 from geartrain.search.join.polynomial_constraints import (
     PolynomialConstraint,
     RelaxedInequality,
     SolutionWindow,
     possible,
 )
-from geartrain.search.join.product_lists import Item, Tallies, find_item
+from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 
 # Through which monomials of items some constraints see them: settings that agree in all of these are one. Once x
 # and y are set, an output that sees x y alone cannot tell 2 x 6 from 3 x 4; nor can all that is set below. The rows

@@ -20,9 +20,8 @@ import numpy as np
 from geartrain.numerics.arrays import Floats, Ints
 from geartrain.search.join.exact_join import ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
-from geartrain.search.join.partial_assignments import PartialAssignments
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
-from geartrain.search.join.product_lists import Item, ProductStep, Tallies
+from geartrain.search.join.product_lists import Item, PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
 # A join that is kept: which values of each item go with what is set above, and which counts make up each value.

@@ -26,8 +26,7 @@ from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.bounded_polynomials import Monomial, sum_and_size
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.integer_columns import spread
-from geartrain.search.join.partial_assignments import PartialAssignments
-from geartrain.search.join.product_lists import Item
+from geartrain.search.join.product_lists import Item, PartialAssignments
 
 # Signs of polynomials at very many points, exact: floats decide where they can, integers where they cannot. Every
 # bound on an output is the sign of a polynomial in the items: N/D <= v is N - v D <= 0 where D > 0. A float64 value

@@ -12,14 +12,13 @@ from typing import Protocol
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
-from geartrain.search.join.partial_assignments import PartialAssignments
 from geartrain.search.join.polynomial_constraints import (
     PolynomialConstraint,
     PolynomialInequality,
     SignPolynomial,
     possible,
 )
-from geartrain.search.join.product_lists import Domains, ItemRecipe, forecast, greatest
+from geartrain.search.join.product_lists import Domains, ItemRecipe, PartialAssignments, forecast, greatest
 
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]

@@ -9,7 +9,7 @@ import typer
 
 from geartrain.cli.common import Force, Json, Out
 from geartrain.cli.long_runs import progress
-from geartrain.search.verb_options import ANY_COUNT, Csv, Range, SearchAnswer, Tolerance, read_tolerance
+from geartrain.search.teeth_verb import ANY_COUNT, Csv, Range, SearchAnswer, Tolerance, read_tolerance
 
 _TOLERANCE = Fraction(1, 10**6)
 

@@ -10,14 +10,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Line2D, MaxNLocator, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SCALE, SMALL, TEXT, headed
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    LETTER,
+    PALE,
+    RED,
+    SCALE,
+    SMALL,
+    TEXT,
+    Axes,
+    Figure,
+    Line2D,
+    MaxNLocator,
+    Patch,
+    headed,
+)
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from geartrain.numerics.arrays import Floats
     from geartrain.search.posterior.posterior_result import ToothCountPosterior
 
 
@@ -44,27 +56,6 @@ class CountProbabilities:
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
     before: Mapping[str, Chances] = field(default_factory=dict)
     declared: Mapping[str, int] = field(default_factory=dict)
-
-    @classmethod
-    def of(
-        cls, counts: Mapping[str, ArrayLike], weights: ArrayLike, declared: Mapping[str, int] | None = None
-    ) -> CountProbabilities:
-        """From weighted combinations: wheel -> its count in each (n,), and their weights (n,), of any sum above 0."""
-        share = np.asarray(weights, dtype=float)
-        columns = {wheel: np.asarray(column, dtype=np.int64) for wheel, column in counts.items()}
-        if not columns or share.ndim != 1 or any(each.shape != share.shape for each in columns.values()):
-            raise _nothing("each wheel has one count for each weight")
-        if not (np.isfinite(share).all() and share.min(initial=0.0) >= 0 and share.sum() > 0):
-            raise _nothing("weights are 0 or more, and one at least is above")
-        share = share / share.sum()
-        wheels = list(columns)
-        single = {wheel: _summed(columns[wheel][:, None], share) for wheel in wheels}
-        pairs = {
-            (a, b): {(k[0], k[1]): v for k, v in _summed(np.stack((columns[a], columns[b]), axis=1), share).items()}
-            for at, a in enumerate(wheels)
-            for b in wheels[at + 1 :]
-        }
-        return cls({w: {k[0]: v for k, v in each.items()} for w, each in single.items()}, pairs, {}, declared or {})
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
@@ -183,12 +174,6 @@ def _modes(chances: Chances) -> str:
         return f"{modes[0]}: {percent}"
     some = "" if len(modes) == span else f"{len(modes)} of "
     return f"{some}{modes[0]}-{modes[-1]}: {percent} each"
-
-
-def _summed(keys: NDArray[np.int64], share: Floats) -> dict[tuple[int, ...], float]:
-    found, places = np.unique(keys, axis=0, return_inverse=True)
-    sums = np.bincount(places.ravel(), weights=share)
-    return {tuple(int(each) for each in key): float(total) for key, total in zip(found, sums, strict=True)}
 
 
 def _nothing(why: str) -> QuestionError:

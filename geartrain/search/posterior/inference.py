@@ -8,19 +8,40 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import inf, prod
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.work import Execution, Journal
-from geartrain.search.join.exact_join import BudgetSpentError
-from geartrain.search.posterior.exact_posterior import evidence_of, find_exact_posterior
-from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem
-from geartrain.search.posterior.observations import LikelihoodKind
+from geartrain.search.join.exact_join import BudgetSpentError, ExactJoin
+from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, CountWeights, RecordedNode, record_join
+from geartrain.search.join.join_plan import JoinProblem, SelectivitySample, find_join_problem
+from geartrain.search.posterior.inference_problem import (
+    InferenceProblem,
+    LikelihoodKind,
+    ToothCountPrior,
+    build_inference_problem,
+    find_priors,
+)
 from geartrain.search.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
-from geartrain.search.posterior.posterior_summary import PosteriorSummary, rank_combinations, summary_of_sample
-from geartrain.search.posterior.priors import find_priors
-from geartrain.search.posterior.sampled_posterior import LikelihoodBatch, PosteriorTally, packed, sample_task
-from geartrain.search.posterior.variance_shares import find_variance_shares
+from geartrain.search.posterior.posterior_summary import (
+    PosteriorSummary,
+    correlations_of,
+    find_variance_shares,
+    first_with_ties,
+    rank_combinations,
+    summary_of_sample,
+    wheel_posterior,
+)
+from geartrain.search.posterior.sampled_posterior import (
+    LikelihoodBatch,
+    PosteriorTally,
+    misfit_of,
+    packed,
+    plain_number,
+    sample_task,
+)
 from geartrain.train import Train
 
 LIMIT = 2_000_000
@@ -34,8 +55,7 @@ _NOTHING_YET = (
     "interrupted: the exact method knows nothing before its end, so the figures are of {} combinations drawn at "
     "random; the method `sample` draws as many as are wanted"
 )
-_FORMER: dict[str, Method] = {"enumerate": "exact", "decompose": "exact"}
-"""What the exact method was called when combinations could also be listed one by one."""
+_LONG = 1 << 62  # products of total weights below this: every sum of weights is exact in int64
 
 
 def infer_counts(
@@ -131,7 +151,6 @@ def infer_counts(
     >>> found.evidence.value, [str(chance) for chance in found["w"].chances]
     (Fraction(2, 3), ['0.5', '0.5', '0'])
     """
-    method = None if method is None else _FORMER.get(method, method)
     _check(method, most, limit, samples, seed)
     question = build_inference_problem(
         train,
@@ -254,6 +273,97 @@ def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]
     return found
 
 
+# ---------------------------------------------------------------- the weighted join of `search.join`, in whole numbers
+
+
+def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
+    """All that is asked, exactly. Raises `BudgetSpentError` where it takes more than `limit` steps.
+
+    most   combinations to list
+    """
+    doubts = question.moved
+    root, steps = _recorded(question, limit)
+    sums = AssignmentSums(root, question.soft)
+    weights = _weights(doubts, question.soft)
+    share = plain_number(sums.total(weights))
+    marginals = {wheel: own.tolist() for wheel, own in sums.marginals(weights).items()} if share else {}
+    candidates, ranked = first_with_ties(iter(BestFirst(root, question.domains)), most) if share else ([], True)
+    floats = _weights(doubts, True)
+    return PosteriorSummary(
+        steps,
+        _probability(question, doubts, share),
+        turning_of(question, limit),
+        None if question.soft else _fits(question, sums),
+        {
+            wheel: wheel_posterior(doubt, marginals[wheel] if wheel in doubts and share else None, share, None)
+            for wheel, doubt in question.doubts.items()
+        },
+        correlations_of(question, marginals, share, sums.covariances(floats, question.domains)) if share else {},
+        candidates,
+        ranked,
+        float("inf"),
+    )
+
+
+def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
+    """The share of the prior weight that fits. Raises `BudgetSpentError` where that takes more than `limit` steps."""
+    doubts = question.moved
+    if question.soft:
+        root, _ = _recorded(question, limit)
+        return _probability(question, doubts, float(AssignmentSums(root, True).total(_weights(doubts, True))))
+    join = ExactJoin(_join_problem(question, graded=False), budget=limit)
+    counted, _ = join.count(join.question.plan, join.start())
+    return _probability(question, doubts, int(counted[0]))
+
+
+def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
+    """The share of the prior weight with which the train turns, whatever its outputs do."""
+    if not question.conditions:
+        return CountProbability(Fraction(1))
+    return evidence_of(replace(question, witnesses=(), soft=False), limit)
+
+
+def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
+    """What is to be joined: the witnesses first, then the conditions.
+
+    graded   True: how well the witnesses agree is asked for too
+    """
+    doubts = question.moved
+    domains = {wheel: doubt.counts for wheel, doubt in doubts.items()}
+    asked = [*(one.constraint(question.soft, graded) for one in question.witnesses), *question.conditions]
+    sample = SelectivitySample.of(domains)
+    weights = {wheel: doubt.weights for wheel, doubt in doubts.items()}
+    return find_join_problem(domains, asked, (), {one.name: sample.of_demand(one) for one in asked}, weights)
+
+
+def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, int]:
+    misfits = {at: misfit_of(witness) for at, witness in enumerate(question.witnesses)}
+    return record_join(_join_problem(question, graded=True), limit, misfits)
+
+
+def _weights(doubts: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
+    """Prior weights as whole numbers, of a type that holds all their sums; or prior chances as floats."""
+    if soft:
+        return {wheel: np.array([float(prior) for prior in doubt.priors]) for wheel, doubt in doubts.items()}
+    dtype: Any = np.int64 if prod(doubt.total for doubt in doubts.values()) < _LONG else object
+    return {wheel: np.array(doubt.weights, dtype=dtype) for wheel, doubt in doubts.items()}
+
+
+def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
+    """How many combinations fit: the sum with every weight 1, times all counts of the wheels that nothing tells of."""
+    alike = {w: replace(doubt, weights=(1,) * len(doubt.counts)) for w, doubt in question.moved.items()}
+    idle = [doubt for wheel, doubt in question.doubts.items() if wheel not in alike]
+    return int(sums.total(_weights(alike, False))) * prod(len(doubt.counts) for doubt in idle)
+
+
+def _probability(
+    question: InferenceProblem, doubts: Mapping[str, ToothCountPrior], share: int | float
+) -> CountProbability:
+    if question.soft:
+        return CountProbability(float(share))
+    return CountProbability(Fraction(int(share), prod(doubt.total for doubt in doubts.values())))
+
+
 # ------------------------------------------------------------------------------------------------- two wheels at a time
 
 
@@ -262,7 +372,25 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 
 
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """The wheels of which the outputs tell most, in the order declared; those with one count possible say nothing."""
+    """The wheels of which the outputs tell most, in the order declared; those with one count possible say nothing.
+
+    Parameters
+    ----------
+    found : ToothCountPosterior
+        What is known of the counts.
+    most : int
+        The maximum number of wheels.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> most_informative_wheels(infer_counts(geartrain.load("freeth-2008-doubt").declaration), 2)
+    ['m3', 'n1']
+    """
     heard = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
     kept = set(sorted(heard, key=lambda wheel: -found[wheel].bits)[:most])
     return [wheel for wheel in heard if wheel in kept]
@@ -271,9 +399,30 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
     """The joint posterior of every two of some wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    again   the posterior of the same train for the same evidence, with some wheels held to the counts given
+    One more posterior is found for each count that is possible, of every wheel but the last.
 
-    One more posterior for each count that is possible, of every wheel but the last; as exact as they are.
+    Parameters
+    ----------
+    found : ToothCountPosterior
+        What is known of the counts.
+    wheels : sequence of str
+        In the order declared.
+    again : callable
+        Wheel -> counts to which it is held, to the posterior of the same train for the same evidence.
+
+    Returns
+    -------
+    dict
+        Two wheels -> their two counts -> probability, for `counts_figure`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load("planetary-24-18-60").declaration
+    >>> free = {"s": (23, 24), "ring": (58, 60)}
+    >>> found = infer_counts(train, free=free)
+    >>> joint_posterior(found, ["s", "ring"], lambda held: infer_counts(train, free=free | held))
+    {('s', 'ring'): {(24, 60): 1.0}}
     """
     pairs: Pairs = {(a, b): {} for at, a in enumerate(wheels) for b in wheels[at + 1 :]}
     for at, wheel in enumerate(wheels[:-1]):

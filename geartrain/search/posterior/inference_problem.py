@@ -1,25 +1,36 @@
-"""All that is asked when counts are in doubt: which wheels, which outputs are known, what must hold for it to turn."""
+"""The question of counts in doubt: priors of wheels, observations of outputs, and conditions for the train to turn."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
+from typing import Literal
 
-from geartrain.errors import Problem, QuestionError, suggest
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.formulas import Formula, find_formulas
+from geartrain.numerics.exact import whole_multiple
+from geartrain.numerics.results import Result
 from geartrain.search.join.product_lists import Domains
-from geartrain.search.join.wheel_monomials import IntervalConstraint
-from geartrain.search.posterior.observations import (
-    LIKELIHOOD_KINDS,
-    LikelihoodKind,
-    ObservedOutput,
-    observations_of,
+from geartrain.search.join.wheel_monomials import Interval, IntervalConstraint, is_within
+from geartrain.search.train.output_requirements import (
+    SpeedRequirement,
+    find_output_requirements,
+    find_turning_conditions,
+    meet,
+    of_either_sense,
 )
-from geartrain.search.posterior.priors import ToothCountPrior
-from geartrain.search.train.output_requirements import find_output_requirements, find_turning_conditions
-from geartrain.train import Train
+from geartrain.train import Teeth, Train
+from geartrain.train.fields import MOST_TEETH
+
+LikelihoodKind = Literal["all", "targets", "figures"]
+LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
+FAR = Fraction(5)
+"""Where agreement is by degree: what is off by more tolerances than this is refused. It would weigh exp(-12.5)."""
+MOST_COUNTS = 10**5
+"""Counts of one wheel; a doubt wider than this is no evidence."""
+_LINE: Interval = (None, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +44,7 @@ class InferenceProblem:
     conditions  what must hold for the train to turn: loops that close, links driven in one way
     remarks     what the reader should know
     soft        False: a combination fits or it does not; True: it agrees less and less, exp(-misfit / 2), up
-                to `observations.FAR` tolerances
+                to `FAR` tolerances
     """
 
     name: str
@@ -170,3 +181,250 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
 def _nothing_known(what: str) -> QuestionError:
     fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
     return QuestionError(Problem(what, "counts can only be weighed against something with a tolerance", fix))
+
+
+# --------------------------------------------------------------------------- priors: the counts of each wheel in doubt
+
+
+@dataclass(frozen=True, slots=True)
+class ToothCountPrior(Result):
+    """The counts one wheel may have, and their prior probabilities.
+
+    Attributes
+    ----------
+    wheel : str
+        Its id.
+    counts : tuple of int
+        Ascending, each once.
+    weights : tuple of int
+        In parallel to the counts: positive, without a common divisor; the prior probability is weight / `total`.
+    declared : int or None
+        The count the train declares.
+    assumed : str
+        Where the counts come from, in words; all are equally likely unless it says that they are weighted.
+    """
+
+    KEYS = ("wheel", "declared", "counts", "priors", "assumed")
+
+    wheel: str
+    counts: tuple[int, ...]
+    weights: tuple[int, ...]
+    declared: int | None
+    assumed: str
+
+    @property
+    def total(self) -> int:
+        """The sum of the weights."""
+        return sum(self.weights)
+
+    def weight(self, count: int) -> int:
+        """The weight of one of its counts."""
+        return self.weights[self.counts.index(count)]
+
+    @property
+    def priors(self) -> tuple[Fraction, ...]:
+        """The chance of each count before the outputs are looked at; they sum to 1."""
+        return tuple(Fraction(weight, self.total) for weight in self.weights)
+
+
+def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:
+    """The priors of the wheels in doubt, in the order declared.
+
+    free   wheel -> its counts, for wheels that are to have others than those declared; one count takes the doubt away
+
+    A wheel with `range` or `choices` is in doubt with its `weights` (uniform where none are declared), one with
+    `search` uniformly. Raises `QuestionError` for wheels the train does not have, for what is no tooth count, for
+    weights that are no probabilities, and where no wheel is in doubt; `RangeError` for a doubt too wide to list.
+    """
+    given = dict(free or {})
+    for name in given:
+        if name not in train.wheels:
+            fix = suggest(name, train.wheels)
+            raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
+    found = tuple(_all(train, given))
+    if not any(len(doubt.counts) > 1 for doubt in found):
+        why = "no wheel has `range` or `choices` with more than one count"
+        fix = "declare `teeth: {value: 64, range: [63, 66]}`, or free a wheel: --free WHEEL=63:66"
+        raise QuestionError(Problem(f"no wheel of '{train.name}' is in doubt", why, fix))
+    return found
+
+
+def _all(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothCountPrior]:
+    for name, (link, wheel) in train.wheels.items():
+        place = train.place("links", link, "wheels", name)
+        teeth = wheel.teeth if isinstance(wheel.teeth, Teeth) else Teeth(value=wheel.teeth)
+        if name in given:
+            counts = _checked(name, given[name])
+            yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "asked")
+        elif teeth.choices is not None or teeth.range is not None:
+            yield _declared(name, teeth, place)
+        elif teeth.search is not None:
+            _check_width(name, len(teeth.searched), place)
+            counts = tuple(teeth.chances)
+            yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
+
+
+def _checked(name: str, counts: Sequence[int]) -> tuple[int, ...]:
+    """Counts as asked for: some, and possible."""
+    found = tuple(sorted(set(counts)))
+    if not found:
+        why = "a range ends before it begins, or nothing is listed"
+        raise QuestionError(Problem(f"wheel '{name}' has no counts to choose from", why, "write the least count first"))
+    for count in (found[0], found[-1]):
+        if not 0 < count <= MOST_TEETH:
+            fix = "a tooth count is a whole number from 1 to 10^12"
+            raise QuestionError(Problem(f"{count} is not a tooth count", f"wheel '{name}' is to have it", fix))
+    if len(found) > MOST_COUNTS:
+        raise _too_wide(name, len(found), "")
+    return found
+
+
+def _check_width(name: str, count: int, place: str) -> None:
+    if count > MOST_COUNTS:
+        raise _too_wide(name, count, place)
+
+
+def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
+    """A doubt as declared, with its weights; counts of weight 0 are left out."""
+    if teeth.range is not None and teeth.choices is None:
+        _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
+    if why := teeth.fault_of_weights:
+        what = f"the weights of wheel '{name}' are no chances"
+        raise QuestionError(Problem(what, why, "give weights of 0 and more, one of them above 0", place))
+    chances = teeth.chances
+    kind = "choices" if teeth.choices is not None else "range"
+    said = ", weighted" if teeth.weights is not None else ""
+    source = f" ({teeth.source})" if teeth.source else ""
+    return ToothCountPrior(
+        name, tuple(chances), tuple(whole_multiple(chances.values())), teeth.value, f"{kind}{source}{said}"
+    )
+
+
+def _too_wide(name: str, count: int, place: str) -> RangeError:
+    what = f"the doubt of wheel '{name}' is too wide"
+    return RangeError(Problem(what, f"{count} counts, and at most {MOST_COUNTS} can be listed", "narrow it", place))
+
+
+# ------------------------------------------------------------- observations: claims on speeds, each with its tolerance
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """One thing known about an output's speed.
+
+    label      in words, such as "speed 254/19 within 0.2 %"
+    wanted     the speed, in the train's unit; positive where only the magnitude counts
+    signed     False: only the magnitude counts
+    intervals  where the speed (or its magnitude) may lie, closed; None stands for no bound
+    """
+
+    label: str
+    wanted: Fraction
+    signed: bool
+    intervals: tuple[Interval, ...]
+
+    @property
+    def is_exact(self) -> bool:
+        """True if one speed is allowed and no other."""
+        return all(low == high for low, high in self.intervals)
+
+    def scaled(self, factor: Fraction) -> Observation:
+        """The claim with all tolerances multiplied by a factor."""
+        if factor == 1:
+            return self
+        stretched = tuple((self._moved(low, factor), self._moved(high, factor)) for low, high in self.intervals)
+        return replace(self, intervals=stretched)
+
+    def _moved(self, end: Fraction | None, factor: Fraction) -> Fraction | None:
+        return None if end is None else self.wanted + factor * (end - self.wanted)
+
+    def half(self, above: bool) -> Fraction | None:
+        """How far the speed may lie above or below what is wanted; None for any distance."""
+        own = [each for each in self.intervals if is_within(self.wanted, (each,))]
+        end = own[0][1 if above else 0] if own else None
+        return None if end is None else abs(end - self.wanted)
+
+    def met(self, speed: Fraction) -> bool:
+        """True if a speed is in order."""
+        value = speed if self.signed else abs(speed)
+        return is_within(value, self.intervals)
+
+    def misfit(self, speed: Fraction) -> Fraction:
+        """(error / tolerance)^2; 0 without a bound on that side, and for an exact claim, which is met or not."""
+        value = speed if self.signed else abs(speed)
+        half = self.half(value > self.wanted)
+        return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
+
+    def allowed(self) -> tuple[Interval, ...]:
+        """The speeds that are in order, of either sense where only the magnitude counts."""
+        if self.signed:
+            return self.intervals
+        ((low, high),) = self.intervals
+        assert low is not None, "a target has a tolerance on both sides"
+        assert high is not None, "a target has a tolerance on both sides"
+        return of_either_sense(low, high)
+
+
+@dataclass(frozen=True, slots=True)
+class ObservedOutput:
+    """An output of which something is known.
+
+    name       of the output; "state: output" where several states are asked at once
+    formula    its speed as a function of the wheels in doubt; of one or more of them
+    claims     all hold at once; one at least
+    """
+
+    name: str
+    formula: Formula
+    claims: tuple[Observation, ...]
+
+    @property
+    def text(self) -> str:
+        """The claims in words."""
+        return "; ".join(claim.label for claim in self.claims)
+
+    def fits(self, speed: Fraction | None) -> bool:
+        """True if a speed meets every claim; a train that has no speed there does not."""
+        return speed is not None and all(claim.met(speed) for claim in self.claims)
+
+    def misfit(self, speed: Fraction) -> Fraction:
+        """The sum over the claims of (error / tolerance)^2."""
+        return sum((claim.misfit(speed) for claim in self.claims), Fraction(0))
+
+    def asked(self, soft: bool) -> IntervalConstraint | None:
+        """What must hold without doubt: every claim, where they are `soft` within `FAR` tolerances; None: nothing."""
+        common: tuple[Interval, ...] = (_LINE,)
+        for claim in self.claims:
+            common = meet(common, (claim.scaled(FAR) if soft else claim).allowed())
+        return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
+
+    def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
+        """As `asked`, for a join: where every speed is in order it must have one. `graded`: how well it agrees, too."""
+        return replace(self.asked(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
+
+
+def observations_of(
+    demands: Sequence[SpeedRequirement], kind: LikelihoodKind, factor: Fraction = Fraction(1)
+) -> tuple[Observation, ...]:
+    """The demands on an output as claims; those on targets without a tolerance claim nothing.
+
+    kind     "targets": without `expect` and `published`; "figures": only those; "all"
+    factor   multiplies every tolerance
+    """
+    return tuple(claim.scaled(factor) for claim in _claims(demands, kind))
+
+
+def _claims(demands: Sequence[SpeedRequirement], kind: LikelihoodKind) -> Iterator[Observation]:
+    for demand in demands:
+        if (
+            demand.allowed is None
+            or demand.approached
+            or kind not in ("all", "targets" if demand.target else "figures")
+        ):
+            continue
+        intervals = demand.allowed
+        if not demand.signed:
+            most = demand.allowed[-1][1]
+            assert most is not None, "a target has a tolerance"
+            intervals = ((2 * demand.wanted - most, most),)
+        yield Observation(demand.label, demand.wanted, demand.signed, intervals)

@@ -10,9 +10,8 @@ from typing import Any, Literal, NotRequired, TypedDict
 from geartrain.numerics.exact import as_float, decimal
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular
-from geartrain.search.information import relative_entropy
-from geartrain.search.posterior.observations import ObservedOutput
-from geartrain.search.posterior.priors import ToothCountPrior
+from geartrain.search.posterior.inference_problem import ObservedOutput, ToothCountPrior
+from geartrain.search.weighted_alternatives import relative_entropy
 
 Method = Literal["exact", "sample"]
 

@@ -31,8 +31,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.cli.option_values import MOST_COUNT
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
@@ -133,7 +132,7 @@ def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
 
 def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
     """`m3=15:80`, `a1=45,48`, `b1=223`."""
-    from geartrain.search.tooth_count_ranges import as_array, read_counts
+    from geartrain.search.tooth_count_ranges import read_counts
 
     found: dict[str, tuple[int, ...]] = {}
     for text in texts:
@@ -141,7 +140,7 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
         if not equals or not wheel.strip():
             raise typer.BadParameter(f"'{text}' is not of the form WHEEL=60:64 or WHEEL=60,62", param_hint="--free")
         try:
-            listed = tuple(as_array(read_counts(counts)).tolist())
+            listed = tuple(read_counts(counts).as_array().tolist())
         except GearTrainError as error:
             problem = error.problems[0]
             raise typer.BadParameter(f"{problem.what}; {problem.fix}", param_hint="--free") from None

@@ -223,7 +223,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
         # one count above, or none: looked for in the counts themselves, from the middle one on
         uppers = _chosen(numbers, size - 1 - below)
         starts = table if size > 1 else np.zeros_like(table)
-        highs = _product(uppers)
+        highs = row_products(uppers)
         return ProductWindows(counts, size, rows, lows, highs, uppers, highs, 0 * rows, starts, counts[-1] + 1)
     # two counts above: a table of pairs for each middle count, and one ascending key for all tables
     tables = [_by_product(_chosen(numbers[at:], 2)) for at in range(len(counts))]
@@ -231,7 +231,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
     uppers = np.concatenate(tables)
     step = counts[-1] ** 2 + 1
     offsets = np.arange(len(counts)).astype(numbers.dtype) * step
-    highs = _product(uppers)
+    highs = row_products(uppers)
     keys = highs + np.repeat(offsets, sizes)
     starts = (np.cumsum(sizes) - sizes)[table]
     return ProductWindows(counts, size, rows, lows, highs, uppers, keys, offsets[table], starts, step)
@@ -242,12 +242,12 @@ def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
     lows = np.concatenate([np.concatenate(parts), numbers[table][:, None]], axis=1)
-    return _product(lows), lows, table
+    return row_products(lows), lows, table
 
 
 def _by_product(chosen: Ints) -> Ints:
     """The same sets in the order of their products."""
-    return np.asarray(chosen[np.argsort(_product(chosen), kind="stable")])
+    return np.asarray(chosen[np.argsort(row_products(chosen), kind="stable")])
 
 
 def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, ...]]:
@@ -308,7 +308,7 @@ def _chosen(numbers: Ints, size: int) -> Ints:
     return np.stack([numbers[i], numbers[j]], axis=1)
 
 
-def _product(chosen: Ints) -> Ints:
+def row_products(chosen: Ints) -> Ints:
     """Product along each row, in the dtype of the counts."""
     found = np.ones(len(chosen), dtype=chosen.dtype)
     for column in chosen.T:

@@ -1,8 +1,7 @@
-"""How a search is cut into pieces of equal work, and how densely solutions lie: estimates, which decide nothing.
+"""One piece of a search: all products beneath in a segment of value, against the products on top that they need.
 
-One piece of the search: all products beneath in a segment of value, against the products on top that they need.
-
-The pieces are independent, their questions and results plain JSON data, and how they are cut changes no answer.
+`lay_out` cuts a search into pieces of about equal work. The pieces are independent, their questions and results are
+plain JSON data, and how they are cut changes no answer.
 """
 
 from __future__ import annotations
@@ -17,20 +16,27 @@ import numpy as np
 
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.ratio.product_windows import ProductWindows, cuts, error_places, errors, expand, multisets
-from geartrain.search.ratio.solution_order import BestStages, Key, RankedStages, first_of, key_of, margin, merged
-from geartrain.search.ratio.stage_pairs import suited
-from geartrain.search.ratio.stage_problem import StageProblem, stage_problem_of
+from geartrain.search.ratio.stage_problem import (
+    BestStages,
+    RankedStages,
+    StageProblem,
+    StageRank,
+    first_of,
+    key_of,
+    margin,
+    merged,
+    stage_problem_of,
+    suited,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Floats
-    from geartrain.search.ratio.stage_problem import StageProblem
+    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.search.ratio.stage_problem import FeasiblePairings
 
     Ints = NDArray[Any]
     Span = tuple[Ints, Ints]
-    from geartrain.numerics.arrays import Bools
-    from geartrain.search.ratio.stage_pairs import FeasiblePairings
 
 
 _BINS = 256  # of the logarithms of counts
@@ -126,8 +132,6 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
     Result: `count`; `removed`, reason -> pairs of sets within the tolerance that are no solutions; `rows`, the best as
     [what the order asks for, counts on top, counts beneath].
     """
-    from geartrain.search.ratio.search_segments import RowFinder, ValueFinder
-
     question = stage_problem_of(task["question"])
     plain = task["bound"]
     bound = (plain[0], Fraction(plain[1]), plain[2]) if plain else None
@@ -186,10 +190,10 @@ class ValueFinder:
         self.question, self.hint = question, hint
         self.most = (bound[1], bound[2]) if bound else None
         self.count = 0
-        self.keys: list[Key] = []
+        self.keys: list[StageRank] = []
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segments.search_segment`."""
+        """Plain data: see `search_segment`."""
         rows = [[0, list(key[4]), list(key[5])] for key in self.keys]
         return {"count": self.count, "removed": {}, "rows": rows}
 
@@ -246,7 +250,7 @@ class ValueFinder:
         over, under = over[order], under[order]
         least = _least_sums(over, under, size)
         misses, place = error_places(over, under, value)
-        fresh: list[Key] = []
+        fresh: list[StageRank] = []
         # nearest first, then by the least sum that is possible: from the first that is too late on, all are
         for at in np.lexsort((least, place)).tolist():
             miss, total = misses[place[at]], float(least[at])
@@ -313,7 +317,7 @@ class RowFinder:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segments.search_segment`."""
+        """Plain data: see `search_segment`."""
         found = self.judge.result()
         return {**found, "count": self.count} if self.loose else found
 
@@ -376,7 +380,7 @@ class StageFilter:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `search_segments.search_segment`."""
+        """Plain data: see `search_segment`."""
         rows = self.best.rows()
         plain = zip(rows.first.tolist(), rows.top.tolist(), rows.beneath.tolist(), strict=True) if rows else ()
         return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}

@@ -13,7 +13,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.work import Execution
 from geartrain.search.integer_columns import spread, spread_in_blocks
-from geartrain.search.ratio.product_windows import cuts, multisets, reach_of_errors, rounded_up
+from geartrain.search.ratio.product_windows import cuts, multisets, reach_of_errors, rounded_up, row_products
 from geartrain.search.ratio.search_segments import (
     CHUNK,
     SegmentPlan,
@@ -24,8 +24,7 @@ from geartrain.search.ratio.search_segments import (
     sets_of,
     task_of,
 )
-from geartrain.search.ratio.solution_order import Key, key_of, merged
-from geartrain.search.ratio.stage_problem import StageProblem, stage_problem_of
+from geartrain.search.ratio.stage_problem import StageProblem, StageRank, key_of, merged, stage_problem_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -112,7 +111,7 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
 def _judge(question: StageProblem, counts: Ints, chosen: Ints, judge: StageFilter) -> None:
     """Exact windows, then the other conditions."""
     tops, beneaths = np.sort(counts[chosen, 0], axis=1), np.sort(counts[chosen, 1], axis=1)
-    over, under = _products(tops), _products(beneaths)
+    over, under = row_products(tops), row_products(beneaths)
     inside = np.flatnonzero(_are_within(over, under, question))
     each = np.arange(len(inside))
     judge.see(sets_of(over[inside], tops[inside]), sets_of(under[inside], beneaths[inside]), each, each)
@@ -126,13 +125,6 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
     first, last = cuts(values, under, *question.edges)
     at = np.searchsorted(values, over)
     return np.asarray((first <= at) & (at < last))
-
-
-def _products(counts: Ints) -> Ints:
-    found = np.ones(len(counts), dtype=counts.dtype)
-    for column in counts.T:
-        found = found * column
-    return found
 
 
 def _halves(number: int, size: int) -> Ints:
@@ -165,7 +157,7 @@ class SweepOutcome:
     tolerance: Fraction
     count: int = 0
     removed: Mapping[str, int] = field(default_factory=dict)
-    keys: Sequence[Key] = ()
+    keys: Sequence[StageRank] = ()
     complete: bool = True
     note: str = ""
 
@@ -330,7 +322,7 @@ def _swept(
     """The results of all pieces as one; what is there so far if the user interrupts."""
     alone = len(tasks) == 1
     results = iter([work(tasks[0])]) if alone else means.run(work, tasks)
-    count, keys, complete = 0, list[Key](), True
+    count, keys, complete = 0, list[StageRank](), True
     removed: dict[str, int] = {}
     try:
         for result in results:
@@ -343,5 +335,5 @@ def _swept(
     return SweepOutcome(tolerance, count, removed, keys, complete)
 
 
-def _keys(result: Mapping[str, Any], question: StageProblem) -> list[Key]:
+def _keys(result: Mapping[str, Any], question: StageProblem) -> list[StageRank]:
     return [key_of(first, top, beneath, question.value) for first, top, beneath in result["rows"]]

@@ -1,6 +1,4 @@
-"""What the search for stages found.
-
-One ratio by one to five stages of gear pairs: every solution within a tolerance, or the best, proved.
+"""One ratio by one to five stages of gear pairs: every solution within a tolerance, or the best, proved.
 
 A train of k stages has the ratio P / Q, P and Q products of k counts each. For every product Q beneath, those P on top
 that are within the tolerance are a window of a sorted list: sorted products answer what trying all pairs would, at the
@@ -11,27 +9,31 @@ memory and makes independent pieces of work: four stages of 200 counts (69 milli
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import prod
 from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution, Journal
-from geartrain.search.gear_pair_search import count_pairs, find_pairs
-from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets
-from geartrain.search.ratio.segment_sweep import SweepOutcome, nearest, within
-from geartrain.search.ratio.solution_order import Key as RankingKey
-from geartrain.search.ratio.solution_order import check_order
-from geartrain.search.ratio.stage_infeasibility import OUTSIDE, SENSE, explain
-from geartrain.search.ratio.stage_pairs import best_pairing
-from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem
+from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
+from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
+from geartrain.search.ratio.segment_sweep import SweepOutcome, nearest, tally, within
+from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem, StageRank, best_pairing, check_order
 from geartrain.search.search_outcome import GearStages, Shortfall
 from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts
+
+OUTSIDE = "outside the tolerance"
+SENSE = "the other sense of rotation"
+DEFAULT_TOLERANCE = Fraction(1, 10**6)
+_FAR = 10**12  # times beyond all ratios of the counts
+_LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
+_QUICK = 3 * 10**6  # products made to find out what one more stage would give
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,11 +129,6 @@ class StageFindings(Result):
 
     def __getitem__(self, at: int) -> GearStages:
         return self.solutions[at]
-
-
-_FAR = 10**12  # times beyond all ratios of the counts
-_LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
-DEFAULT_TOLERANCE = Fraction(1, 10**6)
 
 
 def find_stages(
@@ -285,12 +282,10 @@ def _findings(
     )
 
 
-def _stages(key: RankingKey, question: StageProblem) -> GearStages:
+def _stages(key: StageRank, question: StageProblem) -> GearStages:
     """One solution, paired."""
-    _, _, _, _, top, beneath = key
-    ratio = Fraction(1)
-    for a, b in zip(top, beneath, strict=True):
-        ratio *= Fraction(a, b)
+    top, beneath = key[4:]
+    ratio = Fraction(prod(top), prod(beneath))
     pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
     assert pairs is not None  # the search lists only what can be paired
     return GearStages(top, beneath, ratio, ratio / question.value - 1, pairs)
@@ -333,3 +328,88 @@ def _check_reach(question: StageProblem) -> None:
 
 def _refused(what: str, why: str, fix: str) -> QuestionError:
     return QuestionError(Problem(what, why, fix))
+
+
+# --------------------------------------------- why there are no stages, or so few: what was nearest, and what to relax
+
+
+def tolerance_text(tolerance: Fraction) -> str:
+    """A tolerance or an error in a few digits, never less than it is."""
+    return decimal(rounded_up(tolerance), 6)
+
+
+def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
+    """Reason -> pairs of sets it removed; with the solutions they make all that were considered."""
+    removed = {f"a count above {question.fit.largest}": considered - question.considered}
+    known = dict(outcome.removed)
+    if question.fit.reverted and not question.fit.internal:
+        removed.update(tally(question))
+    removed[OUTSIDE] = considered - sum(removed.values()) - sum(known.values()) - outcome.count
+    for reason, number in known.items():
+        removed[reason] = removed.get(reason, 0) + number
+    return {reason: number for reason, number in removed.items() if number}
+
+
+def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
+    """The account, and for an empty outcome the nearest miss and what to relax."""
+    if not outcome.complete:
+        return Shortfall(considered, {}, advice="the search was cut short; take it up again, or narrow the counts")
+    removed = account(question, considered, outcome)
+    if outcome.count:
+        return Shortfall(considered, removed)
+    one, means = replace(question, by="error", best=1), replace(means, journal=None)
+    try:
+        miss = nearest(one, means)
+        plain = miss if question.fit.free else nearest(replace(one, fit=StageConstraints()), means)
+        advice = "; ".join(_advice(question, miss, removed, sense))
+    except KeyboardInterrupt:  # the answer stands, only its explanation is cut short
+        return Shortfall(considered, removed)
+    return Shortfall(considered, removed, _nearest(question, miss, plain), advice)
+
+
+def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
+    """The best of all in words, and the best without conditions where that is another one."""
+    parts = []
+    if miss.keys and miss.complete:
+        parts.append(in_words(miss.keys[0], question.value))
+    elif miss.complete and not miss.note:
+        parts.append("no counts satisfy the conditions, whatever the tolerance")
+    if plain.keys and plain.complete and plain.keys[:1] != miss.keys[:1]:
+        parts.append(f"without conditions {in_words(plain.keys[0], question.value)}")
+    return "; ".join(parts)
+
+
+def in_words(key: StageRank, value: Fraction) -> str:
+    """Counts, ratio and error of one solution."""
+    top, beneath = key[4:]
+    ratio = Fraction(prod(top), prod(beneath))
+    counts = f"{' x '.join(map(str, top))} / {' x '.join(map(str, beneath))}"
+    return f"{counts} = {decimal(ratio, 10)}, error {float(ratio / value - 1):+.3g}"
+
+
+def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
+    """What to relax, most certain first."""
+    if miss.keys and miss.complete:
+        yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
+    for reason, number in removed.items():
+        if reason not in (OUTSIDE, f"a count above {question.fit.largest}") and not question.fit.reverted:
+            yield f"'{reason}' removed {number} within the tolerance: give it up"
+    if question.stages < MOST_STAGES:
+        yield from _one_more(question, sense)
+
+
+def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
+    """What another stage would give, if that is quickly known."""
+    size = question.stages + 1
+    fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
+    ring = ", its mesh with a ring so that the sense stays," if sense else ""
+    more = replace(question, stages=size, best=1, by="error", fit=fit)
+    if max(multisets(len(counts), size) for counts in (question.top, question.beneath)) > _QUICK or not fit.free:
+        yield f"try {size} stages"
+        return
+    try:
+        count = within(more, Execution()).count
+    except RangeError:
+        return
+    if count:
+        yield f"one more stage{ring} gives {count} solutions"

@@ -8,7 +8,7 @@ import typer
 
 from geartrain.cli.common import Force, Json, Out
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.search.verb_options import (
+from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,

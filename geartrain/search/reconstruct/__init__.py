@@ -1,15 +1,16 @@
 """Reconstruction: every train that explains surviving arbors and the speeds of pointers.
 
-`reconstruct` answers a `ReconstructionRequest`. The modules in the order of the search:
+`reconstruct` answers a `ReconstructionRequest` on declared evidence. The same in steps: `evidence_question` makes a
+`ReconstructionProblem` of the evidence, `find_reconstructions` counts its explanations and lists the best,
+`candidate_train` writes one as a train. The modules in the order of the search:
 
 The question
 
 - `link_roles`: the link that bears the arbors, and links that couplings join to one arbor
-- `surviving_geometry`: measured modules, radii and places of axes
-- `reconstruction_problem`: the typed question, its size and its digest
-- `evidence_question`: translation of declared evidence into the question
-- `spur_tree`: parts of a complete train, trees found by breadth-first search along meshes
-- `lost_arbors`: evidence of such a part without some of its arbors
+- `reconstruction_problem`: the typed question with measured modules, radii and places of axes; its size and its digest
+- `evidence_translation`: translation of declared evidence into the question
+- `spur_tree`: parts of a complete train, trees found by breadth-first search along meshes; evidence of such a part
+  without some of its arbors
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
 
@@ -21,22 +22,21 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `added_counts`: choices of added counts, by variable elimination and tables of products; summed and drawn
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, by dynamic programming over subsets
-- `search_tasks`: independent tasks, which run in any process; trains of a topology are orders times counts
-- `expected_cost`: time of the search, extrapolated from a sample of its tasks
+- `search_tasks`: independent tasks, which run in any process; their time, extrapolated from a sample of them
 - `geometry_likelihood`: agreement with measurements; closed polygons, and layers by dynamic programming over bit masks
-- `reconstruction_result`: results, prior weights, and equality up to order (bags, classes)
-- `reconstruction_search`: the counts, the candidates of greatest weight, random draws
+- `reconstruction_search`: the counts, the candidates of greatest weight, random draws; equality up to order (bags)
 
 The answer
 
-- `candidate_train`: a complete declaration of a candidate
-- `explained_facts`: exact marginals of facts over all trains, and the fact of greatest entropy
+- `train_construction`: a complete declaration of a candidate
+- `explained_facts`: exact marginals of facts over all trains, the fact of greatest entropy, and the family tree, a trie
+  over meshes
 - `dropped_facts`: counts without each hard fact, and why nothing fits
-- `candidate_findings`: what is reported beyond counts, and the family tree, a trie over meshes
-- `known_train`: a train of the literature in the names of the question
-- `candidate_rules`: rules that such a train breaks, and the question that would admit it
+- `candidate_rules`: a train of the literature in the names of the question, the rules that it breaks, and the question
+  that would admit it
 - `known_rank`: its rank, and the smallest sets of facts that single it out (all sets of up to three)
 - `reconstruction`: the request, and all of the above in one call
+- `reconstruction_report`: the answer as a document; `verb`, `reconstruction_run`: the command
 """
 
 from __future__ import annotations
@@ -46,12 +46,71 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion as EvidenceQuestion
+    from geartrain.search.reconstruct.evidence_translation import evidence_question as evidence_question
+    from geartrain.search.reconstruct.reconstruction import RankedTrain as RankedTrain
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer as ReconstructionAnswer
     from geartrain.search.reconstruct.reconstruction import ReconstructionRequest as ReconstructionRequest
     from geartrain.search.reconstruct.reconstruction import reconstruct as reconstruct
+    from geartrain.search.reconstruct.reconstruction_problem import Additions as Additions
+    from geartrain.search.reconstruct.reconstruction_problem import Arbor as Arbor
+    from geartrain.search.reconstruct.reconstruction_problem import PlacedWheel as PlacedWheel
+    from geartrain.search.reconstruct.reconstruction_problem import PriorFactors as PriorFactors
+    from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem as ReconstructionProblem
+    from geartrain.search.reconstruct.reconstruction_problem import SearchedDial as SearchedDial
+    from geartrain.search.reconstruct.reconstruction_problem import SurvivingArbor as SurvivingArbor
+    from geartrain.search.reconstruct.reconstruction_problem import SurvivingWheel as SurvivingWheel
+    from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction as describe_reconstruction
+    from geartrain.search.reconstruct.reconstruction_search import Candidate as Candidate
+    from geartrain.search.reconstruct.reconstruction_search import ExplanationCount as ExplanationCount
+    from geartrain.search.reconstruct.reconstruction_search import Reconstructions as Reconstructions
+    from geartrain.search.reconstruct.reconstruction_search import draw_candidates as draw_candidates
+    from geartrain.search.reconstruct.reconstruction_search import find_reconstructions as find_reconstructions
+    from geartrain.search.reconstruct.train_construction import candidate_train as candidate_train
+    from geartrain.train.declaration_files import read_evidence as read_evidence
 
-__all__ = ["ReconstructionAnswer", "ReconstructionRequest", "reconstruct"]
+__all__ = [
+    "Additions",
+    "Arbor",
+    "Candidate",
+    "EvidenceQuestion",
+    "ExplanationCount",
+    "PlacedWheel",
+    "PriorFactors",
+    "RankedTrain",
+    "ReconstructionAnswer",
+    "ReconstructionProblem",
+    "ReconstructionRequest",
+    "Reconstructions",
+    "SearchedDial",
+    "SurvivingArbor",
+    "SurvivingWheel",
+    "candidate_train",
+    "describe_reconstruction",
+    "draw_candidates",
+    "evidence_question",
+    "find_reconstructions",
+    "read_evidence",
+    "reconstruct",
+]
 
-_PLACES = dict.fromkeys(__all__, "reconstruction")
+_PLACES = {
+    **dict.fromkeys(("EvidenceQuestion", "evidence_question"), "evidence_translation"),
+    **dict.fromkeys(("RankedTrain", "ReconstructionAnswer", "ReconstructionRequest", "reconstruct"), "reconstruction"),
+    **dict.fromkeys(
+        (
+            *("Additions", "Arbor", "PlacedWheel", "PriorFactors", "ReconstructionProblem", "SearchedDial"),
+            *("SurvivingArbor", "SurvivingWheel"),
+        ),
+        "reconstruction_problem",
+    ),
+    **dict.fromkeys(
+        ("Candidate", "ExplanationCount", "Reconstructions", "draw_candidates", "find_reconstructions"),
+        "reconstruction_search",
+    ),
+    "candidate_train": "train_construction",
+    "describe_reconstruction": "reconstruction_report",
+    "read_evidence": "..train.declaration_files",
+}
 
 __getattr__ = lazy_names(__name__, _PLACES)

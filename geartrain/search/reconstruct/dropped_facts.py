@@ -18,8 +18,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingWheel,
     find_unreachable,
 )
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions
-from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
+from geartrain.search.reconstruct.reconstruction_search import Reconstructions, find_reconstructions
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
 """What finds all explanations of a question."""
@@ -69,17 +68,13 @@ class ChangedCount(Result):
         return next((added for added, count in enumerate(self.mechanisms) if count), None)
 
 
-def count_changed(
-    questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
-) -> tuple[ChangedCount, ...]:
-    """The counts of questions, in their order; `search` stands at the top of a module."""
-    return tuple(changed_counts(questions, execution, search))
-
-
 def changed_counts(
     questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
 ) -> Iterator[ChangedCount]:
-    """The same, each as it comes; an interrupted one is not told, so that no journal keeps half of it."""
+    """The counts of questions in their order, each as it comes; `search` is a function at the top of a module.
+
+    An interrupted one is left out, so that no journal keeps half of it.
+    """
     answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
     for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True):
         yield ChangedCount(question.change, tuple(mechanisms), complete, refused)
@@ -233,7 +228,7 @@ def explain_missing(
     """Why a question has no answer; `search` stands at the top of a module."""
     dials = tuple(_alone(problem, at, search) for at in range(len(problem.dials)))
     changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread(problem)]
-    counts = count_changed(changed, execution, search)
+    counts = tuple(changed_counts(changed, execution, search))
     cheap = sorted((one for one in counts if one.total), key=lambda one: one.fewest or 0)
     refused = tuple(one.change for one in counts if one.refused is not None)
     return MissingExplanation(dials, tuple(cheap), len(changed), refused)

@@ -18,8 +18,7 @@ from functools import cache
 from itertools import combinations, product
 from typing import NamedTuple
 
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.search.reconstruct.surviving_geometry import SurvivingGeometry
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, SurvivingGeometry
 
 # Whether arbors without a known place can stand where their meshes need them, between arbors that have one. Between
 # two placed arbors every chain of arbors without a place is a polygon: its sides are the distance of the two and

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
@@ -12,21 +12,29 @@ from geartrain.numerics.results import Key, Result
 from geartrain.search.reconstruct.candidate_names import NamedArbor
 from geartrain.search.reconstruct.candidate_rules import (
     BrokenRule,
+    KnownTrain,
     admitting_question,
     as_missing_dial,
     broken_rules,
+    find_known_train,
 )
-from geartrain.search.reconstruct.candidate_train import named_candidate
+from geartrain.search.reconstruct.dropped_facts import Search
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
     lost_pointers,
     train_facts,
     wheels_in_doubt,
 )
-from geartrain.search.reconstruct.known_train import KnownTrain, find_known_train
-from geartrain.search.reconstruct.lost_arbors import is_all_listed, rank_of
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import Reconstructions, mechanism, prior, weight_ranks
+from geartrain.search.reconstruct.reconstruction_search import (
+    Reconstructions,
+    is_all_listed,
+    mechanism,
+    prior,
+    rank_of,
+    weight_ranks,
+)
+from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
 # Which facts single one train out among all that explain the evidence: each alone, and the smallest sets of them.
@@ -256,10 +264,6 @@ class KnownRank(Result):
     place: TrainPlace | None = None
     admitted: tuple[AdmittingQuestion, ...] = ()
     telling: TellingFacts | None = None
-
-
-Search = Callable[[ReconstructionProblem], Reconstructions]
-"""What finds all explanations of a question."""
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.errors import Loc, Problem
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
-from geartrain.search.reconstruct.surviving_geometry import PlacedArbor
+from geartrain.numerics.graphs import joined_groups
+from geartrain.search.reconstruct.reconstruction_problem import PlacedArbor, ReconstructionProblem, SurvivingArbor
 from geartrain.train import Train
 
 # The link that bears the arbors of a train, and the one at which the train begins: the frame and the input. Or a
@@ -192,16 +192,11 @@ Joined = Mapping[str, tuple[str, ...]]
 
 def joined_arbors(evidence: Train) -> Joined:
     """What the given couplings of evidence join: called after the input, else the first link with wheels."""
-    groups: dict[str, set[str]] = {}
-    for pair, _ in _pairs(evidence):
-        group = set().union(*(groups.get(link, {link}) for link in pair))
-        groups.update(dict.fromkeys(group, group))
     found = {}
-    for link in evidence.links:
-        if link in groups:
-            own = [other for other in evidence.links if other in groups[link]]
-            own.sort(key=lambda other: (other not in evidence.inputs, not evidence.links[other].wheels))
-            found[own[0]] = tuple(own)
+    for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):
+        if len(links) > 1:
+            links.sort(key=lambda link: (link not in evidence.inputs, not evidence.links[link].wheels))
+            found[links[0]] = tuple(links)
     return found
 
 

@@ -10,8 +10,7 @@ from typing import Literal
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.candidate_findings import NO_FINDINGS, CandidateFindings, find_facts
-from geartrain.search.reconstruct.candidate_train import TrainConstruction
+from geartrain.search.reconstruct.candidate_rules import check_same, find_known_train
 from geartrain.search.reconstruct.dropped_facts import (
     ChangedCount,
     ChangedQuestion,
@@ -19,16 +18,22 @@ from geartrain.search.reconstruct.dropped_facts import (
     explain_missing,
     without_each_fact,
 )
-from geartrain.search.reconstruct.evidence_question import EvidenceQuestion, evidence_question
-from geartrain.search.reconstruct.expected_cost import ExpectedCost, expect_cost
+from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, evidence_question
+from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
 from geartrain.search.reconstruct.known_rank import KnownRank, RankedQuestion, rank_known_train
-from geartrain.search.reconstruct.known_train import check_same, find_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
-from geartrain.search.reconstruct.lost_arbors import lost_arbors, lost_evidence, rank_of
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, AskedQuestion, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import Candidate, ExplanationCount, Reconstructions
-from geartrain.search.reconstruct.reconstruction_search import draw_candidates, find_reconstructions
-from geartrain.search.reconstruct.spur_tree import find_spur_tree
+from geartrain.search.reconstruct.reconstruction_search import (
+    Candidate,
+    ExplanationCount,
+    Reconstructions,
+    draw_candidates,
+    find_reconstructions,
+    rank_of,
+)
+from geartrain.search.reconstruct.search_tasks import ExpectedCost, expect_cost
+from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, lost_evidence
+from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
 
 _ALL = 1_000_000
@@ -68,6 +73,10 @@ class ReconstructionRequest:
         Trains that are ranked among the explanations.
     same : mapping of str to str
         Wheels and outputs of these trains, with their names in the evidence.
+
+    See Also
+    --------
+    reconstruct : answers it.
     """
 
     evidence: Train
@@ -136,6 +145,10 @@ class RankedTrain(Result):
         Surviving wheels that have a range of counts, with the one that they have here.
     meshes : tuple of str
         Every mesh, the driving wheel first.
+
+    See Also
+    --------
+    reconstruct : lists the best.
     """
 
     KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
@@ -181,8 +194,14 @@ class ReconstructionAnswer(Result):
         What the search was expected to cost before it began.
     evidence : Train, optional
         The evidence that was asked of; with lost arbors what is left of the train.
+    problem : ReconstructionProblem
+        The typed question.
     candidates : tuple of Candidate
         Those of `best`.
+
+    See Also
+    --------
+    reconstruct : gives it.
     """
 
     KEYS = (
@@ -232,8 +251,13 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     Parameters
     ----------
     request : ReconstructionRequest
+        The evidence, and what is asked of it.
     run : ReconstructionRun, optional
         How the long parts are run; default one after the other in this process.
+
+    Returns
+    -------
+    ReconstructionAnswer
 
     Raises
     ------
@@ -242,7 +266,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
 
     Examples
     --------
-    >>> from geartrain.train.declaration_files import read_evidence
+    >>> from geartrain.search.reconstruct import read_evidence
     >>> found = reconstruct(ReconstructionRequest(read_evidence("metonic-l-m")))
     >>> found.total, found.best[0].wheels
     (2, {'new_metonic1': 53})

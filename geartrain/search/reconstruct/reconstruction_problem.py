@@ -1,13 +1,14 @@
-"""Typed question of a reconstruction: surviving arbors with wheels, dials with speeds, what may be added.
+"""Typed question of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, what may be added.
 
 Speeds are turns per unit of the input arbor, exact, positive in one sense. The input arbor turns at `input_speed`.
+Lengths are millimetres, exact. Axes are parallel, so a place is where an axis crosses the plan.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -15,20 +16,144 @@ from itertools import product
 from math import prod
 from typing import Literal
 
-from geartrain.errors import Problem
+from geartrain.errors import DeclarationError, Problem
+from geartrain.numerics.exact import plural
+from geartrain.numerics.quantity import Quantity
 from geartrain.numerics.results import Result
-from geartrain.search.reconstruct.surviving_geometry import NO_GEOMETRY, SurvivingGeometry
+from geartrain.train import Train
+
+Place = tuple[Fraction, Fraction]
+Bounds = tuple[Fraction, Fraction]
+Size = tuple[str | None, int]
+"""A wheel by its name, None for an added one, and its count of teeth."""
 
 NEW = "new"
 """The place of a dial whose arbor does not survive."""
+UNMEASURED_SPREADS = 3
+"""A wheel that was not measured has the module of its mate within so many spreads, where impossible is told from
+improbable."""
+_MOST_DOUBTS = 3
+
+
+@dataclass(frozen=True)
+class MeasuredWheel:
+    """A wheel whose module was measured, or its pitch radius.
+
+    length   that length
+    """
+
+    name: str
+    is_module: bool
+    length: Fraction
+
+
+@dataclass(frozen=True)
+class PlacedArbor:
+    """A surviving arbor whose axis has a known place."""
+
+    name: str
+    place: Place
+
+
+@dataclass(frozen=True)
+class SurvivingGeometry:
+    """What was measured, and how it is weighed.
+
+    module     spread of the logarithm of the quotient of two modules in mesh
+    distance   spread of the logarithm of the sum of pitch radii over the distance of axes
+    reach      greatest difference of those two that is possible; None if any is
+    radius     error of every measured pitch radius; None if it is part of the spread of modules
+    """
+
+    wheels: tuple[MeasuredWheel, ...] = ()
+    arbors: tuple[PlacedArbor, ...] = ()
+    module: Fraction = Fraction(43, 1000)
+    distance: Fraction = Fraction(3, 100)
+    reach: Fraction | None = None
+    radius: Fraction | None = None
+
+    @cached_property
+    def places(self) -> Mapping[str | None, Place]:
+        """Places by arbor."""
+        return {arbor.name: arbor.place for arbor in self.arbors}
+
+    @cached_property
+    def measured(self) -> Mapping[str | None, MeasuredWheel]:
+        """What was measured, by wheel."""
+        return {wheel.name: wheel for wheel in self.wheels}
+
+    def module_of(self, size: Size) -> Fraction | None:
+        """The module of a wheel; None where it was not measured."""
+        wheel = self.measured.get(size[0])
+        if wheel is None:
+            return None
+        return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
+
+    def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
+        """Of two axes; None where a place is not known."""
+        if first not in self.places or second not in self.places:
+            return None
+        (x, y), (u, v) = self.places[first], self.places[second]
+        return (x - u) ** 2 + (y - v) ** 2
+
+    def radii_sum(self, first: Size, second: Size) -> Fraction | None:
+        """Sum of the pitch radii of wheels in mesh, which share a module; None where neither was measured."""
+        module, other = self.module_of(first), self.module_of(second)
+        if module is None and other is None:
+            return None
+        module, other = (other if module is None else module), (module if other is None else other)
+        assert module is not None
+        assert other is not None
+        return (module * first[1] + other * second[1]) / 2
+
+    def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
+        """How far apart axes may be whose wheels mesh; None where that is not bounded."""
+        own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
+        if own is None or mate is None or self.reach is None:
+            return None
+        least, greatest = ((one * first[1] + other * second[1]) / 2 for one, other in zip(own, mate, strict=True))
+        return max(Fraction(0), least - self.reach), greatest + self.reach
+
+    def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
+        """What the module of a wheel may be beside a mate; None where neither was measured."""
+        module = self.module_of(size)
+        if module is not None:
+            return module, module
+        module = self.module_of(mate)
+        if module is None:
+            return None
+        spread = min(Fraction(1), UNMEASURED_SPREADS * self.module)
+        return module * (1 - spread), module * (1 + spread)
+
+    def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
+        """Whether the distance of two axes allows that their wheels mesh, as far as both are known."""
+        square, bounds = self.square_distance(arbor, other_arbor), self.distance_bounds(wheel, other)
+        if square is None:
+            return True
+        if not square:
+            return False  # on one axis
+        return bounds is None or bounds[0] ** 2 <= square <= bounds[1] ** 2
+
+
+NO_GEOMETRY = SurvivingGeometry()
 
 
 @dataclass(frozen=True)
 class SurvivingWheel:
-    """A wheel that survives: its name and the counts it may have, each with its prior weight.
+    """A surviving wheel: its name and the counts that it may have, each with its prior weight.
 
-    counts    teeth and weights, sorted by teeth, no count twice, weights positive; one pair where the count is sure
-    internal  whether it is a ring: its teeth point inwards
+    Attributes
+    ----------
+    name : str
+        Of the wheel.
+    counts : tuple of (int, Fraction)
+        Teeth and weights, ascending, no count twice, weights positive; one pair where the count is sure.
+    internal : bool
+        Whether it is a ring: its teeth point inwards.
+
+    See Also
+    --------
+    ReconstructionProblem : is made of them.
     """
 
     name: str
@@ -43,7 +168,19 @@ class SurvivingWheel:
 
 @dataclass(frozen=True)
 class SurvivingArbor:
-    """Wheels that are fixed together."""
+    """A surviving arbor: wheels that are fixed together.
+
+    Attributes
+    ----------
+    name : str
+        Of the arbor.
+    wheels : tuple of SurvivingWheel
+        Those that are fixed on it.
+
+    See Also
+    --------
+    ReconstructionProblem : is made of them.
+    """
 
     name: str
     wheels: tuple[SurvivingWheel, ...]
@@ -53,9 +190,20 @@ class SurvivingArbor:
 class SearchedDial:
     """A pointer and the speed that it must have.
 
-    least, greatest   bounds of its speed, equal where it must be exact
-    signed            whether the sense is known; if not, bounds are those of the magnitude
-    place             the surviving arbor that carries it, `NEW`, or None where that is not known
+    Attributes
+    ----------
+    name : str
+        Of the pointer.
+    least, greatest : Fraction
+        Bounds of its speed [turns per unit of the input], equal where it must be exact.
+    signed : bool
+        Whether the sense is known; if not, bounds are those of the magnitude.
+    place : str, optional
+        The surviving arbor that carries it, "new" where that does not survive, or None where it is not known.
+
+    See Also
+    --------
+    ReconstructionProblem : is made of them.
     """
 
     name: str
@@ -72,9 +220,22 @@ class SearchedDial:
 
 @dataclass(frozen=True)
 class Additions:
-    """What may be added: so many wheels, so many arbors, counts of teeth from least to greatest, and where.
+    """What may be added.
 
-    on   "any": also beside surviving wheels, where they drive; "new": on new arbors alone
+    Attributes
+    ----------
+    wheels : int
+        The maximum number of added wheels.
+    least, greatest : int
+        Bounds of their tooth counts, inclusive.
+    arbors : int, optional
+        The maximum number of added arbors; default any number.
+    on : {"any", "new"}
+        "any": also beside surviving wheels, where they drive; "new": only on new arbors.
+
+    See Also
+    --------
+    ReconstructionProblem : holds them.
     """
 
     wheels: int
@@ -86,7 +247,17 @@ class Additions:
 
 @dataclass(frozen=True)
 class PriorFactors:
-    """By what factor a candidate is less probable for each added wheel, added arbor and unused surviving wheel."""
+    """By what factor a candidate is less probable for each added wheel, added arbor and unused surviving wheel.
+
+    Attributes
+    ----------
+    wheel, arbor, unused : Fraction
+        1 or more.
+
+    See Also
+    --------
+    ReconstructionProblem : holds them.
+    """
 
     wheel: Fraction = Fraction(10)
     arbor: Fraction = Fraction(10)
@@ -95,14 +266,39 @@ class PriorFactors:
 
 @dataclass(frozen=True)
 class ReconstructionProblem:
-    """Surviving arbors, dials and the rules.
+    """The typed question of a reconstruction: surviving arbors, dials and the rules.
 
-    meshes   pairs of names of wheels that were seen in mesh
-    apart    pairs of names of wheels that do not mesh
-    coaxial  pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included
-    use      "wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither
-    idlers   whether a driven wheel may drive
-    geometry  what was measured; pairs that it keeps apart are in `apart` and `coaxial` already
+    Attributes
+    ----------
+    input : SurvivingArbor
+        The arbor where a train begins.
+    arbors : tuple of SurvivingArbor
+        The other ones.
+    dials : tuple of SearchedDial
+        The pointers, each with its speed.
+    additions : Additions
+        What may be added.
+    input_speed : Fraction
+        Speed of the input arbor [turns per unit].
+    meshes : frozenset of frozenset of str
+        Pairs of names of wheels that were seen in mesh.
+    apart : frozenset of frozenset of str
+        Pairs of names of wheels that do not mesh.
+    coaxial : frozenset of frozenset of str
+        Pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included.
+    use : {"wheels", "arbors", "some"}
+        "wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither.
+    idlers : bool
+        Whether a driven wheel may drive.
+    factors : PriorFactors
+        What the prior is made of.
+    geometry : SurvivingGeometry
+        What was measured; pairs that it keeps apart are in `apart` and `coaxial` already.
+
+    See Also
+    --------
+    evidence_question : makes it from declared evidence.
+    find_reconstructions : answers it.
     """
 
     input: SurvivingArbor
@@ -126,7 +322,19 @@ class ReconstructionProblem:
 
 @dataclass(frozen=True)
 class PlacedWheel:
-    """A wheel of a candidate: a surviving one by its name, or an added one (name None), with its count."""
+    """A wheel of a candidate.
+
+    Attributes
+    ----------
+    name : str or None
+        Of the surviving wheel; None for an added one.
+    teeth : int
+        Its count.
+
+    See Also
+    --------
+    Candidate : is made of them.
+    """
 
     name: str | None
     teeth: int
@@ -136,11 +344,23 @@ class PlacedWheel:
 class Arbor:
     """An arbor of a candidate and all that it drives: the canonical form, in which equal mechanisms are equal.
 
-    name     of the surviving arbor, None for an added one
-    driven   the wheel that is driven; None for the input arbor
-    dials    names of the dials that it shows, sorted
-    drives   driving wheels with the arbors that each drives, sorted
-    passes   where idlers are allowed: arbors that the driven wheel itself drives, sorted
+    Attributes
+    ----------
+    name : str or None
+        Of the surviving arbor; None for an added one.
+    driven : PlacedWheel or None
+        The wheel that is driven; None for the input arbor.
+    dials : tuple of str
+        Names of the dials that it shows, sorted.
+    drives : tuple of (PlacedWheel, tuple of Arbor)
+        Driving wheels with the arbors that each drives, sorted.
+    passes : tuple of Arbor
+        Where idlers are allowed: arbors that the driven wheel itself drives, sorted.
+
+    See Also
+    --------
+    Candidate : holds the input arbor.
+    candidate_train : makes a train of it.
     """
 
     name: str | None
@@ -187,10 +407,7 @@ class Arbor:
         return sum(arbor.name is None for arbor in self.arbors())
 
 
-# How much a reconstruction asks: what survives, in how many ways it may be read, and what may be added.
-
-
-_MOST_DOUBTS = 3
+# --------------------------------------------------------------------------------------------------- how much is asked
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,10 +447,10 @@ class AskedQuestion(Result):
 
     def __str__(self) -> str:
         read = f", their counts in {self.readings} ways" if self.readings > 1 else ""
-        wheels = f"{_many(self.arbors, 'arbor')} with {_many(self.wheels, 'wheel')}{read}"
+        wheels = f"{plural(self.arbors, 'arbor')} with {plural(self.wheels, 'wheel')}{read}"
         least, greatest = self.teeth
-        added = f"at most {_many(self.added, 'added wheel')} of {least} to {greatest} teeth"
-        return f"{wheels}; {_many(self.dials, 'dial')}; {added if self.added else 'nothing added'}"
+        added = f"at most {plural(self.added, 'added wheel')} of {least} to {greatest} teeth"
+        return f"{wheels}; {plural(self.dials, 'dial')}; {added if self.added else 'nothing added'}"
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
@@ -246,13 +463,6 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
     ways.append("leave out arbors, or dials with the arbors that lead to them alone")
     return Problem(what, f"asked are {AskedQuestion.of(problem)}", "; or ".join(ways))
-
-
-def _many(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
-
-
-# A mark by which two runs know that they were asked the same.
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
@@ -270,7 +480,87 @@ def _plain(value: object) -> object:
     return str(value) if isinstance(value, Fraction) else value
 
 
-# Which surviving wheels the distances of their axes keep apart, exactly.
+# ---------------------------------------------------- geometry: from declared modules, radii and axes to what survives
+
+
+def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
+    """What was measured, nothing where the evidence does not ask that it be weighed.
+
+    Raises `DeclarationError` for a module that is not above 0, and for an arbor with a place where there is a ring.
+    """
+    assert evidence.reconstruct is not None, "no evidence"
+    asked = evidence.reconstruct.geometry
+    if asked is None:
+        return NO_GEOMETRY
+    radii = (MeasuredWheel(name, False, _millimetres(length)) for name, length in asked.radii.items())
+    return SurvivingGeometry(
+        (*_modules(evidence), *radii),
+        tuple(_placed(evidence)),
+        asked.module.base,
+        asked.distance.base,
+        None if asked.reach is None else _millimetres(asked.reach),
+        None if asked.radius is None else _millimetres(asked.radius),
+    )
+
+
+def unweighed_geometry(evidence: Train) -> Iterator[str]:
+    """What was measured and plays no part, a line each."""
+    assert evidence.reconstruct is not None, "no evidence"
+    if evidence.reconstruct.geometry is None:
+        for name, (_, wheel) in evidence.wheels.items():
+            if wheel.module is not None:
+                yield f"the module of '{name}', {wheel.module}: `reconstruct` has no `geometry`"
+    placed = {joint.axis for joint in evidence.revolutes} if evidence.reconstruct.geometry is not None else set()
+    why = "no arbor is on it" if evidence.reconstruct.geometry is not None else "`reconstruct` has no `geometry`"
+    for label, axis in evidence.axes.items():
+        if axis.position is not None and label not in placed:
+            yield f"the position of axis '{label}': {why}"
+
+
+def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) -> None:
+    """`DeclarationError` if wheels were seen in mesh that their axes keep apart."""
+    for gear in evidence.gears:
+        if frozenset(gear.pair) in unreachable:
+            what = f"'{gear.name}' was seen in mesh, and the distance of its axes does not allow it"
+            why = "pitch radii miss it by more than `reach` of `geometry`"
+            place = evidence.place("gears", evidence.gears.index(gear))
+            raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])
+
+
+def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
+    for name, (link, wheel) in evidence.wheels.items():
+        if wheel.module is None:
+            continue
+        if wheel.module.base <= 0:
+            place = evidence.place("links", link, "wheels", name, "module")
+            raise DeclarationError([Problem(f"the module of '{name}' is not above 0", "", "correct it", place)])
+        yield MeasuredWheel(name, True, _millimetres(wheel.module))
+
+
+def _placed(evidence: Train) -> Iterator[PlacedArbor]:
+    for joint in evidence.revolutes:
+        axis = evidence.axes.get(joint.axis)
+        if axis is None or axis.position is None:
+            continue
+        x, y, _ = map(_millimetres, axis.position)
+        for link in joint.pair:
+            if link != evidence.frame:
+                _refuse_ring(evidence, link, joint.axis)
+                yield PlacedArbor(link, (x, y))
+
+
+def _refuse_ring(evidence: Train, link: str, axis: str) -> None:
+    ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
+    if ring is not None:
+        what = f"where '{link}' stands is not weighed beside the ring '{ring}' yet"
+        why = "a ring and its mate are as far apart as their radii differ, of which the spread of a sum says little"
+        fix = "leave out the position of its axis, or `geometry`"
+        raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
+
+
+def _millimetres(length: Quantity) -> Fraction:
+    """Exact; a plain number counts as mm."""
+    return length.base if length.unit is None else length.base * 1000
 
 
 def find_unreachable(arbors: Sequence[SurvivingArbor], geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:

@@ -12,15 +12,15 @@ from geartrain.cli.common import Sink, tell
 from geartrain.cli.long_runs import RunOptions, close_journal, long_run, progress
 from geartrain.numerics.exact import plural
 from geartrain.numerics.work import Execution, Journal
-from geartrain.search.reconstruct.expected_cost import count_choices, done_shares, rough
 from geartrain.search.reconstruct.reconstruction import ReconstructionRun
 from geartrain.search.reconstruct.reconstruction_problem import AskedQuestion, question_digest
+from geartrain.search.reconstruct.search_tasks import count_choices, done_shares, rough
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.dropped_facts import ChangedCount, ChangedQuestion
-    from geartrain.search.reconstruct.expected_cost import ExpectedCost
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
     from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
+    from geartrain.search.reconstruct.search_tasks import ExpectedCost
 
 _LARGE = 15  # decimal logarithm of choices of counts above which their number is printed first
 _STEPS = 1000
@@ -113,8 +113,8 @@ def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.report.html_page import to_html
     from geartrain.scene import build_scene
-    from geartrain.search.reconstruct.candidate_train import candidate_train
     from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
+    from geartrain.search.reconstruct.train_construction import candidate_train
     from geartrain.viewer import page
 
     assert found.evidence is not None

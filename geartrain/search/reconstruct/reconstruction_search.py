@@ -1,39 +1,144 @@
-"""From a question to its counts and candidates: topologies are weighed, and the best trains listed."""
+"""From a question to exact counts and to candidates: topologies are weighed, the best trains are listed or drawn."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby, islice
 from random import Random
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import whole_multiple
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
 from geartrain.search.reconstruct.arbor_orders import MeshFacts, arranged, rings_limit
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
-from geartrain.search.reconstruct.reconstruction_result import (
-    Candidate,
-    ExplanationCount,
-    Reconstructions,
-    WeightClass,
-    bag,
-    prior,
-    ratio_class,
-    topology_prior,
-    weight_ranks,
-)
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.search_tasks import CountedTopology, TopologyTrains, count_topologies
 from geartrain.search.weighted_alternatives import draw_index
+
+if TYPE_CHECKING:
+    from geartrain.search.reconstruct.train_topology import Topology
 
 _LISTED = 20_000
 """Candidates that are made at most; of more of one weight, the first that are found."""
 _TOLD_APART = 300_000
 """Choices of counts up to which bags and classes are counted."""
+
+_Weight = TypeVar("_Weight", Fraction, float)
+_Wheel = tuple[str, int]
+_Step = tuple[str, _Wheel, _Wheel]
+"""An arbor on a path: its name, the wheel by which it is driven and the one by which the path goes on."""
+
+_NONE: _Wheel = ("", 0)
+
+
+@dataclass(frozen=True, slots=True)
+class ExplanationCount(Result):
+    """How many explanations there are with just so many added wheels.
+
+    Attributes
+    ----------
+    added : int
+        Added wheels.
+    mechanisms : int
+        Trains, all different.
+    bags : int or None
+        Trains that differ by more than the order of arbors on the path of a dial; None where they are too many.
+    classes : int or None
+        Trains that differ by more than which wheel drives which on the path of a dial; None likewise.
+
+    See Also
+    --------
+    find_reconstructions : gives it.
+    """
+
+    added: int
+    mechanisms: int
+    bags: int | None
+    classes: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate(Result):
+    """One explanation.
+
+    Attributes
+    ----------
+    arbor : Arbor
+        The train from its input on.
+    added : int
+        Added wheels.
+    weight : float
+        Its share of the weight of all explanations.
+    ranks : tuple of int
+        First and last rank by weight that it may have among all explanations, from 1 on; some may weigh the same.
+
+    See Also
+    --------
+    find_reconstructions : finds it.
+    """
+
+    KEYS = ("added", Key("weight", to=float), "ranks")
+
+    arbor: Arbor
+    added: int
+    weight: float
+    ranks: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class WeightClass(Result):
+    """Explanations of one weight.
+
+    Attributes
+    ----------
+    added : int
+        Added wheels of each.
+    weight : Fraction
+        What each weighs before its dials are looked at, up to a factor that all share.
+    mechanisms : int
+        How many they are.
+    """
+
+    added: int
+    weight: Fraction
+    mechanisms: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reconstructions(Result):
+    """All explanations of a question, counted, and the best of them.
+
+    Attributes
+    ----------
+    counts : tuple of ExplanationCount
+        By number of added wheels, from 0 on.
+    complete : bool
+        Whether all were looked at.
+    candidates : tuple of Candidate
+        The best first.
+    topologies : tuple of CountedTopology
+        All structures with the numbers of their trains, where each train weighs as its structure; else none.
+    weights : tuple of WeightClass
+        All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself.
+
+    See Also
+    --------
+    find_reconstructions : gives it.
+    """
+
+    KEYS = ("counts", "complete", "candidates")
+
+    counts: tuple[ExplanationCount, ...]
+    complete: bool
+    candidates: tuple[Candidate, ...]
+    topologies: tuple[CountedTopology, ...] = ()
+    weights: tuple[WeightClass, ...] = ()
 
 
 def find_reconstructions(
@@ -47,6 +152,7 @@ def find_reconstructions(
     Parameters
     ----------
     problem : ReconstructionProblem
+        The typed question.
     execution : Execution, optional
         How the parts of the search are done; default one after the other in this process.
     listed : int
@@ -54,10 +160,21 @@ def find_reconstructions(
     per : {"mechanism", "class"}
         What has a weight of its own: every train, or every ratio class, whose trains then share it.
 
+    Returns
+    -------
+    Reconstructions
+
     Raises
     ------
     QuestionError
         If more trains than can be listed would have to be, to share weights by class or to weigh measured sizes.
+
+    Examples
+    --------
+    >>> from geartrain.search.reconstruct import evidence_question, read_evidence
+    >>> found = find_reconstructions(evidence_question(read_evidence("metonic-l-m")).problem)
+    >>> [count.mechanisms for count in found.counts], found.candidates[0].weight
+    ([0, 2], 0.5)
     """
     found: dict[int, list[CountedTopology]] = {added: [] for added in range(problem.additions.wheels + 1)}
     whole: set[int] = set()
@@ -108,9 +225,6 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
     topology = each.topology
     for counts, idle in AddedCounts(limits.least, limits.greatest).assignments(topology.added, topology.wanted):
         yield from islice(arranged(topology, counts, idle, facts), 1 if one_order else None)
-
-
-# the best
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
@@ -164,9 +278,6 @@ def _all_weighed(
     return Reconstructions(tuple(counts), complete, candidates)
 
 
-# Trains drawn at random, each with the chance of its weight among all explanations.
-
-
 def draw_candidates(
     found: Reconstructions, problem: ReconstructionProblem, dials: Sequence[str], number: int, seed: int
 ) -> tuple[Candidate, ...]:
@@ -177,6 +288,7 @@ def draw_candidates(
     found : Reconstructions
         All explanations of the question.
     problem : ReconstructionProblem
+        The typed question.
     dials : sequence of str
         In the order of the evidence.
     number : int
@@ -184,10 +296,21 @@ def draw_candidates(
     seed : int
         The same seed draws the same trains.
 
+    Returns
+    -------
+    tuple of Candidate
+
     Raises
     ------
     QuestionError
         If trains are weighed one by one, by measured sizes or by class.
+
+    Examples
+    --------
+    >>> from geartrain.search.reconstruct import evidence_question, read_evidence
+    >>> problem = evidence_question(read_evidence("metonic-l-m")).problem
+    >>> [each.added for each in draw_candidates(find_reconstructions(problem), problem, ["metonic"], 3, seed=1)]
+    [1, 1, 1]
     """
     if not found.topologies:
         if not sum(each.mechanisms for each in found.counts):
@@ -207,3 +330,100 @@ def draw_candidates(
         share = float(Fraction(whole[at], sum(shares)))
         drawn.append(Candidate(trains.draw(topology, chance), topology.added.number, share, ranks[weight]))
     return tuple(drawn)
+
+
+def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
+    """First and last rank by weight that a candidate may have among all, for some weigh the same.
+
+    None if it is not listed.
+    """
+    wanted = mechanism(arbor)
+    return next((one.ranks for one in found.candidates if mechanism(one.arbor) == wanted), None)
+
+
+def is_all_listed(found: Reconstructions) -> bool:
+    """Whether every explanation that is counted is listed."""
+    return found.complete and len(found.candidates) == sum(count.mechanisms for count in found.counts)
+
+
+# ---------------------------------------------------------------------------------- prior weights, and ranks by weight
+
+
+def topology_prior(topology: Topology, problem: ReconstructionProblem) -> Fraction:
+    """Weight of each of a topology's trains before its dials are looked at, up to a factor that all share."""
+    added = added_prior(problem, topology.added.number, topology.added_arbors)
+    return added * survivors_prior(problem, topology.used)
+
+
+def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
+    """Weight of a candidate before its dials are looked at, up to a factor that all candidates share."""
+    used = [wheel for wheel in arbor.wheels() if wheel.name is not None]
+    return added_prior(problem, arbor.added_wheels, arbor.added_arbors) * survivors_prior(problem, used)
+
+
+def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fraction:
+    """What so many added wheels and arbors weigh."""
+    factors, limits = problem.factors, problem.additions
+    return 1 / ((factors.wheel * (limits.greatest - limits.least + 1)) ** wheels * factors.arbor**arbors)
+
+
+def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:
+    """What the surviving wheels weigh of which some are used, with their counts."""
+    counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
+    weight, unused = Fraction(1), len(counts)
+    for wheel in used:
+        weight *= counts[wheel.name or ""][wheel.teeth]
+        unused -= 1
+    return weight / problem.factors.unused**unused
+
+
+def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
+    """First and last rank of candidates of each weight, from weights and how many candidates have them."""
+    alike = Counter[_Weight]()
+    for weight, number in weighed:
+        alike[weight] += number
+    found, before = {}, 0
+    for weight in sorted(alike, reverse=True):
+        found[weight] = before + 1, before + alike[weight]
+        before += alike[weight]
+    return found
+
+
+# ------------------------------------------ equality: of mechanisms, up to the order of arbors, up to what drives what
+
+
+def mechanism(arbor: Arbor) -> tuple[object, ...]:
+    """All of a candidate, in whatever order its parts were found."""
+    passed = tuple(sorted(map(mechanism, arbor.passes)))
+    drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(mechanism, below)))) for wheel, below in arbor.drives))
+    return arbor.name or "", _wheel(arbor.driven), arbor.dials, drives, passed
+
+
+def bag(arbor: Arbor) -> tuple[object, ...]:
+    """For every dial, which arbors are on its path and through which wheels, without their order."""
+    return tuple(sorted((dial, tuple(sorted(path))) for dial, path in _paths(arbor)))
+
+
+def ratio_class(arbor: Arbor) -> tuple[object, ...]:
+    """For every dial, which wheels drive and which are driven on its path."""
+    return tuple(
+        sorted(
+            (dial, tuple(sorted(step[2] for step in path[:-1])), tuple(sorted(step[1] for step in path[1:])))
+            for dial, path in _paths(arbor)
+        )
+    )
+
+
+def _paths(arbor: Arbor, before: tuple[_Step, ...] = ()) -> Iterator[tuple[str, tuple[_Step, ...]]]:
+    name, driven = arbor.name or "", _wheel(arbor.driven)
+    for dial in arbor.dials:
+        yield dial, (*before, (name, driven, _NONE))
+    for child in arbor.passes:
+        yield from _paths(child, (*before, (name, driven, driven)))
+    for wheel, children in arbor.drives:
+        for child in children:
+            yield from _paths(child, (*before, (name, driven, _wheel(wheel))))
+
+
+def _wheel(wheel: PlacedWheel | None) -> _Wheel:
+    return _NONE if wheel is None else (wheel.name or "", wheel.teeth)

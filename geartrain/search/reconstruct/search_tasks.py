@@ -1,14 +1,19 @@
-"""Independent tasks of the search: topologies are enumerated, and the trains of each are counted."""
+"""Independent tasks of the search: topologies are enumerated, their trains are counted, and the time is estimated."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
+from itertools import accumulate
+from math import floor, log10
 from random import Random
+from time import perf_counter
 from typing import Any, NamedTuple
 
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts, AddedCountSums, AddedKind, OpenCounts
 from geartrain.search.reconstruct.arbor_orders import (
@@ -42,6 +47,21 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 )
 from geartrain.search.reconstruct.train_topology import Topology, plain_topology, topology_of
 from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives, draw_index
+
+QUICK = 2
+"""Added wheels up to which a search is not worth parting."""
+_PARTS = 24
+_SAMPLES = {4096: 3, 512: 4, 64: 5}
+"""One part in so many is timed, so many of them; then one in fewer, until that is long enough to judge by."""
+_ENOUGH = 0.3
+"""Seconds that are long enough, for each number of added wheels."""
+_MOST_CHOICES = 40
+"""Decimal logarithm of the most choices of counts of added wheels; searches of hours have some 1e20."""
+_YEAR = 3.2e7  # s
+_LONGEST = 100 * _YEAR
+"""Seconds in one process; what takes longer is refused."""
+_GOLDEN = (5**0.5 - 1) / 2
+"""Its multiples lie evenly between whole numbers: which parts are timed."""
 
 # All trains of a topology as orders times choices of counts: what holds in how many of them, and trains drawn.
 # Orders and counts are independent but where rings limit counts in some orders. Then orders are parted by the
@@ -207,11 +227,6 @@ class TopologySearch:
 # The search of topologies in independent parts: each finds and counts some of them, in whichever process.
 
 
-QUICK = 2
-"""Added wheels up to which a search is not worth parting."""
-_PARTS = 24
-
-
 @dataclass(frozen=True)
 class CountedTopology:
     """A topology with its number of choices of the added wheels' counts, and how many trains it is; neither is 0."""
@@ -263,43 +278,161 @@ def count_topologies(problem: ReconstructionProblem, execution: Execution | None
 
 def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
     """By dial, how many paths to it are possible."""
-    search, _ = _search(question_digest(problem), problem)
+    search, _ = _search(problem)
     return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
 
 
-def timed_part(task: TopologyTask, clock: Callable[[], float]) -> float:
+def timed_part(task: TopologyTask) -> float:
     """How long a part of the search takes (s)."""
-    start = clock()
+    start = perf_counter()
     _counted(task)
-    return clock() - start
+    return perf_counter() - start
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
     """Topologies as plain data, each with its choices and trains."""
-    search, trains = _search(question_digest(task.problem), task.problem)
+    search, trains = _search(task.problem)
     topologies = search.topologies(task.added, task.part, task.parts)
     return [(plain_topology(each), choices, number) for each, choices in topologies if (number := trains.count(each))]
 
 
-class _Known:
-    """A question that is told from others by its digest alone, for it need not be hashable."""
-
-    def __init__(self, digest: str, problem: ReconstructionProblem) -> None:
-        self.digest, self.problem = digest, problem
-
-    def __hash__(self) -> int:
-        return hash(self.digest)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Known) and other.digest == self.digest
+def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
+    """Lists of paths are made once a process; a question is known by its digest, for it need not be hashable."""
+    digest = question_digest(problem)
+    if digest not in _SEARCHES:
+        while len(_SEARCHES) > 1:
+            del _SEARCHES[next(iter(_SEARCHES))]
+        trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
+        _SEARCHES[digest] = TopologySearch(problem, trains.counts), trains
+    return _SEARCHES[digest]
 
 
-def _search(digest: str, problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
-    return _made_search(_Known(digest, problem))
+_SEARCHES: dict[str, tuple[TopologySearch, TopologyTrains]] = {}
+"""The last two questions, by digest."""
 
 
-@lru_cache(maxsize=2)
-def _made_search(known: _Known) -> tuple[TopologySearch, TopologyTrains]:
-    """Lists of paths are made once a process."""
-    trains = TopologyTrains(known.problem, [dial.name for dial in known.problem.dials])
-    return TopologySearch(known.problem, trains.counts), trains
+# ------------------------------------------------------- the time of a search, extrapolated from a sample of its tasks
+
+
+def rough(seconds: float) -> float:
+    """Seconds to one digit; 0 below one, which is not worth telling.
+
+    >>> rough(27.4), rough(0.7)
+    (30.0, 0.0)
+    """
+    return float(round(seconds, -floor(log10(seconds)))) if seconds >= 1 else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ExpectedCost(Result):
+    """What the search will cost.
+
+    Attributes
+    ----------
+    paths : dict of str to int
+        By dial, how many paths from the input to it are possible, with as many added wheels as may be.
+    seconds : tuple of float
+        How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
+        three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top.
+    parts : int
+        One part in so many of the search was timed; 0 if none was.
+    """
+
+    KEYS = ("paths", Key("seconds", "whole", to=rough))
+
+    paths: dict[str, int]
+    seconds: tuple[float, ...]
+    parts: int
+
+    @property
+    def whole(self) -> float:
+        """Seconds in all, in one process."""
+        return sum(self.seconds)
+
+
+def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
+    """What a question will cost; the lists of its paths are made, and kept for the search in this process.
+
+    Raises `QuestionError` if there are too many paths, or the search would not end within a hundred years.
+    """
+    _refuse_absurd(problem)
+    parted = dict.fromkeys(task.added for task in topology_tasks(problem) if task.parts > 1)
+    timed: dict[int, tuple[int, float]] = {}
+    for added in parted if all(total_paths(problem).values()) else ():
+        timed[added] = _sampled(problem, added)
+        _refuse_endless(problem, [seconds for _, seconds in timed.values()])
+    seconds = tuple(timed[added][1] if added in timed else 0.0 for added in range(problem.additions.wheels + 1))
+    parts = max((parts for parts, _ in timed.values()), default=0)
+    return ExpectedCost(total_paths(problem), seconds, parts)
+
+
+def count_choices(problem: ReconstructionProblem) -> float:
+    """Decimal logarithm of the number of choices of the counts of as many wheels as may be added."""
+    added = problem.additions
+    return added.wheels * log10(max(added.greatest - added.least + 1, 1))
+
+
+def _refuse_absurd(problem: ReconstructionProblem) -> None:
+    """Raise `QuestionError` for more choices of counts than any search could look through, before anything is done."""
+    added, size = problem.additions, count_choices(problem)
+    if size <= _MOST_CHOICES:
+        return
+    fits = int(added.wheels * _MOST_CHOICES / size)
+    raise QuestionError(
+        Problem(
+            f"up to {added.wheels} added wheels of {added.least} to {added.greatest} teeth have 1e{size:.0f} choices",
+            f"a search takes up to 1e{_MOST_CHOICES}",
+            f"ask for at most {fits} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`, or for fewer counts",
+        )
+    )
+
+
+def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) -> None:
+    """Raise `QuestionError` where times that go on growing as the last two end beyond `_LONGEST`.
+
+    seconds   by number of added wheels, from the first number that is timed on
+    """
+    last, most = QUICK + len(seconds), problem.additions.wheels
+    if len(seconds) < 2 or seconds[-1] < _ENOUGH or seconds[-2] <= 0:
+        return
+    growth = seconds[-1] / seconds[-2]
+    if growth <= 1:
+        return
+    longest = log10(seconds[-1]) + (most - last) * log10(growth)
+    if longest <= log10(_LONGEST):
+        return
+    fits = last + floor((log10(_LONGEST) - log10(seconds[-1])) / log10(growth))
+    raise QuestionError(
+        Problem(
+            f"up to {most} added wheels are asked for, which would take about 1e{longest - log10(_YEAR):.0f} years",
+            f"in one process {last} added wheels take about {rough(seconds[-1]) or 1:g} s, and each one more "
+            f"{growth:.2g} times as long",
+            f"ask for at most {max(fits, last)} with -k, or in `reconstruct: {{add: {{wheels: ...}}}}`",
+        )
+    )
+
+
+def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
+    """One part in how many was timed, and how long all of them would take (s)."""
+    parts, whole = 0, 0.0
+    for parts, samples in _SAMPLES.items():
+        # a part that is none: what every part has to do before it comes to what is its own
+        alone = timed_part(TopologyTask(problem, added, parts, parts))
+        chosen = (int(_GOLDEN * number % 1 * parts) for number in range(1, samples + 1))
+        own = sum(timed_part(TopologyTask(problem, added, part, parts)) - alone for part in chosen)
+        whole = alone + parts * max(0.0, own) / samples
+        if own >= _ENOUGH:
+            break
+    return parts, whole
+
+
+def done_shares(problem: ReconstructionProblem, expected: ExpectedCost) -> tuple[float, ...]:
+    """By number of tasks that are done, from none on, the share of the whole time that they are expected to take."""
+    done = list(accumulate(_weights(problem, expected), initial=0.0))
+    return tuple(each / done[-1] for each in done)
+
+
+def _weights(problem: ReconstructionProblem, expected: ExpectedCost) -> Iterator[float]:
+    """What each task takes, none of them nothing."""
+    least = 1e-3 * expected.whole + 1e-6
+    yield from (least + expected.seconds[task.added] / task.parts for task in topology_tasks(problem))

@@ -1,6 +1,7 @@
 """Parts of a train that a reconstruction can find: trees of arbors on the frame or on one carrier.
 
-Spur wheels and rings join its arbors; those that a pin in a slot joins are one arbor of it.
+Spur wheels and rings join its arbors; those that a pin in a slot joins are one arbor of it. A part without some of its
+arbors is evidence of which the answer is known: a test of what evidence is worth.
 """
 
 from __future__ import annotations
@@ -10,20 +11,24 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geartrain.analysis import GearTrain
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits.joint_tree import Tree, find_tree
+from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import Figure
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
-from geartrain.train import Train
+from geartrain.train import Train, declare
+from geartrain.train.reconstruction import NEW_ARBOR
 
 # From the arbor that drives along meshes of spur wheels: how every other arbor is driven.
 
 
 _ALONG = (0, 0, 1)
+_KEPT = ("title", "sources", "unit", "view")
+_OF_WHEELS = ("internal", "status", "source", "note")
 
 
 @dataclass(frozen=True)
@@ -294,7 +299,7 @@ class _Parts:
 
     def trees(self) -> Iterator[SpurTree]:
         """Each part once an arbor is known at which it begins."""
-        waiting = [(base, arbors) for base in self._bases for arbors in _connected(self._mates(base))]
+        waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
         while waiting:
@@ -338,10 +343,11 @@ class _Parts:
             return self.train.frame
         return (bases or self._bases)[base].joined.get(link, (link,))[0]
 
-    def _mates(self, base: str) -> dict[str, set[str]]:
-        """By arbor, those that it meshes with."""
+    def _connected(self, base: str) -> Iterator[set[str]]:
+        """Arbors that meshes hold together."""
         meshes = self._bases[base].meshes
-        return {arbor: {self._arbor(base, each.other) for each in own} for arbor, own in meshes.items()}
+        mates = ((arbor, *(self._arbor(base, each.other) for each in own)) for arbor, own in meshes.items())
+        yield from map(set, joined_groups(meshes, mates))
 
     # where a part begins
 
@@ -409,20 +415,6 @@ class _Parts:
             yield from ((link, link, False) for link in self._inputs if link not in train.case(None).outputs)
 
 
-def _connected(mates: Mapping[str, set[str]]) -> Iterator[set[str]]:
-    """Arbors that meshes hold together."""
-    seen: set[str] = set()
-    for first in mates:
-        if first not in seen:
-            group, waiting = {first}, [first]
-            while waiting:
-                new = mates[waiting.pop()] - group
-                group |= new
-                waiting += new
-            seen |= group
-            yield group
-
-
 def _renamed(tree: SpurTree) -> SpurTree:
     """The same with joined arbors called as in a question: after the first of their links that has wheels there."""
     names = {}
@@ -482,3 +474,124 @@ def _obstacles(train: Train) -> Iterator[str]:
 
 def _joined(parts: Sequence[str]) -> str:
     return ", ".join(parts[:-1]) + " and " + parts[-1] if len(parts) > 1 else "".join(parts)
+
+
+# ------------------------------------------------------------------ evidence of such a part without some of its arbors
+
+
+def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:
+    """Evidence of a tree of which some arbors are lost.
+
+    What survives are the other arbors with the wheels that mesh in the train, counts as they are used there, and the
+    couplings of two of them; every pointer with its speed, on its arbor or on one that does not survive. As many wheels
+    may be added as are lost, with as many teeth as any wheel of the part has; of a later part, as any of all parts.
+
+    lost   links; `QuestionError` for the first arbor, and for what is no arbor of the tree, or has a ring
+    seen   the meshes of wheels that survive were seen, and no more arbors may be added than are lost; else it is not
+           known who meshes with whom
+    """
+    return declare(lost_evidence_data(tree, lost, seen))
+
+
+def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> dict[str, Any]:
+    """The same with the keys of a declaration."""
+    _check(tree, lost)
+    train = tree.train
+    arbors = lost_arbors(tree, lost)
+    given = train.model_dump(mode="json", exclude_unset=True, by_alias=True)
+    words = "-".join(lost).replace(" ", "-")
+    kept = {key: given[key] for key in _KEPT if given.get(key)}
+    if "title" in kept:
+        kept["title"] += f", without {', '.join(lost)}"
+    surviving = [arbor for arbor in tree.arbors if arbor not in arbors]
+    standing = {link for arbor in surviving for link in tree.links_of(arbor)}
+    links: dict[str, Any] = {train.frame: {}, **({tree.base.name: {}} if tree.base.is_carrier else {})}
+    for link in train.links:
+        if link in standing:
+            own = train.frame if link in train.fixed else link
+            links[own] = {"wheels": {**links.get(own, {}).get("wheels", {}), **_wheels(tree, given, link)}}
+    meshes = tree.meshes(arbors) if seen else ()
+    return {
+        "name": f"{train.name}-without-{words}",
+        **kept,
+        "frame": train.frame,
+        "links": {link: one if one.get("wheels") else {} for link, one in links.items()},
+        **({"gears": [{"pair": list(pair)} for pair in meshes]} if meshes else {}),
+        "inputs": _inputs(tree, given),
+        "outputs": {
+            name: {"of": NEW_ARBOR if arbor in arbors else tree.link_of(name)} | _shown(tree, given, name)
+            for name, arbor in tree.pointers.items()
+        },
+        "reconstruct": _asked(tree, arbors, seen),
+    }
+
+
+def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:
+    """The arbors of the tree that some links stand for."""
+    return tuple(dict.fromkeys(map(tree.arbor_of, links)))
+
+
+def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
+    """How many wheels are lost with some links."""
+    return sum(len(tree.wheels_of(arbor)) for arbor in lost_arbors(tree, lost))
+
+
+def _asked(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any]:
+    pairs = [[links[0], other] for arbor, links in tree.joined.items() if arbor not in lost for other in links[1:]]
+    return {
+        **({"carrier": tree.base.name} if tree.base.is_carrier else {}),
+        "add": {
+            "wheels": lost_wheels(tree, lost),
+            "teeth": list(tree.teeth),
+            **({"arbors": len(lost)} if seen else {}),
+        },
+        **({"idlers": True} if tree.has_idlers else {}),
+        **({"given": [{"pair": pair} for pair in pairs]} if pairs else {}),
+    }
+
+
+def _inputs(tree: SpurTree, given: dict[str, Any]) -> dict[str, Any]:
+    """The speeds of what bears the arbors and of the first of them."""
+    base, frame = tree.base, tree.train.frame
+    speeds = {base.name: base.speed, base.source: base.driven + base.speed}
+    return {link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != frame}
+
+
+def _check(tree: SpurTree, lost: Sequence[str]) -> None:
+    arbors = [tree.arbor_of(link) for link in lost]
+    able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
+    for link, arbor in zip(lost, arbors, strict=True):
+        if arbor == tree.source:
+            what, why = f"'{link}' carries the input", "a reconstruction begins there"
+        elif arbor not in tree.driven:
+            what = f"'{link}' cannot be left out"
+            why = why_not(tree.train, link) if link in tree.train.links else "there is no such link"
+        elif arbor not in tree.able:
+            what, why = f"'{link}' cannot be left out", "it has a ring, and no ring is added"
+        elif arbors.count(arbor) > 1:
+            what, why = f"'{link}' is left out twice", "an arbor is lost once, with all that is joined to it"
+        else:
+            continue
+        raise QuestionError(Problem(what, why, suggest(link, able)))
+
+
+def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
+    """Wheels of a surviving arbor with their counts, and what is told of them."""
+    found: dict[str, Any] = {}
+    for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
+        wheel = given["links"][link]["wheels"][name]
+        about = {key: wheel[key] for key in _OF_WHEELS if key in wheel} if isinstance(wheel, dict) else {}
+        found[name] = {"teeth": tree.counts[name], **about} if about else tree.counts[name]
+    return found
+
+
+def _shown(tree: SpurTree, given: dict[str, Any], pointer: str) -> dict[str, Any]:
+    """How fast a pointer turns: what is expected of it, else its targets that have a tolerance; and seen from what."""
+    output = given["outputs"].get(pointer)
+    if output is None:
+        return {"expect": given["inputs"][pointer]}
+    base = tree.train.case(None).outputs[pointer].relative_to
+    seen = {} if base in (None, tree.train.frame) else {"relative_to": base}
+    if output.get("expect") is not None:
+        return seen | {"expect": output["expect"]}
+    return seen | {"targets": [target for target in output["targets"] if target.get("tolerance") is not None]}

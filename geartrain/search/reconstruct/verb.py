@@ -175,7 +175,7 @@ def _name_pair(text: str) -> tuple[str, str]:
 def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
     """Every listed candidate as a declaration of its own, the family tree, and the evidence where it was made."""
     from geartrain.numerics.files import check_folder, write_folder
-    from geartrain.search.reconstruct.candidate_train import candidate_text
+    from geartrain.search.reconstruct.train_construction import candidate_text
     from geartrain.train.declaration_files import write_declaration
 
     evidence = found.evidence

@@ -1,7 +1,4 @@
-"""Tooth counts of the free wheels, what the outputs do with them, and by what they are put in order.
-
-What a search for the tooth numbers of a train found: part by part, with where any other assignment stands.
-"""
+"""What a search for the tooth numbers of a train found: part by part, with where any other assignment stands."""
 
 from __future__ import annotations
 
@@ -189,11 +186,6 @@ class Standing(Result):
     assignment: Assignment | None
     rank: int | None
     refused: tuple[str, ...]
-
-    @property
-    def is_solution(self) -> bool:
-        """True if it meets every demand and rule."""
-        return not self.refused
 
 
 @dataclass(frozen=True, slots=True)

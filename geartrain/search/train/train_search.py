@@ -18,7 +18,6 @@ from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.search.join.wheel_monomials import Interval
 from geartrain.search.search_outcome import Shortfall
-from geartrain.search.train.best_assignments import AssignmentOrder
 from geartrain.search.train.output_requirements import (
     OutputRequirement,
     SearchPart,
@@ -26,7 +25,7 @@ from geartrain.search.train.output_requirements import (
     find_parts,
     find_requirements,
 )
-from geartrain.search.train.search_passes import NOT_BEGUN, PartSearch, PassResult, PassRunner, size_of
+from geartrain.search.train.search_passes import NOT_BEGUN, AssignmentOrder, PartSearch, PassResult, PassRunner, size_of
 from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.train import Train
 

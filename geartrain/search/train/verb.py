@@ -9,7 +9,7 @@ import typer
 
 from geartrain.cli.common import File, Force, Json, Names, Out, StateName
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.search.verb_options import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
+from geartrain.search.teeth_verb import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
 
 Flag = bool
 

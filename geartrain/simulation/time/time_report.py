@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.exact import percent_text, watts_text
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
-from geartrain.report.torque_cycle_report import turns_text
+from geartrain.report.torque_report import turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain

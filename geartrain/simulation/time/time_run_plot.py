@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.style import (
     BLACK,
     BLUE,
@@ -17,6 +16,8 @@ from geartrain.drawing.style import (
     RED,
     SMALL,
     WIDTH,
+    Axes,
+    Figure,
     headed,
     kept_extremes,
     legend_above,

@@ -27,8 +27,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.theme import Theme
-from geartrain.cli.time_runs import (
+from geartrain.cli.long_runs import (
     Rate,
     Restitution,
     Skip,
@@ -39,6 +38,7 @@ from geartrain.cli.time_runs import (
     interruptible,
     run_in_time,
 )
+from geartrain.cli.option_values import Theme
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain

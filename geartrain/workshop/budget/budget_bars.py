@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from geartrain.drawing.backend import Axes, Figure, Patch
-from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, WIDTH, plain, short
+from geartrain.drawing.style import BLACK, SMALL, TEXT, WHITE, WIDTH, Axes, Figure, Patch, plain, short
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
 

@@ -24,9 +24,8 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.long_runs import RunOptions, Workers, progress
-from geartrain.cli.option_values import MOST_COUNT, quantity
+from geartrain.cli.option_values import MOST_COUNT, Theme, quantity
 from geartrain.cli.option_values import turns as read_turns
-from geartrain.cli.theme import Theme
 
 if TYPE_CHECKING:
     from geartrain.workshop.budget.pin_theory import Body

@@ -16,10 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError
-from geartrain.scene.solids.bearing_plates import Plate
-from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
-from geartrain.scene.solids.wheel_arms import RIM
-from geartrain.scene.solids.wheel_blanks import Blank
+from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing, Plate
+from geartrain.scene.solids.wheel_blanks import RIM, Blank
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:

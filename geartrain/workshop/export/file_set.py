@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from geartrain.drawing.flat_files import to_dxf, to_svg
 from geartrain.errors import GearTrainError, Problem, QuestionError, install_command, suggest
 from geartrain.kinematics import graph
-from geartrain.scene.solids.flat_drawing import FlatDrawing
+from geartrain.scene.solids.bearing_plates import FlatDrawing
 from geartrain.workshop.export.assembly_guide import readme
 from geartrain.workshop.export.assembly_pictures import step_pictures
 from geartrain.workshop.export.csv_tables import to_tables

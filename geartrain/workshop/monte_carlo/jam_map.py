@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, Line2D
-from geartrain.drawing.style import BLACK, ORANGE, SCALE, SMALL, TEXT, WIDTH
+from geartrain.drawing.style import BLACK, ORANGE, SCALE, SMALL, TEXT, WIDTH, Axes, Figure, Line2D
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:

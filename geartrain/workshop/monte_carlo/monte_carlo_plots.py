@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import GREY, SMALL, TEXT, WIDTH, headed, plain, series_look
+from geartrain.drawing.style import GREY, SMALL, TEXT, WIDTH, Axes, Figure, headed, plain, series_look
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
 from geartrain.workshop.monte_carlo.jam_map import jam_map_figure

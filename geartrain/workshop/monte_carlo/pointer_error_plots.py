@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from geartrain.drawing.backend import Axes, Figure, MaxNLocator, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, RED, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import BLACK, BLUE, GREY, RED, SMALL, TEXT, WIDTH, Axes, Figure, MaxNLocator, Patch, plain
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from geartrain.drawing.backend import Axes, Figure, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREY, SKY, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import BLACK, BLUE, GREY, SKY, SMALL, TEXT, WIDTH, Axes, Figure, Patch, plain
 from geartrain.errors import Problem, QuestionError
 
 MOST = 20

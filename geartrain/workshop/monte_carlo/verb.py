@@ -29,7 +29,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution

@@ -5,8 +5,22 @@ from __future__ import annotations
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
-from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WHITE, WIDTH, headed, plain, short
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    RED,
+    SMALL,
+    TEXT,
+    WHITE,
+    WIDTH,
+    Axes,
+    Figure,
+    headed,
+    plain,
+    short,
+)
 
 if TYPE_CHECKING:
     from geartrain.workshop.sizes.best_sizes import BestToothSizes

@@ -26,7 +26,7 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.theme import Theme
+from geartrain.cli.option_values import Theme
 from geartrain.workshop.sizes.pair_verb import read_free, read_limits
 
 _YAML = (".yaml", ".yml")

@@ -27,11 +27,9 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     ReconstructionProblem,
     SearchedDial,
     SurvivingArbor,
+    SurvivingGeometry,
     SurvivingWheel,
     find_unreachable,
-)
-from geartrain.search.reconstruct.surviving_geometry import (
-    SurvivingGeometry,
     read_geometry_evidence,
     refuse_unreachable,
     unweighed_geometry,
@@ -175,9 +173,20 @@ _MOST_COUNTS = 10_000
 class EvidenceQuestion:
     """The question that evidence asks.
 
-    base     what bears the arbors; speeds of the problem are seen from it
-    joined   links that given couplings join, by the arbor that stands for them
-    unused   what is declared and plays no part in the answer, a line each
+    Attributes
+    ----------
+    problem : ReconstructionProblem
+        The typed question.
+    base : BaseLink
+        What bears the arbors; speeds of the problem are seen from it.
+    joined : mapping of str to tuple of str
+        Links that given couplings join, by the arbor that stands for them.
+    unused : tuple of str
+        What is declared and plays no part in the answer, a line each.
+
+    See Also
+    --------
+    evidence_question : makes it.
     """
 
     problem: ReconstructionProblem
@@ -187,12 +196,32 @@ class EvidenceQuestion:
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
-    """What evidence asks.
+    """Translate declared evidence into a typed question.
 
-    wheels   the most wheels that may be added, instead of what the evidence says
-    idlers   a driven wheel may drive, also where the evidence does not say so
+    Parameters
+    ----------
+    evidence : Train
+        A declaration with `reconstruct`.
+    wheels : int, optional
+        The maximum number of added wheels, instead of what the evidence says.
+    idlers : bool
+        Whether a driven wheel may drive, also where the evidence does not say so.
 
-    Raises `DeclarationError` with the place of everything that is not taken up yet, or gives no question.
+    Returns
+    -------
+    EvidenceQuestion
+
+    Raises
+    ------
+    DeclarationError
+        With the place of everything that is not taken up yet, or gives no question.
+
+    Examples
+    --------
+    >>> from geartrain.search.reconstruct import read_evidence
+    >>> asked = evidence_question(read_evidence("metonic-l-m")).problem
+    >>> [arbor.name for arbor in asked.arbors], asked.additions.wheels
+    (['l', 'm'], 1)
     """
     asked = evidence.reconstruct
     assert asked is not None, "no evidence"

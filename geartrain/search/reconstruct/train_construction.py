@@ -14,8 +14,7 @@ from typing import Any
 from geartrain.numerics.exact import fraction_text
 from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, free_name, name_train
 from geartrain.search.reconstruct.link_roles import BaseLink, couplings_of, find_base, joined_arbors
-from geartrain.search.reconstruct.reconstruction_problem import Arbor
-from geartrain.search.reconstruct.surviving_geometry import SurvivingGeometry, read_geometry_evidence
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, SurvivingGeometry, read_geometry_evidence
 from geartrain.train import Train, declare
 from geartrain.train.yaml_nodes import as_yaml
 
@@ -96,9 +95,27 @@ def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
 def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
     """A candidate as a checked declaration.
 
-    evidence   what it explains
-    arbor      the candidate, from its input on
-    name       of the train
+    Parameters
+    ----------
+    evidence : Train
+        What it explains.
+    arbor : Arbor
+        The candidate, from its input on.
+    name : str
+        Of the train.
+
+    Returns
+    -------
+    Train
+
+    Examples
+    --------
+    >>> from geartrain.search.reconstruct import evidence_question, find_reconstructions, read_evidence
+    >>> evidence = read_evidence("metonic-l-m")
+    >>> found = find_reconstructions(evidence_question(evidence).problem)
+    >>> train = candidate_train(evidence, found.candidates[0].arbor, "first")
+    >>> [gear.pair for gear in train.gears]
+    [('b2', 'l1'), ('l2', 'm1'), ('m2', 'new_metonic1')]
     """
     return declare(candidate_data(evidence, arbor, name))
 

@@ -1,0 +1,130 @@
+"""Commands on files: `geartrain init`, `format`, `list`, `periods` and `schema`.
+
+A template to begin with; declarations in short or long form; the shipped trains, the table of periods, and the schema
+of declarations and answers.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Force, Out, Sink, as_json, complain, emit, sink, tell
+from geartrain.errors import GearTrainError, check_choice
+
+TEMPLATES = Path(__file__).resolve().parent / "templates"
+
+
+def write_template(
+    kind: Annotated[
+        str, typer.Argument(help="planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND")
+    ],
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Write a small declaration with comments that runs as it is: KIND.yaml here, or where -o says."""
+    kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
+    check_choice("template", kind, kinds)
+    path = Path(f"{kind}.yaml") if out is None else out
+    to = sink(path, force)
+    emit((TEMPLATES / f"{kind}.yaml").read_text(encoding="utf-8").removesuffix("\n"), to)
+    if to.path is not None:
+        tell(f"next: geartrain check {path}; geartrain report {path}; geartrain view {path} -o {path.stem}.html")
+
+
+def write_style(
+    files: Annotated[list[str], typer.Argument(help="YAML declarations, which are rewritten.", metavar="FILE")],
+    long: Annotated[bool, typer.Option("--long", help="Write long forms.")] = False,
+    check: Annotated[
+        bool, typer.Option("--check", help="Write nothing; exit with 1 if something would change.")
+    ] = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Write turning pairs by axis and gear pairs as `a ~ b`, or all of them long; comments stay with their entries.
+
+    What is declared stays the same, which is checked before a file is written. Other lines are left as they are.
+    """
+    if out is not None and (len(files) > 1 or check):
+        raise typer.BadParameter("-o is for one file, which is then left as it is", param_hint="-o")
+    to = None if out is None else sink(out, force)
+    worst = GOOD
+    for file in files:
+        worst = max(worst, _format(Path(file), long, check, to))
+    raise typer.Exit(worst)
+
+
+def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
+    from geartrain.numerics.files import write_text
+    from geartrain.train.declaration_files import formatted
+
+    try:
+        text, new = formatted(file, long)
+        if to is not None:
+            emit(new.removesuffix("\n"), to)
+            return GOOD
+        if new == text:
+            tell(f"{file}: nothing to change")
+            return GOOD
+        if not check:
+            write_text(file, new, force=True)
+    except GearTrainError as error:
+        complain(error)
+        return NOT_USABLE
+    lines = len(text.splitlines()), len(new.splitlines())
+    tell(f"{'would rewrite' if check else 'rewrote'} {file}: {lines[0]} lines, {lines[1]} now")
+    return VERDICT if check else GOOD
+
+
+def list_trains(
+    evidence: Annotated[
+        bool, typer.Option("--evidence", help="The evidence of trains to be found, for `reconstruct`.")
+    ] = False,
+) -> None:
+    """List the shipped trains with their titles."""
+    from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
+
+    files, read = (shipped_evidence(), read_evidence) if evidence else (shipped(), read_declaration)
+    width = max((len(name) for name in files), default=0)
+    emit("\n".join(f"{name:<{width}}  {read(path).title}" for name, path in files.items()))
+
+
+def list_periods(
+    word: Annotated[str, typer.Argument(help="Show only names that contain this.", metavar="[WORD]")] = "",
+) -> None:
+    """List the shipped table of astronomical periods, speeds and counts."""
+    from geartrain.errors import Problem, QuestionError
+    from geartrain.train.periods import period_table, suggested_period
+
+    units = {"period": "d", "speed": "turns per year", "count": ""}
+    rows = [row for row in period_table().values() if word in row.name]
+    if not rows:
+        raise QuestionError(
+            Problem(f"no name contains '{word}'", "the shipped table has no such row", suggested_period(word))
+        )
+    width = max(len(row.name) for row in rows)
+    emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))
+
+
+def print_schema(
+    form: Annotated[
+        str, typer.Option("--as", help="json for editors, markdown for readers, answers: of --json.")
+    ] = "json",
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Print the JSON Schema of the declaration; editors with a YAML plugin complete and check with it.
+
+    With --as answers, the JSON Schema of what commands print with --json, by command.
+    """
+    from geartrain.report.json_schema import answer_schema, declaration_reference, schema
+
+    if form not in ("json", "markdown", "answers"):
+        what = f"'{form}' is not a form of schema; use json or markdown, or answers"
+        raise typer.BadParameter(what, param_hint="--as")
+    to = sink(out, force)
+    emit(
+        declaration_reference() if form == "markdown" else as_json(schema() if form == "json" else answer_schema()), to
+    )

@@ -1,0 +1,128 @@
+"""The search of reconstructions against plain growth of concrete trees, on small questions of all kinds."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from concrete_trees import Found, concrete, explanations, meshes, random_problem, with_rings
+from sampling import all_but
+
+from geartrain.search.reconstruct import ReconstructionProblem, find_reconstructions
+
+
+def grown_alike(problem: ReconstructionProblem, seed: int) -> tuple[Found, ...]:
+    """Hold what is found against plain growth, which is given back."""
+    found = find_reconstructions(problem, listed=20_000)
+    right = explanations(problem)
+    assert found.complete
+    assert [tuple(count.to_dict().values()) for count in found.counts] == [each.counts for each in right], seed
+    trees = [(one.added, concrete(one.arbor)) for one in found.candidates]
+    assert len(set(trees)) == len(trees)
+    assert set(trees) == {(each.counts.added, tree) for each in right for tree in each.mechanisms}, seed
+    assert sum(one.weight for one in found.candidates) == pytest.approx(1 if trees else 0)
+    return right
+
+
+@pytest.mark.parametrize("start", all_but({0, 80, 220}, range(0, 400, 20)))
+def test_small_questions_have_the_answers_of_plain_growth(start: int) -> None:
+    for seed in range(start, start + 20):
+        grown_alike(random_problem(seed, idlers=True), seed)
+
+
+@pytest.mark.parametrize("start", all_but({1100, 1140, 1200}, range(1000, 1300, 20)))
+def test_small_questions_with_rings_have_the_answers_of_plain_growth(start: int) -> None:
+    turning = 0
+    for seed in range(start, start + 20):
+        problem = with_rings(random_problem(seed, idlers=True), seed)
+        for found in grown_alike(problem, seed):
+            turning += any(
+                problem.rings & {name for pair in meshes(one) for name, _ in pair} for one in found.mechanisms
+            )
+    assert turning
+
+
+# ----------------------------------------------------------------------------------------- exact dials, counts in doubt
+
+
+def exact_problem(seed: int) -> ReconstructionProblem:
+    """A random question whose dials are exact, with a wheel more in doubt."""
+    problem, chance = random_problem(seed), random.Random(seed)
+    middles = [(dial.least + dial.greatest) / 2 for dial in problem.dials]
+    dials = tuple(replace(dial, least=at, greatest=at) for dial, at in zip(problem.dials, middles, strict=True))
+    if not problem.arbors:
+        return replace(problem, dials=dials)
+    arbors = list(problem.arbors)
+    at = chance.randrange(len(arbors))
+    (first, *others) = arbors[at].wheels
+    teeth = sorted({first.counts[0][0], first.counts[0][0] + 1, *(count for count, _ in first.counts)})
+    doubted = replace(first, counts=tuple((count, Fraction(1, len(teeth))) for count in teeth))
+    arbors[at] = replace(arbors[at], wheels=(doubted, *others))
+    return replace(problem, dials=dials, arbors=tuple(arbors))
+
+
+@pytest.mark.parametrize("first", range(2000, 2200, 20))
+def test_exact_questions_have_the_answers_of_plain_growth(first: int) -> None:
+    right = [grown_alike(exact_problem(seed), seed) for seed in range(first, first + 20)]
+    assert sum(any(each.mechanisms for each in found) for found in right) > 5
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "first"),
+    [
+        ("quotient_keys.QuotientKeys._word", lambda *_: 1, 2000),  # nearly all numbers have keys of others
+        ("path_lists._PIECE", 3, 2020),
+        ("path_choice._PIECE", 3, 2030),
+    ],
+)
+def test_no_answer_depends_on_keys_or_on_how_many_paths_are_grown_at_once(
+    name: str, value: object, first: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(f"geartrain.search.reconstruct.{name}", value)
+    for seed in range(first, first + 20):
+        grown_alike(exact_problem(seed), seed)
+
+
+# ------------------------------------------------------------------------------------------------ meshes that were seen
+
+
+def seen(problem: ReconstructionProblem, seed: int) -> ReconstructionProblem | None:
+    """The question with the meshes of survivors that one of its explanations has; None where there are none."""
+    chance = random.Random(seed)
+    trees = [tree for each in explanations(problem) for tree in sorted(each.mechanisms)]
+    if not trees:
+        return None
+    pairs = {frozenset((one[0], other[0])) for one, other in meshes(chance.choice(trees))}
+    known = frozenset(pair for pair in pairs if "" not in pair)
+    some = frozenset(pair for pair in known if chance.random() < 0.9)
+    return replace(problem, meshes=some, apart=frozenset()) if some else None
+
+
+def plain(seed: int) -> ReconstructionProblem:
+    return random_problem(seed, wheels=1)
+
+
+def with_idlers(seed: int) -> ReconstructionProblem:
+    return random_problem(seed, wheels=1, idlers=True)
+
+
+def ringed(seed: int) -> ReconstructionProblem:
+    return with_rings(random_problem(seed, wheels=1), seed)
+
+
+@pytest.mark.parametrize(
+    ("kind", "least"), [(plain, 40), pytest.param(with_idlers, 40, marks=pytest.mark.slow), (ringed, 10)]
+)
+def test_questions_of_which_meshes_were_seen_have_the_answers_of_plain_growth(
+    kind: Callable[[int], ReconstructionProblem], least: int
+) -> None:
+    asked = 0
+    for seed in range(4000, 4250):
+        problem = seen(kind(seed), seed)
+        if problem is not None:
+            asked += 2 * len(problem.meshes) > len(problem.arbors)
+            grown_alike(problem, seed)
+    assert asked > least

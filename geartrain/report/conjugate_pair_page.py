@@ -169,7 +169,7 @@ def describe_form_comparison(found: FormComparison) -> Document:
 
     Examples
     --------
-    >>> from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    >>> from geartrain.teeth.conjugate import WheelPair
     >>> from geartrain.teeth.form_comparison import compare_forms
     >>> page = describe_form_comparison(compare_forms(WheelPair(24, 36), ["involute", "cycloidal"]))
     >>> [row[:4] for row in page.sections[0].tables[0].rows]

@@ -114,7 +114,7 @@ class UniformTemperature(ConjugateToothForm):
         if self.depth is not None:
             wanted = float(self.depth.value) * pitch.p / pi
         else:
-            wanted = depth(PathOfContact(pitch, *(involute(X, _INVOLUTE) for X in arcs)))
+            wanted = depth(PathOfContact(pitch, involute(arcs[0], _INVOLUTE), involute(arcs[1], _INVOLUTE)))
         # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
         start = max(2 * wanted / (arcs[0] ** 2 + arcs[1] ** 2) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2)
         gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))

@@ -12,7 +12,7 @@ from studies.cut_pair_law import CutPairLaw
 
 import geartrain
 from geartrain.teeth import Cycloidal, Involute, Lantern
-from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact, outlines
+from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact, pair_outlines
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
 from geartrain.teeth.contact.outline_contact import TwoFlankContact, solve
@@ -52,7 +52,7 @@ def as_drawn(outline: GearOutline, wheel: DisplacedWheel) -> GearOutline:
 def drawn_contact(name: str, driver: int, pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Lag and play of the drawn outlines, in driven pitches."""
     design = PAIRS[name]
-    first, second = outlines(design) if driver == 1 else outlines(design)[::-1]
+    first, second = pair_outlines(design) if driver == 1 else pair_outlines(design)[::-1]
     distance = abs(design.path.pitch.R1 + design.path.pitch.R2) + pair.shift
     return off_ratio(pair.contact, solve(as_drawn(first, pair.first), as_drawn(second, pair.second), distance, S), S)
 
@@ -143,7 +143,7 @@ def test_axles_farther_apart_give_an_external_pair_play_and_take_it_from_a_ring(
 @pytest.mark.parametrize("driver", [1, 2])
 def test_flanks_that_lean_touch_as_their_outlines_do(driver: int) -> None:
     at = displaced_contact(PAIRS["involute"], driver)
-    drawn = outlines(PAIRS["involute"])[:: 1 if driver == 1 else -1]
+    drawn = pair_outlines(PAIRS["involute"])[:: 1 if driver == 1 else -1]
     for gear in (0, 1):
         off = []
         for lean in (0.01, 0.0025):

@@ -14,7 +14,6 @@ import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
 from math import isqrt
 from typing import Any
 
@@ -176,10 +175,6 @@ class Motion:
     def is_free(self, link: str) -> bool:
         """Whether a link that turns about one axis in the frame has no speed yet."""
         return self.is_rotation(link) and self.speed(link) is None
-
-    @cached_property
-    def free_links(self) -> set[str]:
-        return {link for link in self.links if self.is_free(link)}
 
 
 @dataclass

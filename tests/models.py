@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
+from geartrain.report import collect_torque_report
 
 PAIR = """
 links:
@@ -45,3 +48,9 @@ def refusal(text: str) -> str:
     with pytest.raises(GearTrainError) as caught:
         load(text)
     return str(caught.value)
+
+
+def torque_figures(train: GearTrain, state: str | None = None) -> Any:
+    """Torques of one state with watts, losses, flow of power, and the efficiency both ways."""
+    (found,) = collect_torque_report(train, [train.torques(state)]).states
+    return found

@@ -13,7 +13,7 @@ from functools import cache
 from random import Random
 from typing import Any
 
-from geartrain.train.declaration_files import shipped
+from geartrain import shipped
 from geartrain.train.yaml_nodes import parse_yaml
 
 Place = tuple[Any, Any]  # what holds the value, and its key or position there

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
@@ -34,8 +34,7 @@ class Touch:
     """One flank of `first` can press on `second` in a point, along `normal` (of length 1, out of the first body).
 
     `through` is another point through which the force goes, for a pair that is known by its efficiency alone; it is
-    chosen by who drives: (if the first wheel drives in the bearer's frame, if the second does). A touch that also
-    `pulls` stands for both flanks of a pair without friction.
+    chosen by who drives: (if the first wheel drives in the bearer's frame, if the second does).
     """
 
     first: str
@@ -45,7 +44,6 @@ class Touch:
     friction: float = 0.0
     through: tuple[Vector, Vector] | None = None
     bearer: str = FRAME
-    pulls: bool = False
 
 
 @dataclass(frozen=True)
@@ -69,12 +67,6 @@ def flanks(first: str, second: str, point: Vector, normal: Vector, friction: flo
         Touch(first, second, point, normal, friction),
         Touch(first, second, point, (-normal[0], -normal[1]), friction),
     )
-
-
-def rolling(first: str, second: str, centres: tuple[Vector, Vector], radii: tuple[float, float]) -> tuple[Touch]:
-    """Two pitch circles without losses; a ring has a negative radius."""
-    (touch, _) = toothed(first, second, centres, radii, (1.0, 1.0))
-    return (replace(touch, through=None, pulls=True),)
 
 
 def toothed(
@@ -197,7 +189,7 @@ class Mechanism:
         start = 2 * len(self.hinges)
         pressing = solved[start : start + len(touches)]
         scale = 1e-11 * (np.abs(pressing).max(initial=0.0) + 1e-300)
-        if any(force < -scale and not touch.pulls for force, touch in zip(pressing, touches, strict=True)):
+        if any(force < -scale for force in pressing):
             return None
         lost = []
         for touch, way, normal_force in zip(touches, ways, pressing, strict=True):

@@ -33,8 +33,11 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Loop as Loop
     from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
+    from geartrain.kinematics.graph import adjacency_labels as adjacency_labels
     from geartrain.kinematics.graph import adjacency_matrix as adjacency_matrix
     from geartrain.kinematics.graph import to_dot as to_dot
+    from geartrain.kinematics.graph import to_graphml as to_graphml
+    from geartrain.kinematics.graph import to_json as to_json
     from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
     from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
     from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
@@ -43,8 +46,13 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
     from geartrain.kinematics.levers import Lever as Lever
     from geartrain.kinematics.levers import find_levers as find_levers
+    from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule as DivisibilityRule
     from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
+    from geartrain.kinematics.phasing.mesh_phasing import SphericalGears as SphericalGears
+    from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule as find_divisibility_rule
+    from geartrain.kinematics.phasing.mesh_phasing import spherical_divisibility_rule as spherical_divisibility_rule
+    from geartrain.kinematics.phasing.mesh_phasing import spherical_phasing as spherical_phasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
@@ -55,6 +63,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Answer",
     "Circuit",
+    "DivisibilityRule",
     "FloatSpeeds",
     "Gridlock",
     "Lever",
@@ -66,15 +75,22 @@ __all__ = [
     "Mobility",
     "OutputResult",
     "Sensitivity",
+    "SphericalGears",
     "TargetResult",
     "TrainKinematics",
     "Verdict",
     "WillisEquation",
     "WillisMatrix",
     "WillisSystem",
+    "adjacency_labels",
     "adjacency_matrix",
+    "find_divisibility_rule",
     "find_levers",
+    "spherical_divisibility_rule",
+    "spherical_phasing",
     "to_dot",
+    "to_graphml",
+    "to_json",
 ]
 
 __getattr__ = lazy_names(
@@ -82,6 +98,7 @@ __getattr__ = lazy_names(
     {
         "Answer": "answer",
         "Circuit": "circuits.fundamental",
+        "DivisibilityRule": "phasing.mesh_phasing",
         "FloatSpeeds": "speeds.float_speeds",
         "Gridlock": "gridlock.removal",
         "Lever": "levers",
@@ -93,14 +110,21 @@ __getattr__ = lazy_names(
         "Mobility": "speeds.mobility",
         "OutputResult": "judged_outputs",
         "Sensitivity": "judged_outputs",
+        "SphericalGears": "phasing.mesh_phasing",
         "TargetResult": "judged_outputs",
         "TrainKinematics": "train_kinematics",
         "Verdict": "answer",
         "WillisEquation": "willis_system",
         "WillisMatrix": "willis_matrix",
         "WillisSystem": "willis_system",
+        "adjacency_labels": "graph",
         "adjacency_matrix": "graph",
+        "find_divisibility_rule": "phasing.mesh_phasing",
         "find_levers": "levers",
+        "spherical_divisibility_rule": "phasing.mesh_phasing",
+        "spherical_phasing": "phasing.mesh_phasing",
         "to_dot": "graph",
+        "to_graphml": "graph",
+        "to_json": "graph",
     },
 )

@@ -60,7 +60,24 @@ def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
 
 
 def adjacency_labels(train: Train) -> list[list[str]]:
-    """The adjacency matrix in letters: `R(axis)` for a turning pair, the id for a gear pair or coupling."""
+    """The adjacency matrix in letters: `R(axis)` for a turning pair, the id for a gear pair or coupling.
+
+    Parameters
+    ----------
+    train : Train
+        `GearTrain.declaration`.
+
+    Returns
+    -------
+    list of list of str
+        One row and one column for each link, in the order of the declaration; several joints are separated by blanks.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> adjacency_labels(geartrain.load("planetary-24-18-60").declaration)[1]
+    ['R(main)', '', 's~p', '']
+    """
     at = {link: position for position, link in enumerate(train.links)}
     cells: list[list[list[str]]] = [[[] for _ in at] for _ in at]
     for (first, second), _, kind, label, _ in _edges(train):
@@ -136,14 +153,50 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """GraphML with kind, label and, for gear pairs, the two wheels."""
+    """GraphML text with kind, label and, for gear pairs, the two wheels.
+
+    Parameters
+    ----------
+    graph : networkx.MultiGraph
+        `GearTrain.graph`.
+
+    Returns
+    -------
+    str
+        A document that `networkx.parse_graphml` reads.
+
+    Examples
+    --------
+    >>> import geartrain, networkx
+    >>> text = to_graphml(geartrain.load("planetary-24-18-60").graph)
+    >>> sorted(networkx.parse_graphml(text, force_multigraph=True))
+    ['carrier', 'frame', 'planet', 'sun']
+    """
     import networkx as nx
 
     return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML has no control characters at all
 
 
 def to_json(graph: Graph) -> str:
-    """Node-link JSON with kind, label and, for gear pairs, the two wheels."""
+    """Node-link JSON with kind, label and, for gear pairs, the two wheels.
+
+    Parameters
+    ----------
+    graph : networkx.MultiGraph
+        `GearTrain.graph`.
+
+    Returns
+    -------
+    str
+        JSON with `nodes` and `edges`, as `networkx.node_link_data` gives them.
+
+    Examples
+    --------
+    >>> import geartrain, json
+    >>> edges = json.loads(to_json(geartrain.load("planetary-24-18-60").graph))["edges"]
+    >>> sorted(edge["label"] for edge in edges if edge["kind"] == "gear")
+    ['p~ring', 's~p']
+    """
     import networkx as nx
 
     data = nx.node_link_data(_plain(graph), edges="edges")

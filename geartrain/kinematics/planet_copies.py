@@ -319,6 +319,8 @@ class _Places:
     indices: Mapping[str, list[int]]
 
     def __call__(self, loc: Loc) -> str:
+        if not loc:
+            return self.declared.place()
         first, *rest = loc
         if first in self.indices and rest and isinstance(rest[0], int):
             rest[0] = self.indices[str(first)][rest[0]]

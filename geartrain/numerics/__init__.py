@@ -42,6 +42,7 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.numerics.confidence_intervals import IntervalEstimate as IntervalEstimate
     from geartrain.numerics.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
+    from geartrain.numerics.exact import decimal as decimal
     from geartrain.numerics.labelled_array import LabelledArray as LabelledArray
     from geartrain.numerics.long_float import LongFloat as LongFloat
     from geartrain.numerics.quantity import Figure as Figure
@@ -60,6 +61,7 @@ __all__ = [
     "LongFloat",
     "ProbabilityEstimate",
     "Quantity",
+    "decimal",
     "open_executor",
     "run",
 ]
@@ -74,6 +76,7 @@ __getattr__ = lazy_names(
         "LabelledArray": "labelled_array",
         "LongFloat": "long_float",
         "Quantity": "quantity",
+        "decimal": "exact",
         "open_executor": "work.executors",
         "run": "work.task_runner",
     },

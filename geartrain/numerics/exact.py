@@ -72,8 +72,23 @@ def as_float(value: Fraction | float) -> float | None:
 
 
 def decimal(value: Fraction, digits: int = 10) -> str:
-    """`value` in decimal, rounded to `digits` significant digits, for numbers of any size.
+    """A number of any size in decimal notation.
 
+    Parameters
+    ----------
+    value : Fraction
+        The number.
+    digits : int
+        Significant digits to which it is rounded.
+
+    Returns
+    -------
+    str
+        As the format `g` of a float.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
     >>> decimal(Fraction(254, 19), 6), decimal(Fraction(-1, 3) ** 700, 4)
     ('13.3684', '1.035e-334')
     """

@@ -16,6 +16,9 @@ periods, trade_words             the table of periods of the sky; words of maker
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
 from geartrain.train.declaration import Epoch, FrictionInForce, Train
 from geartrain.train.manufacturing import ArborSizes, Material, PairMounting, WheelManufacture, material_table
 from geartrain.train.mechanism import Axis, BearingFriction, GearPair, Link, Revolute, Source, Teeth, Wheel
@@ -31,13 +34,19 @@ from geartrain.train.outputs import (
     Target,
     View,
 )
+from geartrain.train.periods import CalendarDate, Period, date_of, julian_day, period_table, read_date
 from geartrain.train.states import Clutch, Drive, Escapement, HandDrive, SpringDrive, State, StateCase
 from geartrain.train.validation import declare
+
+if TYPE_CHECKING:
+    from geartrain.train.declaration_style import with_long_forms as with_long_forms
+    from geartrain.train.declaration_style import with_short_forms as with_short_forms
 
 __all__ = [
     "ArborSizes",
     "Axis",
     "BearingFriction",
+    "CalendarDate",
     "Clutch",
     "Dial",
     "DialName",
@@ -54,6 +63,7 @@ __all__ = [
     "Material",
     "Output",
     "PairMounting",
+    "Period",
     "Published",
     "Revolute",
     "Source",
@@ -67,6 +77,14 @@ __all__ = [
     "View",
     "Wheel",
     "WheelManufacture",
+    "date_of",
     "declare",
+    "julian_day",
     "material_table",
+    "period_table",
+    "read_date",
+    "with_long_forms",
+    "with_short_forms",
 ]
+
+__getattr__ = lazy_names(__name__, dict.fromkeys(("with_long_forms", "with_short_forms"), "declaration_style"))

@@ -29,12 +29,44 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    """The text with turning pairs by axis and gear pairs as `a ~ b`, wherever they say no more than that."""
+    """Rewrite a declaration with turning pairs by axis and gear pairs as `a ~ b`, where they declare no more than that.
+
+    Parameters
+    ----------
+    text : str
+        A declaration in YAML.
+
+    Returns
+    -------
+    str
+        The same declaration; comments are kept.
+
+    Examples
+    --------
+    >>> print(with_short_forms("gears:\\n  - {pair: [p, w]}"), end="")
+    gears: [p ~ w]
+    """
     return _rewritten(text, {"revolutes": _short_joints, "gears": _short_pairs})
 
 
 def with_long_forms(text: str) -> str:
-    """The text with every turning pair and every gear pair as a mapping of its own."""
+    """Rewrite a declaration with every turning pair and every gear pair as a mapping of its own.
+
+    Parameters
+    ----------
+    text : str
+        A declaration in YAML.
+
+    Returns
+    -------
+    str
+        The same declaration; comments are kept.
+
+    Examples
+    --------
+    >>> print(*with_long_forms("gears:\\n  - p ~ w").splitlines(), sep=" /")
+    gears: /  - {pair: [p, w]}
+    """
     return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
 
 

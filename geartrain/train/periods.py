@@ -31,12 +31,23 @@ _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """A day of a calendar, and the part of it that has passed: 1/2 at noon.
+    """A day of a calendar, and the part of it that has passed.
 
-    year      astronomical: 0 is 1 BC
-    month     1 to 12
-    day       1 to 31
-    part      0 to less than 1
+    Parameters
+    ----------
+    year : int
+        Astronomical: 0 is 1 BC.
+    month, day : int
+        From 1.
+    part : Fraction
+        Part of the day that has passed, from 0 to less than 1: 1/2 at noon.
+    calendar : {"julian", "gregorian"}
+        Proleptic: its rules hold for every year.
+
+    See Also
+    --------
+    read_date : Reads one.
+    date_of : The date of a Julian day.
     """
 
     year: int
@@ -51,7 +62,23 @@ class CalendarDate:
 
 
 def julian_day(date: CalendarDate) -> Fraction:
-    """The Julian day of a date, whatever the days of its month: day 31 of a month of 30 is the first of the next."""
+    """The Julian day of a date; day 31 of a month of 30 days is the first of the next month.
+
+    Parameters
+    ----------
+    date : CalendarDate
+        The date.
+
+    Returns
+    -------
+    Fraction
+        Julian day [d].
+
+    Examples
+    --------
+    >>> julian_day(read_date("2000-01-01 12:00"))
+    Fraction(2451545, 1)
+    """
     month = (date.month - 3) % 12
     year = date.year - (date.month < 3)
     days = 365 * year + year // 4 + (153 * month + 2) // 5 + date.day - 1
@@ -61,7 +88,26 @@ def julian_day(date: CalendarDate) -> Fraction:
 
 
 def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
-    """The date of a Julian day; without a calendar Julian before `REFORM` and Gregorian from then on."""
+    """The date of a Julian day.
+
+    Parameters
+    ----------
+    day : Fraction
+        Julian day [d].
+    calendar : {"julian", "gregorian"}, optional
+        Default: Julian before 1582-10-15 and Gregorian from then on.
+
+    Returns
+    -------
+    CalendarDate
+        The date.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> str(date_of(Fraction(2451545)))
+    '2000-01-01'
+    """
     calendar = calendar or ("julian" if day < REFORM else "gregorian")
     since = day - _MARCH[calendar]
     whole = since // 1
@@ -73,9 +119,29 @@ def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
 
 
 def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
-    """A date such as `-204-05-12` or `2000-01-01 18:30`; noon where no hour is given. Raises `ValueError` for none.
+    """Read a date such as `-204-05-12` or `2000-01-01 18:30`.
 
-    calendar   without one, Julian before 1582-10-15 and Gregorian from then on; the ten days between are none
+    Parameters
+    ----------
+    text : str
+        Astronomical year, month, day, and optionally an hour; noon if no hour is given.
+    calendar : {"julian", "gregorian"}, optional
+        Default: Julian before 1582-10-15 and Gregorian from then on; the ten days between do not exist.
+
+    Returns
+    -------
+    CalendarDate
+        The date.
+
+    Raises
+    ------
+    ValueError
+        If the text is not a date of the calendar.
+
+    Examples
+    --------
+    >>> read_date("-204-05-12 18:00")
+    CalendarDate(year=-204, month=5, day=12, part=Fraction(3, 4), calendar='julian')
     """
     found = _PATTERN.fullmatch(text.strip())
     if found is None:
@@ -109,10 +175,24 @@ def _split_gregorian(days: int) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Period:
-    """One row: a period in days, a speed in turns per year, or a bare count.
+    """An astronomical period, speed or count with its source.
 
-    `value` is exact: the fraction given by the source where there is one, else the decimal as printed. `what` is what
-    goes round or is counted, and of a period that serves as a unit its plain name; may be empty.
+    Parameters
+    ----------
+    name : str
+        Name by which `unit` and `targets` of a declaration refer to it.
+    kind : {"period", "speed", "count"}
+        A period [d], a speed [turns per year], or a number of things.
+    value : Fraction
+        The fraction that the source gives, or the decimal as printed.
+    what : str
+        What goes round or is counted; plain name of a period that serves as a unit. May be empty.
+    source, confidence : str
+        Where the value is from, and how certain it is.
+
+    See Also
+    --------
+    period_table : All of them.
     """
 
     name: str
@@ -125,7 +205,18 @@ class Period:
 
 @cache
 def period_table() -> Mapping[str, Period]:
-    """All rows by name."""
+    """All astronomical periods, speeds and counts that a declaration can refer to.
+
+    Returns
+    -------
+    mapping of str to Period
+        By name.
+
+    Examples
+    --------
+    >>> float(period_table()["month_synodic_J2000"].value)
+    29.530588853
+    """
     text = resources.files(__package__).joinpath("periods.csv").read_text(encoding="utf-8")
     rows = {}
     for row in csv.DictReader(text.splitlines()):

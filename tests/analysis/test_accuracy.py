@@ -15,8 +15,7 @@ import pytest
 from commands import LOCKED, RIGHT, call
 
 from geartrain import GearTrain, load
-from geartrain.analysis import accuracy
-from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy, find_accuracy
+from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
 
 SPEEDS, LAWS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
 
@@ -37,8 +36,8 @@ def row_of(found: TrainAccuracy, stage: str, method: str) -> MethodAccuracy:
 def _once() -> Iterator[None]:
     """Each method runs once, for its time is not judged."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(accuracy, "_ENOUGH", 0.0)
-        patch.setattr(accuracy, "_LONG", 0.0)
+        patch.setattr("geartrain.analysis.accuracy._ENOUGH", 0.0)
+        patch.setattr("geartrain.analysis.accuracy._LONG", 0.0)
         yield
 
 
@@ -69,7 +68,6 @@ def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon
     assert row_of(moon, LAWS, "direct, 4 laws").error is None
     for tolerance in (1e-6, 1e-12):
         table = row_of(moon, LAWS, f"tabulated, {tolerance:.0e}")
-        assert table.error is not None
         assert 0 < table.error < tolerance
         assert table.prepared is not None
 
@@ -87,11 +85,8 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
     lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated laws"))
-    assert tables is not None
-    assert lagged is not None
     assert 0 < tables < 1e-9 < lagged < off
     compiled = row_of(moon, MOTION, "composed, compiled").error
-    assert compiled is not None
     assert compiled < 1e-11
 
 
@@ -130,7 +125,7 @@ def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(tr
 
 def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
     code = (
-        "import sys, geartrain; from geartrain.analysis.accuracy import find_accuracy; "
+        "import sys, geartrain; from geartrain.analysis import find_accuracy; "
         "find_accuracy(geartrain.load('pennestri-2002')); "
         "heavy = ('geartrain.teeth.triangular.triangular_transmission', 'geartrain.dynamics.motion'); "
         "print([name for name in sys.modules if name.startswith(heavy)])"

@@ -14,7 +14,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.analysis import find_gears
 from geartrain.errors import GearTrainError
-from geartrain.report.gearbox_report import describe_gearbox
+from geartrain.report import describe_gearbox
 from geartrain.train import State
 
 PUBLISHED = {
@@ -45,8 +45,6 @@ def test_ratios_and_steps_are_the_published_ones(name: str) -> None:
     assert sorted(found, reverse=True) == pytest.approx([*forward, *backward], abs=0.6 * 10**-digits)
     one_way = [each for each in box.states if each.ratio is not None and each.ratio > 0]
     for one, other in pairwise(one_way):
-        assert one.ratio is not None
-        assert other.ratio is not None
         assert one.step == one.ratio / other.ratio
     assert box.spread == max(found) / min(each for each in found if each > 0)
 
@@ -58,7 +56,6 @@ def test_torques_of_input_output_and_brakes_balance(name: str) -> None:
     box = train.gearbox()
     brakes = {each.name for each in box.elements if each.kind == "brake"}
     for state in box.states:
-        assert state.ratio is not None
         held = [torque for element, torque in state.torques.items() if element in brakes]
         assert all(torque is not None for torque in held)
         assert 1 - state.ratio + sum(torque or 0 for torque in held) == 0, "no losses are declared"
@@ -85,7 +82,6 @@ def test_a_simpson_set_in_low_gear_bears_what_textbooks_say() -> None:
 def test_a_positive_recirculation_is_between_sets_and_not_inside_them() -> None:
     """In reverse the 8HP feeds half of the power back; a single planetary set has none to feed."""
     states = {each.state: each for each in load("zf-8hp70").gearbox().states}
-    assert states["R"].recirculating is not None
     assert states["R"].recirculating > Fraction(1, 2)
     assert all(each.recirculating == 0 for name, each in states.items() if name != "R")
     assert all(each.recirculating == 0 for each in load("ravigneaux-set").gearbox().states)
@@ -131,9 +127,7 @@ def test_series_are_counted_and_chosen_as_by_trying_all(name: str, single: bool)
         if all(window[0] <= step <= window[1] for step in steps) and (not single or max(swaps) <= 2):
             every.append((ratios[0] / ratios[-1], chosen))
     assert found.series == len(every) > 0
-    assert found.widest is not None
     assert found.widest.spread == max(spread for spread, _ in every)
-    assert found.evenest is not None
     assert found.evenest.deviation == pytest.approx(min(_deviation(each) for _, each in every), abs=1e-6)
 
 
@@ -141,7 +135,6 @@ def test_a_search_of_ten_gears_finds_the_published_table_and_one_other() -> None
     train = load("ford-10r80")
     found = find_gears(train, gears=10, steps=(1.08, 1.6), single=True)
     assert found.series == 2
-    assert found.widest is not None
     first, *others = [gear.engaged for gear in found.widest.gears]
     states = train.declaration.states
     assert others == [tuple(states[str(gear)].engaged) for gear in range(2, 11)]

@@ -9,7 +9,7 @@ import pytest
 
 from geartrain import GearTrainError, load
 from geartrain.dynamics import CornerPositions, Motion
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.teeth import TransmissionFunction
 
 ROCKING = """
 links:
@@ -35,7 +35,7 @@ def of(corners: CornerPositions, pair: str) -> np.ndarray:
     return corners.turns[corners.pair == corners.pairs.index(pair)]
 
 
-def dense_passages(S: np.ndarray, law: TriangularTransmission) -> int:
+def dense_passages(S: np.ndarray, law: TransmissionFunction) -> int:
     """How often a driver's angle passes a corner either way, from many samples of it."""
     found = 0
     for corner in np.unique(np.mod(law.corners(), law.period)):
@@ -43,7 +43,7 @@ def dense_passages(S: np.ndarray, law: TriangularTransmission) -> int:
     return found
 
 
-def driver_angle(motion: Motion, law: TriangularTransmission, link: str, turns: np.ndarray) -> np.ndarray:
+def driver_angle(motion: Motion, law: TransmissionFunction, link: str, turns: np.ndarray) -> np.ndarray:
     """Of a driver on the frame: mean motion and error; a tooth of it is on the line of centres at 0."""
     at = list(motion.outputs).index(link)
     mean = float(motion.train.ratio(link))
@@ -52,7 +52,7 @@ def driver_angle(motion: Motion, law: TriangularTransmission, link: str, turns: 
 
 def test_the_first_pair_is_at_its_corner_once_a_pitch_of_the_input() -> None:
     train = load("moon-triangular")
-    law: TriangularTransmission = train.meshes[0].law
+    law = train.meshes[0].law
     found = of(train.motion(outputs=["moon"]).corner_positions(0.5, 2), "a~b1")
     every = (law.corners()[0] + np.arange(-5, 200) * law.period) / (2 * pi)
     assert np.allclose(found, every[(every >= 0.5) & (every <= 2)], rtol=0, atol=1e-14)
@@ -64,7 +64,7 @@ def test_along_a_train_each_driver_stands_at_the_corner_of_its_law() -> None:
     corners = motion.corner_positions(0, 3)
     assert (np.diff(corners.turns) >= 0).all()
     for name, link, mesh in zip(corners.pairs[1:], ["sun", "c", "d"], train.meshes[1:], strict=True):
-        law: TriangularTransmission = mesh.law
+        law = mesh.law
         found = of(corners, name)
         pitches = (driver_angle(motion, law, link, found) - law.corners()[0]) / law.period
         assert np.abs(pitches - np.rint(pitches)).max() < 1e-10
@@ -87,7 +87,6 @@ def test_speeds_jump_at_corners_alone(name: str) -> None:
 def test_a_driver_that_rocks_passes_its_corners_both_ways() -> None:
     motion = load(ROCKING).motion()
     law = next(source.law for source in motion.ahead.used if source.id == "x~y")
-    assert isinstance(law, TriangularTransmission)
     found = of(motion.corner_positions(0, 1.5), "x~y")
     dense = driver_angle(motion, law, "out", np.linspace(0, 1.5, 200_001))
     assert len(found) == dense_passages(dense, law) > 150

@@ -18,17 +18,19 @@ import shipped as catalogue
 from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
+from models import torque_figures
 from places import ROOT
 
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
-from geartrain.dynamics.motion.pair_impacts import collision_energies
-from geartrain.dynamics.torques.load_case import input_and_output
-from geartrain.dynamics.torques.power_flow import watts_per_unit
-from geartrain.dynamics.torques.train_torques import drive_both_ways
-from geartrain.numerics.exact import percent_of_text, percent_text, watts_text
-from geartrain.report import Document, collect_torque_report, describe_torques, to_markdown
-from geartrain.report.torque_report import collect_torques, torque_sections
+from geartrain.report import (
+    Document,
+    collect_report,
+    collect_torque_report,
+    describe_torques,
+    describe_train,
+    to_markdown,
+)
 
 RING = """
 extends: planetary-24-18-60
@@ -94,7 +96,8 @@ def flows(train: GearTrain) -> list[tuple[Torques, PowerFlow]]:
 
 def _flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
     for state in states(train):
-        for found in (train.torques(state), *(way for way, _, _ in drive_both_ways(train.mechanics, state))):
+        figures = torque_figures(train, state)
+        for found in (figures.torques, *(each.way.torques for each in figures.drives or ())):
             if found.verdict and not any(pair.loose for pair in found.pairs.values()):
                 yield found, find_power_flow(found)
 
@@ -149,9 +152,12 @@ def lossy(name: str) -> GearTrain:
 
 
 def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
-    found = input_and_output(train.declaration, train.declaration.case(state))
-    speed = Fraction(train.solve(state).speeds[found[1]]) if found else Fraction(0)
-    return {found[1]: str(-1 if speed > 0 else 1)} if found and speed else {}
+    drives = torque_figures(train, state).drives
+    if drives is None:
+        return {}
+    link = drives.forward.way.load
+    speed = Fraction(train.solve(state).speeds[link])
+    return {link: str(-1 if speed > 0 else 1)} if speed else {}
 
 
 @pytest.mark.parametrize("name", catalogue.every_train())
@@ -334,28 +340,13 @@ def test_a_bearing_that_turns_at_no_certain_speed_takes_no_part_in_the_flow() ->
 )
 def test_powers_are_watts_where_torques_and_speeds_are_real(more: str, watts: float | None) -> None:
     train = load(RING + more)
-    found = watts_per_unit(train.declaration, train.declaration.case(None))
+    found = torque_figures(train).watts_per_unit
     assert found == (None if watts is None else pytest.approx(watts, rel=1e-14))
 
 
 def test_plain_loads_are_no_watts() -> None:
     train = load(RING.replace(" N m", "") + "rate: 10 turn/s\n")
-    assert watts_per_unit(train.declaration, train.declaration.case(None)) is None
-
-
-@pytest.mark.parametrize(
-    ("amount", "text"),
-    [(0.0, "0 W"), (2.5e-3, "2.5 mW"), (183.42, "183.4 W"), (-26419.9, "-26.42 kW"), (3e7, "30 MW"), (4e-9, "4 nW")],
-)
-def test_watts_have_prefixes(amount: float, text: str) -> None:
-    assert watts_text(amount) == text
-
-
-def test_shares_are_percent_or_multiples() -> None:
-    assert percent_text(Fraction(1, 7)) == "14.29 %"
-    assert percent_text(Fraction(1, 7), 2) == "14 %"
-    assert percent_of_text(Fraction(1, 2), "the power in") == "50 % of the power in"
-    assert percent_of_text(Fraction(2587, 10), "the power in") == "258.7 times the power in"
+    assert torque_figures(train).watts_per_unit is None
 
 
 # --------------------------------------------------------------------------------------------------------------- report
@@ -440,20 +431,20 @@ def test_the_loop_is_named_with_what_circulates() -> None:
 def test_collisions_stand_beside_sliding() -> None:
     """Two pairs in a row: each blow strikes all that turns with the driven wheel."""
     train = load(STRUCK)
-    found = train.torques()
     table = rows(page(train), "where")
     assert table[0] == ["where", "sliding", "of power in", "of all sliding", "impact", "of power in"]
     law = train.meshes[0].law
-    energy = collision_energies(law.speed_leaps(), (4 + 7 * (24 / 40) ** 2) * 1e-7, 2 * pi * 3)[1]
-    data = collect_torques(train, found).to_dict()["losses"]
+    lost = sum(leap.size**2 / 2 for leap in law.speed_leaps())
+    energy = lost * (4 + 7 * (24 / 40) ** 2) * 1e-7 * (2 * pi * 3) ** 2
+    data = torque_figures(train).to_dict()["losses"]
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
     assert {loss["name"] for loss in data} == {"a~b", "c~d"}
-    assert table[-1][4] == watts_text(sum(loss["impact"] for loss in data))
+    assert table[-1][4] == f"{1e6 * sum(loss['impact'] for loss in data):.4g} µW"
 
 
 def test_a_train_that_loses_nothing_in_no_loop_has_no_more_to_say() -> None:
     train = load("extends: planetary-24-18-60\nloads: {carrier: -1}\n")
-    assert [section.title for section in torque_sections(collect_torques(train, train.torques()))] == ["Torques"]
+    assert titles(describe_torques(collect_torque_report(train, [train.torques()]))) == ["Torques"]
 
 
 def titles(document: Document) -> list[str]:
@@ -461,8 +452,6 @@ def titles(document: Document) -> list[str]:
 
 
 def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
-    from geartrain.report import collect_report, describe_train
-
     train = load(SPLIT)
     found = [title for title in titles(describe_train(collect_report(train))) if "torques" in title or "power" in title]
     assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "flow of power")]
@@ -491,12 +480,12 @@ def test_every_key_is_documented() -> None:
     part = text[text.index("## torques --json") :]
     part = part[: part.index("\n## ", 5)]
     train = load(REVERSE)
-    data = collect_torques(train, train.torques("R")).to_dict()
+    data = torque_figures(train, "R").to_dict()
     assert "`torques`" in text[: text.index("## compare --json")]
     for key in [*data, *data["flow"], *data["flow"]["loops"][0], *data["flow"]["streams"][0]]:
         assert f"`{key}`" in part, key
     train = load(CLOCK)
-    data = collect_torques(train, train.torques()).to_dict()
+    data = torque_figures(train).to_dict()
     for key in (*data["losses"][0], "impact"):
         assert f"`{key}`" in part, key
     assert json.loads(json.dumps(data, allow_nan=False)) == data
@@ -531,9 +520,11 @@ def test_a_picture_names_every_shaft_pair_and_loss(name: str, state: str | None)
             assert f'id="{node.kind} {node.name}"' in svg
     for node, loss in flow.losses.items():
         word = "teeth" if node.kind == "pair" else "bearing"
-        assert f"<!-- {word} {percent_text(loss / flow.power_in, 3)} -->" in svg
+        assert f"<!-- {word} {100 * float(loss / flow.power_in):.3g} % -->" in svg
     for loop in flow.loops:
-        assert f"<!-- {percent_of_text(loop.power / flow.power_in, 'the power in')} circulates -->" in svg
+        part = float(loop.power / flow.power_in)
+        share = f"{100 * part:.4g} % of" if part < 1 else f"{part:.4g} times"
+        assert f"<!-- {share} the power in circulates -->" in svg
     assert render(figure, ".png").startswith(b"\x89PNG")
     assert render(figure, ".pdf").startswith(b"%PDF")
 
@@ -646,8 +637,7 @@ def fresh(code: str, *arguments: object) -> subprocess.CompletedProcess[str]:
 def test_a_report_without_loads_imports_nothing_of_torques() -> None:
     code = """
 import sys, geartrain
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report, describe_train
 train = geartrain.load(sys.argv[1])
 describe_train(collect_report(train)), collect_report(train).to_dict()
 print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)

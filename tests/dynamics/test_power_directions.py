@@ -1,26 +1,26 @@
-"""Directions of power: all patterns by brute force, long trains by closed forms, parts of a balance."""
+"""Directions of power: all patterns by brute force, exact cases, long trains by closed forms."""
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import product
-from math import prod
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-import networkx as nx
 import pytest
 from hypothesis import assume, event, given, reject, settings
 from hypothesis import strategies as st
+from places import DATA
 
 from geartrain import load
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
-from geartrain.numerics.block_triangular import dulmage_mendelsohn_blocks
 
 ZERO, ONE = Fraction(0), Fraction(1)
+CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))["efficiency"]
 
 
 def eliminated(matrix: list[list[Fraction]]) -> tuple[list[Fraction] | None, bool]:
@@ -374,24 +374,81 @@ loads: {{f: -1}}
     assert abs(found.pairs["c2~e2"].torques[0]) == Fraction(20, 70) * Fraction(30, 60) / Fraction(81, 100)
 
 
-@given(st.dictionaries(st.integers(0, 7), st.sets(st.integers(0, 6), max_size=4), min_size=1))
-def test_parts_need_only_what_stands_before_them(rows: dict[int, set[int]]) -> None:
-    parts = dulmage_mendelsohn_blocks(rows, 7)
-    assert sorted(row for part in parts for row in part.rows) == sorted(rows)
-    assert sorted(column for part in parts for column in part.columns) == list(range(7))
-    known: set[int] = set()
-    for at, part in enumerate(parts):
-        known.update(part.columns)
-        assert all(rows[row] <= known for row in part.rows)
-        assert len(part.rows) <= len(part.columns) or at == 0
-        assert len(part.rows) >= len(part.columns) or at == len(parts) - 1
-    graph = nx.Graph()
-    graph.add_nodes_from(("row", row) for row in rows)
-    graph.add_edges_from((("row", row), ("column", column)) for row, held in rows.items() for column in held)
-    matching = nx.bipartite.maximum_matching(graph, [("row", row) for row in rows])
-    assert sum(min(len(part.rows), len(part.columns)) for part in parts) == len(matching) // 2
+def fractions(given: dict[str, str]) -> dict[str, Fraction]:
+    return {name: Fraction(value) for name, value in given.items()}
 
 
-def test_an_ordinary_chain_has_one_unknown_a_part() -> None:
-    parts = dulmage_mendelsohn_blocks({at: {at, at + 1} for at in range(5000)} | {5000: {0}}, 5001)
-    assert prod(len(part.columns) for part in parts) == 1
+def balance_of(case: dict[str, Any]) -> TorqueBalance:
+    speeds = fractions(case["speeds"])
+    meshes = []
+    for at, gear in enumerate(case["gears"]):
+        i, j, k = gear["i"], gear["j"], gear["carrier"]
+        a, b = gear["zi"], gear["zj"] * (1 if gear["type"] == "external" else -1)
+        eta = Fraction(gear["mesh_efficiency"])
+        meshes.append(LoadedPair(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta))
+    return TorqueBalance(
+        tuple(link for link in case["links"] if link != case["frame"]),
+        tuple(meshes),
+        fractions(case["torque_known"]),
+        tuple(case["torque_unknown"]),
+        tuple(case["fixed"]),
+        tuple(((a, 1), (b, 1)) for a, b in case["locks"]),
+    )
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case["id"])
+def test_all_consistent_flows_are_those_of_the_case(case: dict[str, Any]) -> None:
+    balance = balance_of(case)
+    flows, complete = find_flow_patterns(balance)
+    assert complete
+    found = [(flow.solved.external, flow.solved.brakes, flow.pattern, flow.solved.multipliers) for flow in flows]
+    assert len(found) == case["n_consistent_solutions"] == len(case["solutions"])
+    for solution in case["solutions"]:
+        wanted = {name: t for name, t in fractions(solution["external_torque"]).items() if name in balance.unknown}
+        (match,) = (each for each in found if each[0] == wanted)
+        assert match[1] == fractions(solution["brake_torque"])
+        power = [mesh.power(match[3][mesh.id]) for mesh in balance.meshes]
+        for mesh, through, loss in zip(balance.meshes, power, solution["mesh_loss_power"], strict=True):
+            side = match[2].get(mesh.id, 0)
+            assert through * side >= 0
+            eta = mesh.forward if through > 0 else mesh.backward
+            assert abs(through) * (1 - eta) == Fraction(loss)
+        losses = sum(abs(p) * (1 - m.forward) for p, m in zip(power, balance.meshes, strict=True))
+        speeds = fractions(case["speeds"])
+        outside = {**balance.known, **match[0]}
+        assert sum(torque * speeds[link] for link, torque in outside.items()) == losses
+
+
+@pytest.mark.parametrize(
+    "case", [c for c in CASES if c["n_consistent_solutions"] == 1 and len(c["torque_unknown"]) == 1 and not c["locks"]],
+    ids=lambda case: case["id"],
+)  # fmt: skip
+def test_the_efficiency_is_the_ratio_with_each_tooth_ratio_lessened_by_its_loss(case: dict[str, Any]) -> None:
+    """Kreines' and Mueller's rule: the ratio of speeds with every basic ratio times eta to the sign of its flow."""
+    (known,), (asked,) = case["torque_known"], case["torque_unknown"]
+    balance = balance_of(case)
+    plain = TorqueBalance(
+        balance.links,
+        tuple(LoadedPair(m.id, m.links, m.senses, m.a, m.b, m.rolling) for m in balance.meshes),
+        balance.known, balance.unknown, balance.held, balance.locks,
+    )  # fmt: skip
+    (lossless,), _ = find_flow_patterns(plain)
+    links = [link for link in case["links"] if link != case["frame"]]
+
+    def ratio(lossy: bool) -> Fraction:
+        rows: list[dict[str, Fraction]] = [{link: Fraction(1)} for link in case["fixed"]]
+        for mesh in balance.meshes:
+            through = mesh.power(lossless.solved.multipliers[mesh.id])
+            share = mesh.forward ** ((through > 0) - (through < 0)) if lossy else Fraction(1)
+            row: dict[str, Fraction] = {}
+            for link, value in zip(mesh.links, (mesh.a, mesh.b * share, -mesh.a - mesh.b * share), strict=True):
+                row[link] = row.get(link, ZERO) + value
+            rows.append(row)
+        matrix = [[*(row.get(link, ZERO) for link in links), ZERO] for row in rows]
+        matrix.append([*(ONE if link == known else ZERO for link in links), ONE])
+        speeds, only = eliminated(matrix)
+        assert only
+        return speeds[links.index(asked)]
+
+    (solution,) = case["solutions"]
+    assert ratio(False) / ratio(True) in (Fraction(solution["efficiency"]), 1 / Fraction(solution["efficiency"]))

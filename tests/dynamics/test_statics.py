@@ -16,13 +16,13 @@ import pytest
 from commands import call
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from models import torque_figures
 from reference_solver import echelon, is_a_linkage, rigid_rows, solve_naively, willis_rows
 from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Torques
 from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
-from geartrain.report.torque_report import collect_torques
 
 AXLE = """
 links:
@@ -312,7 +312,7 @@ def test_a_closed_clutch_and_a_brake_show_what_they_carry(tmp_path: Path) -> Non
     assert "| lock K  | a, b | -200         | 200           |" in page
     assert "| brake S | c    | -30          |               |" in page
     assert "lock K" in to_markdown([describe_train(collect_report(train))])
-    data = collect_torques(train, found).to_dict()
+    data = torque_figures(train, "closed").to_dict()
     assert data["held"] == [
         {"links": ["c"], "clutch": "S", "cause": None, "torques": {"c": -30.0}},
         {"links": ["a", "b"], "clutch": "K", "cause": None, "torques": {"a": -200.0, "b": 200.0}},

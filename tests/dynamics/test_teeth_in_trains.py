@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 from commands import call
@@ -12,8 +13,6 @@ from models import PAIR
 
 from geartrain import GearTrainError, load
 from geartrain.teeth import GearMesh, Triangular
-from geartrain.teeth.meshing_wheels import MeshingWheels
-from geartrain.teeth.tooth_form import ShaftAngle
 
 TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
 # 20/60 turns between 1.01031 and 1.0390 (30 deg, equal depth)
@@ -25,7 +24,6 @@ def test_a_form_of_the_train_holds_for_every_pair_without_one() -> None:
     assert mesh.verdict.kind == "runs"
     assert mesh.fault is None
     assert mesh.friction == 0.1
-    assert mesh.window is not None
     assert 1 + mesh.window.jam == pytest.approx(1.01031, abs=6e-6)
     assert 1 + mesh.window.run == pytest.approx(1.0390, abs=6e-5)
 
@@ -87,7 +85,6 @@ def test_a_friction_that_is_none_is_refused(friction: str) -> None:
 def test_friction_that_locks_is_a_fault_with_its_limit() -> None:
     text = PAIR.format(rest=TEETH.replace("0.1", "9").replace("{a: 1}", "{b: 1}"))
     (mesh,) = load(text).meshes
-    assert mesh.fault is not None
     assert "locks" in mesh.fault.what
 
 
@@ -108,7 +105,7 @@ def test_a_train_without_teeth_or_pins_imports_nothing_for_them() -> None:
     code = """
 import sys
 from geartrain import load
-from geartrain.report.train_data import collect_report
+from geartrain.report import collect_report
 data = collect_report(load("pennestri-2002")).to_dict()
 assert data["teeth"] == data["pins"] == []
 heavy = ("numpy", "scipy", "geartrain.teeth.triangular.triangular_transmission", "geartrain.teeth.pin_transmission")
@@ -159,7 +156,7 @@ def test_motion_makes_the_teeth_that_its_outputs_depend_on(
     made: list[tuple[int, int]] = []
     mesh = Triangular.mesh
 
-    def counted(self: Triangular, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
+    def counted(self: Triangular, wheels: Any, shaft_angle: Any) -> GearMesh:
         made.append(wheels.counts)
         return mesh(self, wheels, shaft_angle)
 

@@ -38,8 +38,6 @@ def cycle(train: GearTrain, turns: float = 1, samples: int = 1000) -> TorqueCycl
 
 def torque(found: TorqueCycle) -> tuple[float, float, float]:
     assert found.mean is not None
-    assert found.greatest is not None
-    assert found.least is not None
     return found.mean, found.greatest.torque, found.least.torque
 
 
@@ -52,7 +50,6 @@ def test_a_pin_that_drives_a_slot_peaks_at_five_times_its_mean() -> None:
     mean, greatest, _ = torque(found)
     assert mean == pytest.approx(10 * (1 + f / pi * log((r + e) / (r - e))), rel=1e-9)
     assert greatest == pytest.approx(50.9784589, abs=5e-8)
-    assert found.greatest is not None
     assert min(found.greatest.turns, 1 - found.greatest.turns) * 2 * pi == pytest.approx(0.032612, abs=1e-6)
     assert found.efficiency == pytest.approx(0.8265696, abs=5e-8)
 
@@ -84,10 +81,8 @@ def test_a_weight_on_a_follower_drives_it_back_and_locks_it_near_its_dead_points
     assert greatest == pytest.approx(3.9356616, abs=5e-8)
     assert least == pytest.approx(-15, abs=1e-7)
     assert found.held_share == pytest.approx(0.0582218, abs=5e-8)
-    assert found.energy is not None
     assert found.energy.put_in / (2 * pi) == pytest.approx(2.5367917, abs=5e-8)
     assert found.energy.returned / (2 * pi) == pytest.approx(1.6542493, abs=5e-8)
-    assert found.powers is not None
     assert found.turns is not None
     weighed = found.powers["b"] > 0
     steps = np.diff(found.turns)
@@ -123,7 +118,6 @@ def test_what_rests_is_harder_to_start() -> None:
     train = _TWO_LINKS.format(kind="pin_and_slot", pin="a", slot="b", r=10, e=8, f="{sliding: 0.2, static: 0.3}",
                               loads=text, bearing="bearing: {sliding: 1 N m, static: 2 N m}")  # fmt: skip
     found = cycle(load(train))
-    assert found.starting is not None
     assert found.starting.torque == pytest.approx(1.2 * torque(resting)[1], rel=1e-9)
     assert torque(found)[1] == pytest.approx(1.1 * torque(moving)[1], rel=1e-9)
 
@@ -172,8 +166,6 @@ loads: {hand: -1 N m}
 @pytest.mark.parametrize("name", all_but({"bearings of planets, and rest in the play"}, CONSERVING))
 def test_what_goes_in_comes_out_or_is_lost_at_every_position(name: str) -> None:
     found = load(CONSERVING[name]).torques(turns=2 if name == "four pairs in a row" else 0.02, samples=500)
-    assert found.powers is not None
-    assert found.losses is not None
     lost = found.losses.values.sum(axis=0)
     greatest = np.abs(found.powers.values).max()
     assert greatest > 0
@@ -308,7 +300,6 @@ def test_drag_goes_with_the_speed_of_the_moment() -> None:
     S = np.arange(4096) * (2 * pi / 4096)
     tau = 10 * (10 - 5 * np.cos(S)) / (100 + 25 - 100 * np.cos(S))
     assert found.mean == pytest.approx(1 + 0.01 * w * float(np.mean(tau**2)), rel=1e-9)
-    assert found.starting is not None
     assert found.starting.torque == pytest.approx(2, rel=1e-8)
     assert [each.what for each in train.torques().left_out] == ["viscous drag", "swing within a turn"]
 

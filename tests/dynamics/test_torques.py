@@ -11,14 +11,9 @@ import pytest
 from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
-from places import DATA
 from shipped import every_train
 
 from geartrain import GearTrainError, load, shipped
-from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
-from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
-
-CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))["efficiency"]
 
 # sun, ring and arm on one axis, one planet with two wheels: basic ratio (w_sun - w_arm)/(w_ring - w_arm)
 SET = """
@@ -36,101 +31,6 @@ revolutes:
 gears: [{{pair: [s, p], efficiency: {e}}}, {{pair: [q, r], efficiency: {f}}}]
 {rest}
 """
-
-
-def fractions(given: dict[str, str]) -> dict[str, Fraction]:
-    return {name: Fraction(value) for name, value in given.items()}
-
-
-def balance_of(case: dict[str, Any]) -> TorqueBalance:
-    speeds = fractions(case["speeds"])
-    meshes = []
-    for at, gear in enumerate(case["gears"]):
-        i, j, k = gear["i"], gear["j"], gear["carrier"]
-        a, b = gear["zi"], gear["zj"] * (1 if gear["type"] == "external" else -1)
-        eta = Fraction(gear["mesh_efficiency"])
-        meshes.append(LoadedPair(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta))
-    return TorqueBalance(
-        tuple(link for link in case["links"] if link != case["frame"]),
-        tuple(meshes),
-        fractions(case["torque_known"]),
-        tuple(case["torque_unknown"]),
-        tuple(case["fixed"]),
-        tuple(((a, 1), (b, 1)) for a, b in case["locks"]),
-    )
-
-
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case["id"])
-def test_all_consistent_flows_are_those_of_the_case(case: dict[str, Any]) -> None:
-    balance = balance_of(case)
-    flows, complete = find_flow_patterns(balance)
-    assert complete
-    found = [(flow.solved.external, flow.solved.brakes, flow.pattern, flow.solved.multipliers) for flow in flows]
-    assert len(found) == case["n_consistent_solutions"] == len(case["solutions"])
-    for solution in case["solutions"]:
-        wanted = {name: t for name, t in fractions(solution["external_torque"]).items() if name in balance.unknown}
-        (match,) = (each for each in found if each[0] == wanted)
-        assert match[1] == fractions(solution["brake_torque"])
-        power = [mesh.power(match[3][mesh.id]) for mesh in balance.meshes]
-        for mesh, through, loss in zip(balance.meshes, power, solution["mesh_loss_power"], strict=True):
-            side = match[2].get(mesh.id, 0)
-            assert through * side >= 0
-            eta = mesh.forward if through > 0 else mesh.backward
-            assert abs(through) * (1 - eta) == Fraction(loss)
-        losses = sum(abs(p) * (1 - m.forward) for p, m in zip(power, balance.meshes, strict=True))
-        speeds = fractions(case["speeds"])
-        outside = {**balance.known, **match[0]}
-        assert sum(torque * speeds[link] for link, torque in outside.items()) == losses
-
-
-def solved(rows: list[dict[str, Fraction]], links: list[str], given: dict[str, Fraction]) -> dict[str, Fraction]:
-    """Speeds by plain elimination, each row a sum that vanishes."""
-    left = [dict(row) for row in rows]
-    left += [{link: Fraction(1), "": -speed} for link, speed in given.items()]
-    pivots: list[tuple[str, dict[str, Fraction]]] = []
-    for link in links:
-        row = next(row for row in left if row.get(link))
-        left.remove(row)
-        row = {name: value / row[link] for name, value in row.items()}
-        for other in [*left, *(each for _, each in pivots)]:
-            factor = other.get(link, Fraction(0))
-            for name, value in row.items():
-                other[name] = other.get(name, Fraction(0)) - factor * value
-        pivots.append((link, row))
-    return {link: -row.get("", Fraction(0)) for link, row in pivots}
-
-
-@pytest.mark.parametrize(
-    "case", [c for c in CASES if c["n_consistent_solutions"] == 1 and len(c["torque_unknown"]) == 1 and not c["locks"]],
-    ids=lambda case: case["id"],
-)  # fmt: skip
-def test_the_efficiency_is_the_ratio_with_each_tooth_ratio_lessened_by_its_loss(case: dict[str, Any]) -> None:
-    """Kreines' and Mueller's rule: the ratio of speeds with every basic ratio times eta to the sign of its flow."""
-    (known,), (asked,) = case["torque_known"], case["torque_unknown"]
-    balance = balance_of(case)
-    plain = TorqueBalance(
-        balance.links,
-        tuple(LoadedPair(m.id, m.links, m.senses, m.a, m.b, m.rolling) for m in balance.meshes),
-        balance.known, balance.unknown, balance.held, balance.locks,
-    )  # fmt: skip
-    (lossless,), _ = find_flow_patterns(plain)
-    links = [link for link in case["links"] if link != case["frame"]]
-
-    def ratio(lossy: bool) -> Fraction:
-        rows: list[dict[str, Fraction]] = [{link: Fraction(1)} for link in case["fixed"]]
-        for mesh in balance.meshes:
-            through = mesh.power(lossless.solved.multipliers[mesh.id])
-            share = mesh.forward ** ((through > 0) - (through < 0)) if lossy else Fraction(1)
-            row: dict[str, Fraction] = {}
-            for link, value in zip(mesh.links, (mesh.a, mesh.b * share, -mesh.a - mesh.b * share), strict=True):
-                if link != case["frame"]:
-                    row[link] = row.get(link, Fraction(0)) + value
-            rows.append(row)
-        speeds = solved(rows, links, {known: Fraction(1)})
-        return speeds[asked]
-
-    (solution,) = case["solutions"]
-    assert ratio(False) / ratio(True) in (Fraction(solution["efficiency"]), 1 / Fraction(solution["efficiency"]))
 
 
 teeth = st.integers(12, 90)
@@ -530,16 +430,6 @@ def test_the_command_prints_keys_and_verdicts(tmp_path: Path) -> None:
     path.write_text(LOADED.replace("{arm: 10 N m}", "{sun: 10 N m}"), encoding="utf-8")
     assert call("torques", path).exit_code == 1
     assert call("torques", "worm").exit_code == 0
-
-
-def test_a_gearbox_has_its_published_efficiencies() -> None:
-    # ZF 8HP70 with a basic efficiency of 0.98 for each set, 0.9899 a mesh: cases of the same name above
-    train = load("zf-8hp70")
-    for state in train.states:
-        (source,) = train.declaration.case(state).inputs
-        found = train.driven("OUT", source, state)
-        assert found.verdict
-        assert found.efficiency == 1
 
 
 def test_an_efficiency_of_means_over_teeth_is_a_float_and_a_declared_one_a_fraction() -> None:

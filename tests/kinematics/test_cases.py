@@ -1,4 +1,4 @@
-"""Every kinematic case of the collection: speeds of every link, counts, carriers, ratios; and what is refused."""
+"""Every kinematic case of the collection: speeds of every link, counts, carriers, ratios; what contradicts or locks."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from places import DATA
 
-from geartrain import GearTrain, GearTrainError, load
+from geartrain import GearTrain, load
 
 CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))
 KINEMATIC = {case["id"]: case for case in CASES["kinematic"]}
@@ -139,30 +139,6 @@ def test_floats_agree_within_their_estimate_and_within_the_condition_of_each_spe
             assert error <= Fraction(4 * EPS * float(most) + second_order), link
 
 
-SAYS = {
-    "R01": ("no carrier", "a -(x)- 0 -(x)- b", "coaxial"),
-    "R02": ("no carrier", "a -(x)- 0 -(y)- c -(z)- b", "0 and at c"),
-    "R03": ("cycle", "0", "a", "b"),
-    "R04": ("link 'b' is not joined",),
-    "R06": ("0 is not a tooth count",),
-}
-
-
-@pytest.mark.parametrize("name", SAYS)
-def test_what_is_no_train_is_refused_by_name(name: str) -> None:
-    with pytest.raises(GearTrainError) as caught:
-        load(declaration(REJECT[name]))
-    for words in SAYS[name]:
-        assert words in str(caught.value)
-
-
-def test_a_negative_tooth_count_is_refused_like_zero() -> None:
-    data = declaration(REJECT["R06"])
-    data["links"]["a"]["wheels"]["i0"]["teeth"] = -20
-    with pytest.raises(GearTrainError, match="-20 is not a tooth count"):
-        load(data)
-
-
 def test_over_specified_speeds_are_contradictory_and_the_prescriptions_are_named() -> None:
     verdict = load(declaration(REJECT["R11"])).solve().verdict
     assert verdict.kind == "contradictory"
@@ -177,14 +153,6 @@ def test_under_specified_speeds_leave_c_r_and_p_undetermined() -> None:
     assert set(verdict.links) == {"C", "R", "P"}
     assert verdict.text.startswith("1 of 2 degrees of freedom prescribed")
     assert len(verdict.fixes) == 1
-
-
-def test_three_mutually_meshing_wheels_are_locked_and_the_loop_is_named() -> None:
-    verdict = load(declaration(REJECT["R13"])).solve().verdict
-    assert verdict.kind == "locked"
-    (loop,) = verdict.loops
-    assert set(loop.links) == {"a", "b", "c"}
-    assert loop.product == -1
 
 
 @pytest.mark.parametrize("name", ["K45", "K46"])

@@ -9,7 +9,6 @@ from math import acos, asin, atan, ceil, cos, floor, hypot, pi, radians, sin, sq
 import pytest
 
 from geartrain import GearTrain, load
-from geartrain.kinematics.buildability.equal_planets import bezout
 
 
 def planets(
@@ -324,10 +323,3 @@ def test_planets_of_other_counts_are_not_equal() -> None:
         gears="{pair: [s, p]}, {pair: [p, ring]}, {pair: [s, q]}, {pair: [q, ring]}",
     )
     assert found(load(unlike)) == []
-
-
-@pytest.mark.parametrize(("a", "b"), [(0, 5), (24, 18), (17, 5), (10**12, 35)])
-def test_greatest_common_divisors_are_sums_of_multiples(a: int, b: int) -> None:
-    common, u, v = bezout(a, b)
-    assert u * a + v * b == common
-    assert a % common == b % common == 0

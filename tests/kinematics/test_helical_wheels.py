@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from math import acos, atan, cos, degrees, hypot, pi, radians, sin, sqrt, tan
 from random import Random
@@ -13,10 +12,7 @@ import pytest
 from commands import call
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE, screw_efficiency
-from geartrain.scene import ManufacturingSizes, lay_out
-from geartrain.scene.solids.triangle_solids import Solid, twisted, wheel_solid
-from geartrain.scene.solids.wheel_blanks import find_blanks
+from geartrain.scene import ManufacturingSizes, SolidModel, lay_out
 
 
 def train(first: dict[str, Any], second: dict[str, Any], **also: Any) -> GearTrain:
@@ -194,27 +190,13 @@ def test_other_teeth_do_not_lean() -> None:
         _ = train(helical(20, 45), helical(20, 45), tooth_form={"form": "involute"}, axes=skew).meshes
 
 
-@pytest.mark.parametrize("lead", [2.0, 5.0, 20.0])
-def test_a_screw_has_the_efficiency_of_a_worm(lead: float) -> None:
-    rough = 0.12
-    friction, gamma, rho = rough * cos(NORMAL_ANGLE), radians(lead), atan(rough)
-    ahead, back = (
-        screw_efficiency(*radians_of, friction) for radians_of in ((pi / 2 - gamma, gamma), (gamma, pi / 2 - gamma))
-    )
-    assert ahead == pytest.approx(tan(gamma) / tan(gamma + rho))
-    assert back == pytest.approx(tan(gamma - rho) / tan(gamma))
-    # power in of forces on a thread pressed with 1: across and along it, with velocities of both
-    normal = (cos(NORMAL_ANGLE) * cos(pi / 2 - gamma) + friction * sin(pi / 2 - gamma)) * 1 / cos(pi / 2 - gamma)
-    out = (cos(NORMAL_ANGLE) * cos(gamma) - friction * sin(gamma)) / cos(gamma)
-    assert ahead == pytest.approx(out / normal)
-
-
 def test_torques_take_the_efficiency_of_screws() -> None:
     placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
     worm = {"teeth": 1, "kind": "worm", "helix_angle": "85 deg"}
     given = {"axes": placed, "pair": {"friction": 0.1}, "loads": {"a": "1 N m"}}
     found = train(worm, helical(40, 5), **given).torques()
-    assert float(found.efficiency) == pytest.approx(screw_efficiency(radians(85), radians(5), 0.1))
+    lead, rough = radians(5), atan(0.1 / cos(radians(20)))
+    assert float(found.efficiency) == pytest.approx(tan(lead) / tan(lead + rough))
     back = train(worm, helical(40, 5), **{**given, "loads": {"b": "-1 N m"}}).torques()
     assert "lock" in str(back.verdict)
 
@@ -303,31 +285,22 @@ def test_friction_of_a_worm_of_unknown_lead_asks_for_its_helix_angle() -> None:
     assert "tooth_form" not in left.why
 
 
-def volume(solid: Solid) -> float:
-    a, b, c = (solid.vertices[solid.faces[:, at]] for at in range(3))
-    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
-
-
 def test_solids_turn_along_their_axis_by_the_helix() -> None:
     """A corner of the upper face stands width tan(helix) / radius ahead of its place in the lower one."""
-    square = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
-    solid = twisted(square, np.array([[0, 1, 2], [0, 2, 3]]), 3.0, 0.5)
-    low, high = solid.vertices[:4], solid.vertices[-4:]
-    assert low[:, 2] == pytest.approx(-1.5)
-    assert high[:, 2] == pytest.approx(1.5)
-    ahead = np.angle((high[:, 0] + 1j * high[:, 1]) / (low[:, 0] + 1j * low[:, 1]))
-    assert ahead == pytest.approx(0.5)
-    wheels = [
-        helical(17, 30, "right", module="2 mm", thickness="20 mm"),
-        helical(40, 30, "left", module="2 mm", thickness="20 mm"),
-    ]
-    pair = train(*wheels, tooth_form={"form": "involute"})
-    blanks = find_blanks(pair, lay_out(pair), ManufacturingSizes()).wheels
-    for name, sign in (("a1", 1), ("b1", -1)):
-        blank = blanks[name]
-        assert blank.twist == pytest.approx(sign * blank.thickness * tan(radians(30)) / blank.pitch_radius)
-        leaning, straight = (volume(wheel_solid(each)) for each in (blank, replace(blank, helix=0.0)))
-        assert leaning == pytest.approx(straight, rel=4e-3)  # chords of the helix
+    beta = radians(30)
+    wheels = (helical(z, 30, hand, module="2 mm", thickness="20 mm") for z, hand in ((17, "right"), (40, "left")))
+    model = SolidModel(train(*wheels, tooth_form={"form": "involute"}), ManufacturingSizes())
+    parts = {part.name: part for part in model.parts}
+    for name, teeth, sign in (("a1", 17, 1), ("b1", 40, -1)):
+        solid = parts[name].drawn
+        low, high = (solid.vertices[np.isclose(solid.vertices[:, 2], z)] for z in (-10, 10))
+        ahead = np.angle((high[:, 0] + 1j * high[:, 1]) / (low[:, 0] + 1j * low[:, 1]))
+        assert ahead == pytest.approx(sign * 20 * tan(beta) / (teeth / cos(beta)))
+        a, b, c = (solid.vertices[solid.faces[:, at]] for at in range(3))
+        top = np.isclose([a[:, 2], b[:, 2], c[:, 2]], 10).all(axis=0)
+        area = np.cross(b - a, c - a)[top, 2].sum() / 2
+        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+        assert volume == pytest.approx(20 * area, rel=4e-3)  # chords of the helix
 
 
 def test_the_shipped_pair_runs() -> None:

@@ -14,13 +14,12 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from models import PAIR, PLANETARY, pair, refusal
+from models import PAIR, PLANETARY, pair, refusal, torque_figures
 from shipped import every_train
 from strategies import Data, driven_trains
 
 import geartrain
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.workshop import train_file
 
@@ -132,9 +131,8 @@ def test_radians_that_cancel_are_no_contradiction() -> None:
 @pytest.mark.parametrize("torque", ["-3 N m", "-3000 N mm"])
 def test_watts_are_the_same_in_every_unit(speed: str, torque: str) -> None:
     train = pair(f"inputs: {{a: {speed}}}\nloads: {{b: {torque}}}")
-    case = train.declaration.case(None)
     # 3 N m against a third of a turn backwards a second
-    power = float(train.torques().power_in) * (watts_per_unit(train.declaration, case) or 0)
+    power = float(train.torques().power_in) * torque_figures(train).watts_per_unit
     assert power == pytest.approx(2 * math.pi, rel=1e-14)
 
 
@@ -142,9 +140,7 @@ def test_watts_are_the_same_in_every_unit(speed: str, torque: str) -> None:
 @pytest.mark.parametrize("unit", ["", "unit: {per: 1 min}"])
 def test_watts_are_right_beside_a_zero_and_in_a_declared_unit(inputs: str, unit: str) -> None:
     train = load(TWO.format(rest=f"inputs: {inputs}\nloads: {{b: 3 N m}}\n{unit}"))
-    found = watts_per_unit(train.declaration, train.declaration.case(None))
-    assert found is not None
-    assert float(train.solve()["b"]) * found == pytest.approx(2 * math.pi, rel=1e-14)
+    assert float(train.solve()["b"]) * torque_figures(train).watts_per_unit == pytest.approx(2 * math.pi, rel=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -56,10 +56,6 @@ def test_the_error_of_a_period_is_that_of_the_speed_and_positive_is_fast() -> No
     assert result.error < 0
 
 
-def test_a_pointer_with_too_short_a_period_is_fast() -> None:
-    assert against("{period: 27.33 d}").error > 0
-
-
 def test_a_speed_is_compared_with_its_sign() -> None:
     forward, backward = against("{speed: 254/19}"), against("{speed: -254/19}")  # the pointer is at -254/19
     assert (forward.speed, forward.error, forward.compared) == (MONTHS, -2, "speed")

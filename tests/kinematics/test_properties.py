@@ -6,6 +6,7 @@ from copy import deepcopy
 from fractions import Fraction
 from typing import Any
 
+import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from reference_solver import rank_of, solve_naively, willis_rows
@@ -333,20 +334,14 @@ UNRELATED: Data = {
 }
 
 
-def test_an_output_that_is_determined_is_so_whatever_is_free_elsewhere() -> None:
-    answer = GearTrain.declare(UNRELATED).solve(output="a")
-    assert (answer["a"], answer.verdict.kind) == (1, "determined")
-
-
-def test_an_output_that_is_determined_is_so_whatever_is_locked_together_elsewhere() -> None:
-    answer = GearTrain.declare({**UNRELATED, "locks": [["b", "c"]]}).solve(output="a")
-    assert (answer["a"], answer.verdict.kind) == (1, "determined")
-
-
-def test_a_link_that_a_brake_holds_has_speed_zero_when_it_alone_is_asked_for() -> None:
-    train = GearTrain.declare({**UNRELATED, "inputs": {}, "fixed": ["a"]})
-    assert train.solve()["a"] == 0
-    assert train.solve(output="a")["a"] == 0
+@pytest.mark.parametrize(
+    ("more", "speed"), [({}, 1), ({"locks": [["b", "c"]]}, 1), ({"inputs": {}, "fixed": ["a"]}, 0)]
+)
+def test_an_output_that_is_determined_is_so_whatever_is_free_or_locked_together_elsewhere(
+    more: Data, speed: int
+) -> None:
+    answer = GearTrain.declare({**UNRELATED, **more}).solve(output="a")
+    assert (answer["a"], answer.verdict.kind) == (speed, "determined")
 
 
 @some

@@ -14,7 +14,6 @@ from random_trains import RandomTrain, driven_train, random_train
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.kinematics import Answer
-from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import exact_verdict
 
 
@@ -113,7 +112,7 @@ def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
         if any(motion.kind == "refused" for motion in motions.values()):
             continue
         asked = GearTrain.declare(train.data)
-        reduced = SolvedPart(tuple(train.data["links"]), "frame", asked.circuits, ()).reduced
+        reduced = asked.kinematics.whole.reduced
         for answer in asked.answers():
             verdict = exact_verdict(reduced, asked.kinematics.cases[answer.state], asked.kinematics.signs)
             assert verdict.kind == answer.verdict.kind, (seed, answer.state)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from math import prod
+
 import networkx as nx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.numerics.block_triangular import find_blocks
+from geartrain.numerics.block_triangular import dulmage_mendelsohn_blocks, find_blocks
 
 
 @st.composite
@@ -26,7 +28,6 @@ def test_blocks_are_a_triangular_form_with_the_fewest_columns_a_block(rows: list
     if len(matching) < 2 * len(rows):
         assert blocks is None
         return
-    assert blocks is not None
     assert sorted(row for block in blocks for row in block.rows) == list(range(len(rows)))
     assert sorted(column for block in blocks for column in block.columns) == list(range(len(rows)))
     known: set[int] = set()
@@ -48,8 +49,29 @@ def test_blocks_are_a_triangular_form_with_the_fewest_columns_a_block(rows: list
 def test_a_chain_of_a_hundred_thousand_is_as_many_blocks() -> None:
     size = 100_000
     blocks = find_blocks([[0], *([at, at + 1] for at in range(size - 1))])
-    assert blocks is not None
     assert [block.columns for block in blocks] == [(at,) for at in range(size)]
     ring = find_blocks([[at, (at + 1) % size] for at in range(size)])
-    assert ring is not None
     assert len(ring) == 1
+
+
+@given(st.dictionaries(st.integers(0, 7), st.sets(st.integers(0, 6), max_size=4), min_size=1))
+def test_parts_need_only_what_stands_before_them(rows: dict[int, set[int]]) -> None:
+    parts = dulmage_mendelsohn_blocks(rows, 7)
+    assert sorted(row for part in parts for row in part.rows) == sorted(rows)
+    assert sorted(column for part in parts for column in part.columns) == list(range(7))
+    known: set[int] = set()
+    for at, part in enumerate(parts):
+        known.update(part.columns)
+        assert all(rows[row] <= known for row in part.rows)
+        assert len(part.rows) <= len(part.columns) or at == 0
+        assert len(part.rows) >= len(part.columns) or at == len(parts) - 1
+    graph = nx.Graph()
+    graph.add_nodes_from(("row", row) for row in rows)
+    graph.add_edges_from((("row", row), ("column", column)) for row, held in rows.items() for column in held)
+    matching = nx.bipartite.maximum_matching(graph, [("row", row) for row in rows])
+    assert sum(min(len(part.rows), len(part.columns)) for part in parts) == len(matching) // 2
+
+
+def test_an_ordinary_chain_has_one_unknown_a_part() -> None:
+    parts = dulmage_mendelsohn_blocks({at: {at, at + 1} for at in range(5000)} | {5000: {0}}, 5001)
+    assert prod(len(part.columns) for part in parts) == 1

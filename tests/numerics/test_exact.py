@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from reference_solver import echelon
 from scipy.optimize import linprog
 
+from geartrain.numerics import decimal
 from geartrain.numerics.elimination import PRIME, TooDenseError, add_into, eliminate, feasible, rank_modulo, residues
-from geartrain.numerics.exact import as_float, coprime, decimal, log10
+from geartrain.numerics.exact import as_float, coprime, log10, percent_of_text, percent_text, watts_text
 
 SAMPLE = 30 if settings().derandomize else 60  # systems of each law; `--slow` draws new ones, and twice as many
 coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)
@@ -155,3 +156,18 @@ def test_forms_can_all_be_kept_above_zero_where_linear_programming_says_so(rows:
     # the constant stands in the column -1; in floats: is there an x with matrix x >= -constant
     truth = linprog(np.zeros(3), A_ub=-matrix[:, 1:], b_ub=matrix[:, 0], bounds=(None, None), method="highs")
     assert feasible(forms) == (truth.status == 0)
+
+
+@pytest.mark.parametrize(
+    ("amount", "text"),
+    [(0.0, "0 W"), (2.5e-3, "2.5 mW"), (183.42, "183.4 W"), (-26419.9, "-26.42 kW"), (3e7, "30 MW"), (4e-9, "4 nW")],
+)
+def test_watts_have_prefixes(amount: float, text: str) -> None:
+    assert watts_text(amount) == text
+
+
+def test_shares_are_percent_or_multiples() -> None:
+    assert percent_text(Fraction(1, 7)) == "14.29 %"
+    assert percent_text(Fraction(1, 7), 2) == "14 %"
+    assert percent_of_text(Fraction(1, 2), "the power in") == "50 % of the power in"
+    assert percent_of_text(Fraction(2587, 10), "the power in") == "258.7 times the power in"

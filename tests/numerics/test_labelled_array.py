@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from geartrain.numerics.labelled_array import labelled_array
+from geartrain.numerics import LabelledArray
 
 
 def test_a_short_array_shows_all_its_labels() -> None:
-    array = labelled_array(np.array([[1.0, 2.0]]), link=["<a>"], case=["x", "y"])
+    array = LabelledArray(np.array([[1.0, 2.0]]), ("link", "case"), (("<a>",), ("x", "y")))
     assert (
         repr(array) == "LabelledArray(values=array([[1., 2.]]), axes=('link', 'case'), labels=(('<a>',), ('x', 'y')))"
     )
@@ -18,7 +18,7 @@ def test_a_short_array_shows_all_its_labels() -> None:
 
 
 def test_a_long_array_shows_both_ends_of_its_labels() -> None:
-    array = labelled_array(np.zeros((2, 20_000)), link=["a", "b"], position=[str(at) for at in range(20_000)])
+    array = LabelledArray(np.zeros((2, 20_000)), ("link", "position"), (("a", "b"), tuple(map(str, range(20_000)))))
     assert len(repr(array)) < 1000
     assert "'19999'" in repr(array)
     shown = array._repr_html_()

@@ -16,15 +16,8 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import RangeError
-from geartrain.numerics.exact import (
-    abridged_text,
-    as_float,
-    count_digits,
-    decimal,
-    fraction_text,
-    is_short,
-    read_fraction,
-)
+from geartrain.numerics import decimal
+from geartrain.numerics.exact import abridged_text, as_float, count_digits, fraction_text, is_short, read_fraction
 
 LEAST = 640  # digits: no process can set its limit lower, but for none at all
 PAIRS = 60

@@ -11,11 +11,10 @@ import pytest
 import geartrain
 from geartrain.analysis import find_gears
 from geartrain.errors import MissingExtraError
-from geartrain.numerics.labelled_array import labelled_array
-from geartrain.numerics.results import Tabular
+from geartrain.numerics import LabelledArray
 
 
-def tables() -> dict[str, Tabular]:
+def tables() -> dict[str, Any]:
     box, set_ = geartrain.load("zf-8hp70"), geartrain.load("planetary-24-18-60")
     loaded = geartrain.load("longcase-clock-loaded")
     return {
@@ -127,9 +126,10 @@ def test_best_sizes_have_a_row_a_design() -> None:
 
 def test_arrays_of_any_number_of_axes() -> None:
     values = np.arange(6.0)
-    one = labelled_array(values, link=list("abcdef")).columns
-    two = labelled_array(values.reshape(2, 3), link=["a", "b"], case=["0", "1", "2"]).columns
-    three = labelled_array(values.reshape(1, 2, 3), state=["s"], link=["a", "b"], case=["0", "1", "2"]).columns
+    links, cases = ("a", "b"), ("0", "1", "2")
+    one = LabelledArray(values, ("link",), (tuple("abcdef"),)).columns
+    two = LabelledArray(values.reshape(2, 3), ("link", "case"), (links, cases)).columns
+    three = LabelledArray(values.reshape(1, 2, 3), ("state", "link", "case"), (("s",), links, cases)).columns
     assert one["value"] == [0, 1, 2, 3, 4, 5]
     assert two == {"case": ("0", "1", "2"), "a": [0, 1, 2], "b": [3, 4, 5]}
     assert three["link"] == ["a", "a", "a", "b", "b", "b"]

@@ -11,7 +11,6 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-import networkx
 from places import ROOT, TESTS
 
 from geartrain.errors import MissingExtraError
@@ -48,33 +47,18 @@ def modules() -> dict[str, Path]:
     return {".".join(path.with_suffix("").parts).removesuffix(".__init__"): path for path in found}
 
 
-def imported(body: list[ast.stmt]) -> Iterator[str]:
-    """What a module imports when it is itself imported; not what its functions import when they are called."""
-    for part in body:
-        match part:
-            case ast.Import(names=names):
-                yield from (each.name for each in names)
-            case ast.ImportFrom(module=str(source), names=names):
-                for each in names:
-                    inner = f"{source}.{each.name}"
-                    yield inner if inner in modules() else source
-            case ast.Try(body=inner_body) | ast.If(body=inner_body):  # what only a checker of types reads counts too
-                yield from imported(inner_body)
-
-
 class Syntax(NamedTuple):
     """What the tests ask of a module's source."""
 
     docstring: str | None
     public_classes: list[str]
-    imports: list[str]
 
 
 @cache
 def syntax(path: Path) -> Syntax:
     tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
     classes = [part.name for part in tree.body if isinstance(part, ast.ClassDef) and not part.name.startswith("_")]
-    return Syntax(ast.get_docstring(tree), classes, list(imported(tree.body)))
+    return Syntax(ast.get_docstring(tree), classes)
 
 
 def test_every_entry_of_the_package_is_a_room_of_the_house() -> None:
@@ -130,14 +114,6 @@ def test_modules_are_named_by_nouns() -> None:
 
     stems = {part for name in modules() for part in name.split(".")}
     assert sorted(filter(participle, stems)) == []
-
-
-def test_no_circle_of_imports_not_even_inside_a_room() -> None:
-    graph = networkx.DiGraph(
-        (name, other) for name, path in modules().items() for other in syntax(path).imports if other in modules()
-    )
-    circles = [sorted(each) for each in networkx.strongly_connected_components(graph) if len(each) > 1]
-    assert circles == []
 
 
 # ----------------------------------------------------------------------------- names of modules in texts and in strings

@@ -8,23 +8,16 @@ import sys
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
+from typing import get_args
 
 import pytest
 from models import PAIR, PLANETARY, pair, planetary, refusal
-from shipped import every_train
 
-from geartrain import GearTrainError, load
+from geartrain import GearTrainError, load, teeth
 from geartrain.errors import DeclarationError
-from geartrain.teeth.any_tooth_form import tooth_forms
-from geartrain.train.validation import declare
+from geartrain.train import declare, period_table
 
 # short forms and ids --------------------------------------------------------------------------------------------------
-
-
-def test_a_planetary_of_24_18_60_turns_its_carrier_at_two_sevenths() -> None:
-    answer = planetary().solve()
-    assert answer["carrier"] == Fraction(2, 7)
-    assert answer["planet"] == Fraction(2, 7) - Fraction(60, 18) * Fraction(2, 7)
 
 
 def test_the_same_train_is_read_from_text_file_mapping_and_name(tmp_path: Path) -> None:
@@ -185,7 +178,6 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
     )
     ((name, wheel),) = train.declaration.uncertain_wheels()
     assert name == "w"
-    assert wheel.doubt is not None
     assert wheel.doubt.allowed == (59, 60, 61)
     assert wheel.status == "surviving"
 
@@ -199,7 +191,6 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
         ("{value: 60, range: [59, 61], weights: [1, 2]}", "2 weights for 3 counts"),
         ("{range: [59, 61]}", "no value"),
         ("{value: 0}", "0 is not a tooth count"),
-        ("1000000000001", "not a tooth count"),
         ("20.0", "not a tooth count"),
         ("1e3", "not a tooth count"),
         ("true", "not a tooth count"),
@@ -267,21 +258,6 @@ def test_named_inputs_give_speeds_in_their_unit() -> None:
     assert train.solve().unit == "rpm"
 
 
-def test_inputs_in_two_named_units_are_counted_in_the_first() -> None:
-    text = (
-        PLANETARY.format(rest="inputs: {sun: 60 rpm, ring: 0.5 turn/s}")
-        .replace(
-            "frame: {wheels: {ring: {teeth: 60, internal: true}}}",
-            "frame: {}\n  ring: {wheels: {ring: {teeth: 60, internal: true}}}",
-        )
-        .replace("revolutes:", "revolutes:\n  - {pair: [frame, ring], axis: main}")
-    )
-    answer = load(text).solve()
-    # 24 x 60 + 60 x 30 = 84 carrier, in rpm
-    assert answer["carrier"] == Fraction(24 * 60 + 60 * 30, 84)
-    assert answer["ring"] == 30
-
-
 def test_a_unit_names_what_one_turn_takes() -> None:
     train = pair("inputs: {a: 1}\nunit: {per: year_tropical_J2000}")
     assert train.declaration.unit_name == "turns per tropical year"
@@ -294,8 +270,6 @@ def test_a_unit_names_what_one_turn_takes() -> None:
 @pytest.mark.parametrize(
     ("rest", "said"),
     [
-        ("inputs: {a: 1, b: 2 rpm}", "inputs mix units"),
-        ("inputs: {a: 2 rpm}\nunit: {per: 7 ft}", "inputs mix units"),
         ("inputs: {a: 2 mm}", "a length, and a speed belongs here"),
         ("inputs: {a: 2 furlongs}", "unknown unit"),
         ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is no unit"),
@@ -329,16 +303,12 @@ def test_targets_that_make_no_sense_are_refused(targets: str, said: str) -> None
 
 
 def test_a_count_is_no_target() -> None:
-    from geartrain.train.periods import period_table
-
     name = next(row.name for row in period_table().values() if row.kind == "count")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: 1 d}}\noutputs: {{b: {{targets: [{name}]}}}}")
     assert f"'{name}' is a count" in refusal(text)
 
 
 def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
-    from geartrain.train.periods import period_table
-
     name = next(row.name for row in period_table().values() if row.kind == "speed")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: %s}}\noutputs: {{b: {{targets: [{name}]}}}}")
     assert "the train's unit is no year" in refusal(text % "1 d")
@@ -400,18 +370,6 @@ def test_tooth_forms_that_make_no_sense_are_refused(form: str, said: str) -> Non
     assert said in refusal(PAIR.format(rest=f"inputs: {{a: 1}}\ntooth_form: {form}"))
 
 
-def test_every_shipped_train_loads_is_determined_and_keeps_what_it_expects(shipped_name: str) -> None:
-    for answer in load(shipped_name).answers():
-        assert answer.verdict.kind == "determined"
-        assert answer.failures == ()
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-
-    if "shipped_name" in metafunc.fixturenames:
-        metafunc.parametrize("shipped_name", every_train())
-
-
 Refuse = Callable[..., GearTrainError]
 
 
@@ -434,7 +392,10 @@ def test_a_tooth_form_may_be_named_alone() -> None:
         train = declare({"links": links, "revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]}, "gears": [pair]})
         return train.gears[0].tooth_form
 
-    for name in tooth_forms():
+    kinds = [kind for kind in (getattr(teeth, name) for name in teeth.__all__) if hasattr(kind, "model_fields")]
+    names = [get_args(kind.model_fields["form"].annotation)[0] for kind in kinds if "form" in kind.model_fields]
+    assert len(names) >= 10
+    for name in names:
         try:
             wanted = read({"form": name})
         except DeclarationError as error:

@@ -28,7 +28,6 @@ def test_an_efficiency_is_a_part_or_a_percentage(efficiency: str, forward: str, 
     text = PAIR.format(rest="inputs: {a: 1}\nloads: {b: -6}").replace("[p, w]", f"[p, w], efficiency: {efficiency}")
     train = load(text)
     found = train.declaration.gears[0].efficiency
-    assert found is not None
     assert (found.forward.base, found.backward.base) == (Fraction(forward), Fraction(backward))
 
 

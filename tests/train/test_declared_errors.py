@@ -28,29 +28,18 @@ def declared(wheel: str = "", pair: str = "", rest: str = "") -> GearTrain:
 def test_a_bare_value_is_a_fixed_error_and_a_mapping_is_a_distribution() -> None:
     train = declared("cutting: {placement: 0.5 deg, tip: {normal: 0.1 mm}}").declaration
     cutting = train.wheels["p"][1].cutting
-    assert cutting is not None
-    assert cutting.placement is not None
-    assert cutting.placement.value is not None
     assert cutting.placement.value.base == Fraction(1, 720)
-    assert cutting.tip is not None
-    assert cutting.tip.normal is not None
     assert cutting.tip.normal.base == Fraction(1, 10000)
 
 
 def test_a_plain_number_and_a_percentage_are_fractions_of_the_nominal() -> None:
     train = declared(rest="cutting: {placement: {normal: 4.13 %}, eccentricity: {uniform: 0.02}}").declaration
-    assert train.cutting is not None
-    assert train.cutting.placement is not None
-    assert train.cutting.placement.normal is not None
     assert train.cutting.placement.normal.base == Fraction(413, 10000)
-    assert train.cutting.eccentricity is not None
-    assert train.cutting.eccentricity.uniform is not None
     assert train.cutting.eccentricity.uniform.unit is None
 
 
 def test_errors_of_the_fit_stand_on_the_pair() -> None:
     gear = declared(pair=", fitting: {centre: {normal: 0.1 mm}, bearing: 0.05 mm}").declaration.gears[0]
-    assert gear.fitting is not None
     assert gear.fitting.bearing is not None
     assert gear.fitting.centre is not None
 

@@ -6,13 +6,13 @@ from fractions import Fraction
 
 import pytest
 
+from geartrain import GearTrain
 from geartrain.errors import DeclarationError
 from geartrain.train import Dial, declare
-from geartrain.train.outputs import looks_away
 
 
-def dial(**keys: object) -> Dial:
-    train = {
+def declared(**keys: object) -> dict[str, object]:
+    return {
         "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 60}}},
         "revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]},
         "gears": ["p ~ w"],
@@ -20,7 +20,10 @@ def dial(**keys: object) -> Dial:
         "dials": {"d": keys},
         "outputs": {"b": {"dial": "d"}},
     }
-    return declare(train).dials["d"]
+
+
+def dial(**keys: object) -> Dial:
+    return declare(declared(**keys)).dials["d"]
 
 
 def refusal(**keys: object) -> str:
@@ -97,4 +100,7 @@ def test_glyphs_are_read_by_their_cells() -> None:
     ],
 )
 def test_a_dial_looks_away_only_from_who_looks_from_behind_it(face: str | None, seen: str, away: bool) -> None:
-    assert looks_away(face, seen) == away
+    view = {"from": seen, "positive": "clockwise"}
+    report = str(GearTrain.declare({**declared(**({"face": face} if face else {})), "view": view}).report())
+    # the pointer makes -1/3 turn
+    assert ("counter-clockwise, a turn in" in report) != away

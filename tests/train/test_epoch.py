@@ -38,7 +38,6 @@ def test_a_date_has_an_hour_a_calendar_and_turns() -> None:
 
 def test_the_epoch_of_the_saros_dial_is_a_full_moon() -> None:
     epoch = load("freeth-2008").declaration.epoch
-    assert epoch is not None
     # mean phases of the Moon: J. Meeus, Astronomical Algorithms, 2nd edition, 1998, equation (49.1); k + 1/2 is full
     k = Fraction(-54511, 2)
     century = k / Fraction("1236.85")

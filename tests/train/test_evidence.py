@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from geartrain import GearTrain, GearTrainError, load
+from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.search.reconstruct import EvidenceQuestion, PriorFactors, evidence_question, read_evidence
-from geartrain.train.declaration_files import read_declaration, shipped, shipped_evidence
 
 SOUND = """\
 links:
@@ -195,9 +194,8 @@ def test_the_number_of_wheels_and_idlers_may_be_asked_otherwise() -> None:
 
 
 def test_evidence_is_no_train_and_a_train_no_evidence() -> None:
-    for read in (load, read_declaration):
-        with pytest.raises(GearTrainError, match="is evidence, not yet a train"):
-            read(SOUND)
+    with pytest.raises(GearTrainError, match="is evidence, not yet a train"):
+        load(SOUND)
     with pytest.raises(GearTrainError, match="is evidence, not yet a train"):
         GearTrain.declare(read_evidence(SOUND).model_dump(mode="json", exclude_unset=True, by_alias=True))
     with pytest.raises(GearTrainError, match="is no evidence"):
@@ -205,8 +203,9 @@ def test_evidence_is_no_train_and_a_train_no_evidence() -> None:
 
 
 def test_evidence_has_its_own_catalogue() -> None:
-    assert "back-train" in shipped_evidence()
-    assert not set(shipped_evidence()) & set(shipped())
+    for name in ("back-train", "metonic-l-m"):
+        assert read_evidence(name).name == name
+        assert name not in shipped()
 
 
 @pytest.mark.parametrize(
@@ -225,7 +224,7 @@ def test_evidence_that_is_not_shipped(name: str, fix: list[str]) -> None:
 
 def test_shipped_evidence_is_no_shipped_train() -> None:
     with pytest.raises(GearTrainError, match="it is evidence: `geartrain reconstruct back-train`"):
-        read_declaration("back-train")
+        load("back-train")
 
 
 def test_shipped_evidence_is_extended_by_its_name(tmp_path: Path) -> None:

@@ -10,8 +10,7 @@ import pytest
 import yaml
 from commands import call
 
-from geartrain import GearTrain, GearTrainError, load
-from geartrain.train.declaration_files import shipped
+from geartrain import GearTrain, GearTrainError, load, shipped
 
 PARENT = """\
 name: parent
@@ -90,7 +89,6 @@ def test_outputs_merge_by_name_and_key(child: Child) -> None:
     last = train.declaration.outputs["last"]
     assert last.of == "c"
     assert last.dial == "d"
-    assert last.expect is not None
     assert last.expect.value.value == 5
     assert set(train.solve().outputs) == {"b", "last", "fresh"}
 

@@ -11,9 +11,8 @@ import yaml
 from shipped import every_train
 from studies.train_families import chain
 
-from geartrain import GearTrain, GearTrainError, load
-from geartrain.train import yaml_nodes
-from geartrain.train.declaration_files import parse_json, read_declaration, shipped
+from geartrain import GearTrain, GearTrainError, load, shipped
+from geartrain.train.yaml_nodes import MOST_DEPTH, parse_yaml
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": {"teeth": 60, "internal": True}}}},
@@ -28,7 +27,7 @@ def outcome(text: str, file: Path) -> Any:
     """The declaration and some of its places, or the error; without the name of the file."""
     file.write_text(text, encoding="utf-8")
     try:
-        train = read_declaration(file)
+        train = load(file).declaration
     except GearTrainError as error:
         return str(error).replace(file.name, "FILE")
     places = [train.place(*loc) for loc in ((), ("links",), ("gears", 0), ("links", "b", "wheels", "w"), ("nothing",))]
@@ -38,11 +37,10 @@ def outcome(text: str, file: Path) -> Any:
 def count_parses(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The names of the files that the YAML parser reads from now on."""
     met: list[str] = []
-    take = yaml_nodes.parse_yaml
 
     def count(text: str, name: str) -> Any:
         met.append(Path(name).name)
-        return take(text, name)
+        return parse_yaml(text, name)
 
     monkeypatch.setattr("geartrain.train.declaration_files.parse_yaml", count)
     return met
@@ -77,7 +75,10 @@ CHANGES = {
     "an unknown wheel": ('["p", "w"]', '["p", "v"]'),
     "a list for a pair": ('{"pair": ["p", "w"]}', '["p", "w"]'),
     "a short form": ('"gears": [', '"gears": ["p ~ w"], "x": ['),
-    "nested deeply": ('"a": 1', f'"a": {"[" * 40 + "]" * 40}'),
+    **{
+        f"{depth} lists": ('"a": 1', f'"a": {"[" * depth + "]" * depth}')
+        for depth in (40, *range(MOST_DEPTH - 3, MOST_DEPTH + 1))
+    },
     "nested far too deeply": ('"a": 1', f'"a": {"[" * 5000}'),
     "a missing brace": ('"inputs": {', '"inputs": {{'),
     "a trailing comma": ('"a": 1', '"a": 1,'),
@@ -113,15 +114,3 @@ def test_the_yaml_parser_reads_no_json_file_that_can_be_solved(monkeypatch: pyte
     assert train.declaration.place("inputs", "g0") == f"{file}:{line}"
     assert train.declaration.place("links") == f"{file}:2"
     assert met == ["chain.json"], "places are found once"
-
-
-def test_nesting_is_bounded_where_the_yaml_parser_bounds_it() -> None:
-    for depth in (yaml_nodes.MOST_DEPTH - 1, yaml_nodes.MOST_DEPTH):
-        text = '{"a": ' + "[" * depth + "]" * depth + "}"
-        fits = depth < yaml_nodes.MOST_DEPTH
-        assert (parse_json(text) is not None) == fits
-        if fits:
-            yaml_nodes.parse_yaml(text, "text")
-        else:
-            with pytest.raises(GearTrainError, match="nested too deeply"):
-                yaml_nodes.parse_yaml(text, "text")

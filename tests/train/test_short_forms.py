@@ -12,10 +12,10 @@ from shipped import every_train
 from typer.testing import CliRunner
 
 import geartrain
+from geartrain import shipped
 from geartrain.cli import app
 from geartrain.errors import DeclarationError
-from geartrain.train.declaration_files import shipped
-from geartrain.train.declaration_style import with_long_forms, with_short_forms
+from geartrain.train import with_long_forms, with_short_forms
 
 LONG = """\
 name: set

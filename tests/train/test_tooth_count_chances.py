@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from geartrain.search.posterior.inference_problem import find_priors
+from geartrain.search import infer_counts
 from geartrain.search.reconstruct import evidence_question
 from geartrain.train import Teeth, declare
 
@@ -41,7 +41,7 @@ def test_a_posterior_and_a_reconstruction_begin_with_the_same_chances() -> None:
         "outputs": {"b": {"expect": "-3/2"}},
     }
     joints = {"revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]}, "gears": ["p ~ q"]}
-    (prior,) = find_priors(declare({**parts, **joints}))
+    prior = infer_counts(declare({**parts, **joints})).posteriors["q"].doubt
     asked = evidence_question(declare({**parts, "reconstruct": {}})).problem
     assert dict(zip(prior.counts, prior.priors, strict=True)) == dict(asked.arbors[0].wheels[0].counts)
     assert dict(asked.arbors[0].wheels[0].counts) == {20: Fraction(4, 7), 22: Fraction(3, 7)}

@@ -54,7 +54,18 @@ class DivisibilityCondition(NamedTuple):
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
-    """Conditions on tooth numbers: `modulus` divides the sum of factor times tooth number, for each."""
+    """Conditions on the tooth numbers of a set: in each a modulus divides a sum of multiples of tooth numbers.
+
+    Attributes
+    ----------
+    conditions : tuple of DivisibilityCondition
+        Modulus, and the factor of each kind's tooth number in the sum that it divides.
+
+    See Also
+    --------
+    find_divisibility_rule : Gives it.
+    spherical_divisibility_rule : Gives it for gears with axes through one point.
+    """
 
     KEYS = ("text", "conditions")
 
@@ -69,7 +80,13 @@ class DivisibilityRule(Result):
         return " and ".join(sums) or "always"
 
     def holds(self, teeth: Mapping[str, int]) -> bool:
-        """True if the set closes with these tooth numbers, by kind."""
+        """True if the set closes with these tooth numbers.
+
+        Parameters
+        ----------
+        teeth : mapping of str to int
+            Tooth number of each kind.
+        """
         return not any(sum(f * teeth[kind] for kind, f in terms.items()) % m for m, terms in self.conditions)
 
 
@@ -77,8 +94,21 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
     """The rule that all forms take whole values: sum of form[kind] z[kind] is an integer for each.
 
     Forms matter modulo 1, and generate a finite group; it is the sum of its parts for each prime p, and in every part
-    rows modulo a power of p are brought to a triangle. Conditions on one kind alone are joined again.
+    rows modulo a power of p are brought to a triangle. Conditions on one kind only are joined again.
 
+    Parameters
+    ----------
+    forms : iterable of mapping of str to Fraction
+        Factor of each kind's tooth number.
+
+    Returns
+    -------
+    DivisibilityRule
+        No condition follows from the others.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
     >>> find_divisibility_rule([{"a": Fraction(2, 3), "b": Fraction(-2, 5)}]).text
     '3 divides za and 5 divides zb'
     """
@@ -602,7 +632,12 @@ _OFF = 1e-6  # turns: contacts declared regular stand nearer than this to where 
 
 
 class SphericalGears(Protocol):
-    """Gears with axes through one point, as a configuration of the spherical room has them."""
+    """Gears with axes through one point.
+
+    See Also
+    --------
+    geartrain.spherical.Configuration : Has these attributes.
+    """
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -667,9 +702,31 @@ def _alike(train: Train) -> dict[str, str]:
 def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | None = None) -> MeshPhasing:
     """Closure of gears with axes through one point.
 
-    teeth   tooth number of each kind, in place of those of the configuration
+    Parameters
+    ----------
+    configuration : SphericalGears
+        Such as a `geartrain.spherical.Configuration`.
+    teeth : mapping of str to int, optional
+        Tooth number of each kind, instead of those of the configuration.
 
-    Angles of links count from the direction `configuration.frame` gives first.
+    Returns
+    -------
+    MeshPhasing
+        Angles of links count from the direction that `configuration.frame` gives first.
+
+    Raises
+    ------
+    QuestionError
+        If a kind has no tooth number.
+
+    Examples
+    --------
+    Gears in the faces of an icosidodecahedron; 3 must divide z3, and 5 must divide z5:
+
+    >>> from geartrain.spherical import from_polyhedron, solid
+    >>> gears = from_polyhedron(solid("icosidodecahedron"))
+    >>> [bool(spherical_phasing(gears, {"5": five, "3": 6})) for five in (10, 12)]
+    [True, False]
     """
     counts = {**configuration.teeth, **(teeth or {})}
     missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
@@ -680,7 +737,24 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
 
 
 def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRule | None:
-    """What tooth numbers must be multiples of; None where contacts do not stand at known parts of a turn."""
+    """The condition on tooth numbers under which gears with axes through one point can be put together.
+
+    Parameters
+    ----------
+    configuration : SphericalGears
+        Such as a `geartrain.spherical.Configuration`; its tooth numbers do not matter.
+
+    Returns
+    -------
+    DivisibilityRule or None
+        None if contacts are not at known rational parts of a turn.
+
+    Examples
+    --------
+    >>> from geartrain.spherical import from_polyhedron, solid
+    >>> spherical_divisibility_rule(from_polyhedron(solid("icosidodecahedron"))).text
+    '3 divides z3 and 5 divides z5'
+    """
     return _closure(configuration, [1] * len(configuration.names)).rule
 
 

@@ -12,6 +12,7 @@ from textwrap import dedent
 
 import pytest
 from hypothesis import HealthCheck, settings
+from sampling import seeds_of
 
 from geartrain import GearTrain, GearTrainError, load
 
@@ -35,9 +36,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--long", action="store_true", help="also run the tests marked long")
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
     parser.addoption("--rest", action="store_true", help="leave out what passed in the last run without --rest")
-    parser.addoption("--trains", type=int, default=1000, help="how many random trains each law is held on (1000)")
+    parser.addoption("--trains", type=int, help="number of random trains for each law (300; with --slow 1000)")
     parser.addoption("--first-train", type=int, default=0, help="the seed of the first random train (0)")
-    parser.addoption("--mutants", type=int, default=1000, help="how many spoilt declarations are tried (1000)")
+    parser.addoption("--mutants", type=int, help="number of corrupted declarations (300; with --slow 1000)")
     parser.addoption("--first-mutant", type=int, default=0, help="the seed of the first spoilt declaration (0)")
 
 
@@ -90,7 +91,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Deselect the tests marked slow, unless `--slow` is given, and with `--rest` what passed before."""
     slow, rest = config.getoption("--slow"), config.getoption("--rest")
     passed = set(config.cache.get(PASSED, ())) if rest and config.cache else set()
-    left = [item for item in items if item.nodeid in passed or ("slow" in item.keywords and not slow)]
+    again = {"seeds", "mutants"} if slow else set()  # fixtures that then bring other samples
+    done = [item for item in items if item.nodeid in passed and again.isdisjoint(getattr(item, "fixturenames", ()))]
+    left = [*done, *(item for item in items if "slow" in item.keywords and not slow)]
     left += [item for item in items if "long" in item.keywords and not config.getoption("--long")]
     if left:
         config.hook.pytest_deselected(items=left)
@@ -118,9 +121,8 @@ def one_core() -> Iterator[None]:
 
 @pytest.fixture
 def seeds(request: pytest.FixtureRequest) -> range:
-    """The seeds of the random trains: a thousand, or as many as `--trains` says, from `--first-train` on."""
-    first = request.config.getoption("--first-train")
-    return range(first, first + request.config.getoption("--trains"))
+    """The seeds of the random trains, from `--first-train` on."""
+    return seeds_of(request.config, "--first-train", "--trains")
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.strength.formulas.root_section import ToothLoad, ToothSide
+    from geartrain.simulation.strength.iso_6336 import ToothLoad, ToothSide
 
     Integers = NDArray[np.int64]
 

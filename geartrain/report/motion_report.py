@@ -231,7 +231,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
     """
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
-    separation = wing("simulation.contacts.train_separation")
+    separation = wing("simulation.contacts.separation_rate")
     if not separation.has_separation(train.mechanics, state):
         return None
     return separation.find_separation(train.mechanics, state, without)
@@ -287,7 +287,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
         lead.append(f"Everything repeats after {abridged_text(period)} turns of '{train.lead}'.")
     sections = list(motion_sections(run, every_output))
     if found.separation is not None:
-        sections.append(wing("simulation.inertia.separation_text").separation_section(found.separation))
+        sections.append(wing("simulation.contacts.separation_rate").separation_section(found.separation))
     return Document("Motion with real teeth and pins", lead, sections)
 
 
@@ -320,7 +320,7 @@ def moving_sections(
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
         holds: tuple[str, ...] = ()
         if each.separation is not None:
-            holds = tuple(wing("simulation.inertia.separation_text").separation_text(each.separation))
+            holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
         yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run)),))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))

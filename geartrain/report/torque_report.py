@@ -177,7 +177,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
     impacts: Mapping[str, Any] = {}
     if train.declaration.has_inertia and has_wing("simulation"):
-        impacts = wing("simulation.contacts.train_separation").find_tooth_impacts(train.mechanics, state)
+        impacts = wing("simulation").find_tooth_impacts(train.mechanics, state)
     return TorqueFigures(
         found,
         DrivenWays(*map(DrivenFigures, ways)) if ways else None,
@@ -231,7 +231,7 @@ def describe_torques(found: TorqueReport) -> Document:
     if found.over_turn is not None:
         sections += cycle_sections(found.over_turn)
     if found.friction_trials is not None:
-        sections += wing("workshop.monte_carlo.friction_trials_report").trial_sections(found.friction_trials)
+        sections += wing("workshop.monte_carlo.friction_trials").trial_sections(found.friction_trials)
     lead = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", lead, sections)
 

@@ -10,7 +10,7 @@ def answers() -> dict[str, Any]:
     from geartrain.workshop.budget.pointer_budget import TrainBudget
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
-    from geartrain.workshop.sizes.train_sizes import BestTrainSizes
+    from geartrain.workshop.sizes.train_size_search import BestTrainSizes
 
     return {
         "montecarlo": MonteCarloResult,

@@ -11,6 +11,8 @@ from studies.dynamics_methods import DRAG, FLANKS, INERTIA, RATE, by_events, ste
 from studies.dynamics_study import DynamicsRecords
 from studies.page import read
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 def test_a_flight_of_the_oracle_is_a_parabola_from_where_the_flank_falls_away() -> None:
     found = by_events(0.0, 1e-8)

@@ -31,6 +31,8 @@ from geartrain.search.reconstruct.known_rank import find_place
 from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence, lost_wheels
 from geartrain.train.declaration_files import read_declaration, shipped
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 @pytest.fixture(scope="module")
 def quick() -> LeftOutRecords:

@@ -7,6 +7,8 @@ import json
 import pytest
 from studies.mesh_study import MeshRecords, _Pair, meshes
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 @pytest.fixture(scope="module")
 def records() -> MeshRecords:

@@ -16,6 +16,8 @@ from studies.train_families import toothed_chain
 
 from geartrain import GearTrain, load
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 MOON, PRICE = "moon-triangular", "price-1974, triangular teeth"
 
 

@@ -19,6 +19,8 @@ from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.optimal_sides import solved
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 SMOOTH = [case for case in CASES if case.kind != "friction"]
 
 

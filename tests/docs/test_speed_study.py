@@ -8,6 +8,8 @@ import pytest
 from studies import speed_study
 from studies.speed_study import SpeedRecords, speeds
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 def test_every_method_on_small_trains_is_right_and_says_how_right() -> None:
     found = speeds(100, 1, ["chain", "epicyclic", "grid"])

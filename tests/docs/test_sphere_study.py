@@ -19,6 +19,8 @@ from studies.sphere_study import sphere
 from geartrain.spherical.circle_packing import PlanarPacking, SpherePacking, pack_circles
 from geartrain.spherical.graph_set import checked_graph, regions_of, with_region_circles
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 @pytest.fixture(scope="module")
 def records() -> SphereRecords:

@@ -36,6 +36,8 @@ from studies.tooth_number_study import tooth_numbers
 from geartrain.analysis import GearTrain
 from geartrain.kinematics.formulas.output_formulas import with_counts
 
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
+
 
 @pytest.fixture(scope="module")
 def records() -> TeethRecords:

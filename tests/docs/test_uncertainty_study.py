@@ -28,7 +28,9 @@ from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, ErrorRecord, 
 from studies.uncertainty_study import uncertainty
 
 from geartrain.workshop.cutting.least_backlash import nominal_backlash
-from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
+
+pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
 
 @pytest.fixture(scope="module")

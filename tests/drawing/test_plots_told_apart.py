@@ -40,8 +40,12 @@ from geartrain.workshop import (
     tooth_sizes_figure,
     train_sizes_figure,
 )
-from geartrain.workshop.monte_carlo.jam_map import jam_map_figure
-from geartrain.workshop.monte_carlo.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.workshop.monte_carlo.monte_carlo_plots import (
+    ErrorBands,
+    histogram_figure,
+    jam_map_figure,
+    pointer_error_figure,
+)
 
 GRID = np.linspace(0.0, 1.0, 5)
 

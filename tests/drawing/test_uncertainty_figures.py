@@ -35,11 +35,18 @@ from geartrain.workshop import (
     run_course,
     run_trials,
 )
-from geartrain.workshop.monte_carlo.jam_map import jam_map_figure
-from geartrain.workshop.monte_carlo.monte_carlo_plots import ConvergenceTrace, convergence_figure, indices_figure
-from geartrain.workshop.monte_carlo.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.workshop.monte_carlo.monte_carlo_plots import (
+    ConvergenceTrace,
+    ErrorBands,
+    VarianceShare,
+    convergence_figure,
+    histogram_figure,
+    indices_figure,
+    jam_map_figure,
+    pointer_error_figure,
+    tornado_figure,
+)
 from geartrain.workshop.monte_carlo.sobol_indices import SobolIndex
-from geartrain.workshop.monte_carlo.tornado_chart import VarianceShare, tornado_figure
 
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)

@@ -20,7 +20,7 @@ from written_text import read_picture
 from geartrain.drawing import motion_figure, render
 from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES
-from geartrain.workshop.monte_carlo.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.workshop.monte_carlo.monte_carlo_plots import ErrorBands, histogram_figure, pointer_error_figure
 
 CUT = ["montecarlo", "moon-triangular", "--set", "placement=2%"]
 PAIR = ["mesh", "triangular", "--teeth", 60, 30]

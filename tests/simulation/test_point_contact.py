@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 import geartrain
 from geartrain.numerics.arrays import Floats
-from geartrain.simulation.strength.formulas.point_contact import CrossedWheels, contact_ellipse
+from geartrain.simulation.strength.contact_pressure import CrossedWheels, contact_ellipse
 from geartrain.simulation.strength.virtual_spurs import NormalSpurs
 from geartrain.teeth import Involute
 

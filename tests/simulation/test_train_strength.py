@@ -15,9 +15,8 @@ from hypothesis import strategies as st
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report
-from geartrain.simulation import collect_strength_report, describe_strength
-from geartrain.simulation.strength.arbor_strength import greatest_moment
-from geartrain.simulation.strength.strength_results import PairStrength
+from geartrain.simulation import PairStrength, collect_strength_report, describe_strength
+from geartrain.simulation.strength.train_strength import greatest_moment
 
 PAIR = """
 links:
@@ -270,9 +269,7 @@ def test_the_report_tells_strength_where_material_and_loads_are_declared_and_onl
     assert collect_report(changed("60 N m", "60")).strength == ()
 
 
-def test_pins_and_triangles_are_told_without_hertz_or_lewis() -> None:
-    form = "tooth_form: {form: triangular, gear1: {tip_radius: 50 mm}}"
-    del form
+def test_pins_of_a_lantern_bend_without_lewis() -> None:
     train = changed("form: involute", "form: lantern, pin_diameter: 1.5")
     pins = train.strength().pairs["p~w"].wheels[1]
     diameter = 3.0

@@ -16,11 +16,11 @@ from numpy.typing import ArrayLike, NDArray
 from geartrain import GearTrain
 from geartrain.errors import QuestionError
 from geartrain.simulation import find_vibration_modes
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothYield
 from geartrain.simulation.contacts.law_tables import tabled_angle
-from geartrain.simulation.contacts.tooth_yield import ToothYield, damping_ratio
 from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.steps.run_record import GAP, TIME_APART
+from geartrain.simulation.contacts.yielding_train import damping_ratio
+from geartrain.simulation.steps.contact_solution import GAP, TIME_APART
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio

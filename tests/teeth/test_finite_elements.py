@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from finite_elements import plane_stress, root_stress_factor, triangles
 
-from geartrain.simulation.strength.formulas.iso_6336 import RackWheel, outer_single_contact
-from geartrain.simulation.strength.formulas.root_section import ToothSide
+from geartrain.simulation.strength.iso_6336 import RackWheel, ToothSide, outer_single_contact
 from geartrain.teeth import Involute
 from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain
-from geartrain.simulation.strength.formulas.pin_contact import held_pin_stress, hole_share, lobe_load
+from geartrain.simulation.strength.pin_strength import held_pin_stress, hole_share, lobe_load
 from geartrain.teeth.cycloidal_disc import CycloidalDisc
 
 lobes = st.integers(3, 60)

@@ -11,21 +11,23 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.errors import RangeError
-from geartrain.simulation.strength.formulas.archard_wear import loss_over_friction
-from geartrain.simulation.strength.formulas.contact_pressure import (
+from geartrain.simulation.strength.contact_pressure import (
     ContactLoad,
     Elasticity,
     elasticity_factor,
     hertz_pressure,
+    loss_over_friction,
 )
-from geartrain.simulation.strength.formulas.iso_6336 import (
+from geartrain.simulation.strength.iso_6336 import (
     RackPair,
     RackWheel,
+    ToothLoad,
+    ToothSide,
     contact_stress,
     outer_single_contact,
+    pin_stress,
     root_stress,
 )
-from geartrain.simulation.strength.formulas.root_section import ToothLoad, ToothSide, pin_stress
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement

@@ -18,7 +18,7 @@ from geartrain import GearTrain, GearTrainError, load
 from geartrain.drawing.tooth_contact import tooth_pair_pose
 from geartrain.teeth.triangular import Triangular, TriangularSizes, TriangularTransmission, equal_depth, find_window
 from geartrain.workshop import ToothSizes
-from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
+from geartrain.workshop.sizes.best_sizes import confirm_by_outlines
 
 # driver; teeth of pinion and ring; ratio of the radii over that of the teeth (None: equal depth); half angles (deg);
 # excess; tip radius of the ring, centre distance, reach of the driver (deg); window of excess; verdict, play (deg)

@@ -12,6 +12,7 @@ import pytest
 import yaml
 from mutants import mutant
 from places import DATA
+from sampling import seeds_of
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.report import collect_report
@@ -22,8 +23,7 @@ KEPT: dict[str, dict[str, Any]] = json.loads((DATA / "spoilt_declarations.json")
 
 @pytest.fixture
 def mutants(request: pytest.FixtureRequest) -> Iterable[tuple[str, dict[str, Any]]]:
-    first = request.config.getoption("--first-mutant")
-    seeds = range(first, first + request.config.getoption("--mutants"))
+    seeds = seeds_of(request.config, "--first-mutant", "--mutants")
     return chain(KEPT.items(), ((str(seed), mutant(seed)) for seed in seeds))
 
 

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from math import degrees
 from pathlib import Path
 from tempfile import mkdtemp
-from typing import Any
 
 import numpy as np
 import pytest
-import shapely
-import svgelements
 import trimesh
 from commands import call
-from shapely.affinity import rotate, translate
 from shipped import train
 from studies.assembled_folder import AssembledPart, MeasuredFit, find_fits, find_overlaps, read_parts
 
@@ -162,57 +157,3 @@ def test_what_is_joined_has_the_hole_that_is_stated_and_all_else_turns_freely(na
     wheels = {part.name for part in parts(name)} & {path.stem for path in (folder(name) / "wheels").glob("*.stl")}
     held = {fit.hole_of for fit in fits(name)} | {fit.rod_of for fit in fits(name)}
     assert wheels <= held, "no wheel hangs in the air"
-
-
-# ----------------------------------------------------------------------------------- one wheel cut for all its mates
-
-
-def outline(path: Path) -> Any:
-    """The material that a written drawing leaves, arcs as chords of a thousandth of a millimetre's height."""
-    text = path.read_text(encoding="utf-8")
-    cut = re.search(r'id="CUT".*? d="([^"]*)"', text)
-    assert cut is not None
-    lines = []
-    for line in svgelements.Path(cut[1]).as_subpaths():
-        points: list[complex] = []
-        for segment in line:
-            count = 24 if isinstance(segment, svgelements.Arc) else 1
-            ends = [segment.point(k / count) for k in range(1, count + 1)] if segment.end is not None else []
-            points += [complex(float(end.x), float(end.y)) for end in ends]
-        lines.append(shapely.Polygon([(z.real, -z.imag) for z in points]))
-    outer, *holes = sorted(lines, key=lambda each: -float(each.area))
-    return outer.difference(shapely.union_all(holes))
-
-
-@pytest.mark.parametrize("pair", ["s~p", "p~ring"])
-def test_a_planet_as_written_turns_with_its_sun_and_with_its_ring(pair: str) -> None:
-    """Cut for its sun alone the planet overlapped its ring by 1.27e-3 mm2 and left 0.0890 of 0.1 mm of play."""
-    names = pair.split("~")
-    to = folder("planetary-24-18-60", "--module", "2mm", "--backlash", "0.1mm")
-    first, second = (outline(to / "wheels" / f"{name}.svg") for name in names)
-    z1, z2 = ({"s": 24, "p": 18, "ring": 60}[name] for name in names)
-    inside = names[1] == "ring"
-    away, facing = (-42.0, 180 / z2) if inside else (42.0, 180 + 180 / z2)
-    steps = 36
-    rooms = []
-    for k in range(steps):
-        one = rotate(first, degrees(2 * np.pi / z1 * (k + 0.31) / steps), origin=(0, 0))
-        turn = facing + 360 / z1 * (k + 0.31) / steps * z1 / z2 * (1 if inside else -1)
-
-        def common(lag: float, one: Any = one, turn: float = turn) -> float:
-            other = translate(rotate(second, turn + lag, origin=(0, 0)), away)
-            return float(one.intersection(other).area)
-
-        assert common(0.0) <= 1e-9
-        if k % 6 == 0:
-            rooms.append(sum(_room(common, way, 360 / z2 / 2) for way in (-1, 1)))
-    assert np.radians(min(rooms)) * z2 >= 0.1 - 1e-3  # mm along the pitch circle, of radius z2
-
-
-def _room(common: Any, way: int, far: float) -> float:
-    """How far (degrees) the second wheel turns one way until it touches."""
-    free, met = 0.0, far
-    for _ in range(16):
-        middle = (free + met) / 2
-        free, met = (middle, met) if common(way * middle) <= 1e-9 else (free, middle)
-    return free

@@ -12,9 +12,11 @@ from sorge import Pair, first_of_all
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, find_budget
-from geartrain.workshop.budget.crank_load import find_crank_load
-from geartrain.workshop.budget.pin_theory import equation_of_centre, least_difference
+from geartrain.dynamics import find_torque_period
+from geartrain.report import to_markdown
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, describe_budget, find_budget
+from geartrain.workshop.budget.crank_load import YEAR, find_crank_load, natural_turns
+from geartrain.workshop.budget.motion_causes import equation_of_centre, least_difference
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}
@@ -376,3 +378,102 @@ def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
     assert crank.torque == pytest.approx(2)
     assert crank.over_turn is not None
     assert crank.over_turn.mean == pytest.approx(2)
+
+
+# ------------------------------------------------------------------------ over how many turns a budget tells the torque
+
+
+TRIANGULAR = """
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+friction: 0.2
+"""
+
+
+def test_a_year_of_a_crank_that_turns_five_times_in_it() -> None:
+    train = geartrain.load(f"extends: pennestri-2002{TRIANGULAR}links: {{'5': {{bearing: 1 N mm}}}}\n")
+    assert find_torque_period(train.mechanics) == 95
+    assert natural_turns(train, None, "2") == pytest.approx(5, rel=1e-9)
+
+
+def test_a_clock_repeats_long_before_a_year_has_passed() -> None:
+    """Between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter."""
+    train = geartrain.load("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n")
+    assert find_torque_period(train.mechanics) == Fraction(1, 4)
+    assert natural_turns(train, None, "centre") == 0.25
+
+
+def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
+    train = geartrain.load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
+    period = find_torque_period(train.mechanics)
+    assert period == Fraction(1, 4)
+    found = train.torques(turns=1, samples=200)
+    assert found.period == 0.25
+    for turns in (0.0321, 0.2, 0.61):
+        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)
+
+
+def test_where_nothing_is_uneven_an_hour_tells_as_much_as_a_year() -> None:
+    train = geartrain.load("extends: longcase-clock\nloads: {escape: -1 N mm}\n")
+    assert find_torque_period(train.mechanics) is None
+    assert natural_turns(train, None, "centre") == 1
+
+
+def test_a_year_counts_days_of_the_unit_of_speeds() -> None:
+    """A pin that comes round in a thousand days: a year is so many turns of a wheel that turns once a day."""
+    train = geartrain.load("""
+links: {frame: {}, day: {wheels: {a: 10}}, slow: {wheels: {b: 10000}}, slot: {bearing: 1 N mm}}
+revolutes: [{pair: [frame, day], axis: A}, {pair: [frame, slow], axis: B}, {pair: [frame, slot], axis: C}]
+gears: [{pair: [a, b]}]
+couplings: [{kind: pin_and_slot, pin: slow, slot: slot, pin_radius: 10 mm, offset: 2 mm}]
+unit: {per: 1 d}
+inputs: {day: 1}
+""")
+    assert find_torque_period(train.mechanics) == 1000
+    assert natural_turns(train, None, "day") == pytest.approx(float(YEAR), rel=1e-12)
+
+
+# ---------------------------- the torque at the crank over a train's natural run, and a clock's weight against its drum
+
+
+ASKED = BudgetQuestion(turns=1, samples=20, trials=4)
+CLOCK = """
+extends: longcase-clock
+name: clock
+gears:
+  - {pair: [g96, c8], efficiency: 0.9}
+  - {pair: [c60, t8], efficiency: 0.9}
+  - {pair: [t56, e7], efficiency: 0.9}
+"""
+PULL = 5.9 * 9.80665 * 0.0127
+
+
+def test_a_weight_gives_its_torque_at_the_drum_and_the_escape_wheel_gets_what_teeth_leave() -> None:
+    weight = find_budget(geartrain.load(CLOCK), ASKED).crank.weight
+    assert weight is not None
+    assert (weight.link, weight.wheel, weight.needed, weight.suffices) == ("great", "escape", None, None)
+    assert weight.torque == pytest.approx(PULL, rel=1e-12)
+    # 720 turns of the escape wheel to one of the drum's
+    assert [weight.mean, weight.least] == pytest.approx([PULL / 720 * 0.9**3] * 2, rel=1e-12)
+    assert weight.efficiency == pytest.approx(0.9**3, rel=1e-12)
+
+
+@pytest.mark.parametrize(("drag", "enough"), [("0.6 N mm", True), ("0.8 N mm", False)])
+def test_a_weight_is_set_against_what_the_train_needs(drag: str, enough: bool) -> None:
+    found = find_budget(geartrain.load(CLOCK + f"links: {{escape: {{bearing: {drag}}}}}"), ASKED)
+    weight, over_turn = found.crank.weight, found.crank.over_turn
+    assert weight is not None
+    assert over_turn is not None
+    assert weight.needed == over_turn.starting_torque == pytest.approx(float(drag[:3]) * 0.72 / 0.9**3, rel=1e-12)
+    assert weight.suffices is enough
+    page = to_markdown([describe_budget(found)])
+    assert f"The weight gives {PULL:.4g} N m at 'great'." in page
+    assert ("starts it everywhere" in page) == enough
+
+
+def test_a_year_of_the_crank_stands_in_the_budget() -> None:
+    """Saturn's bearing: on the mean over its period 2.07 times what the mean speed would take; in a year less."""
+    train = geartrain.load("extends: freeth-2021\nname: saturns\nlinks: {saturn: {bearing: 1 N mm}}\n")
+    crank = find_budget(train, BudgetQuestion(("saturn",), turns=1, samples=20)).crank
+    assert crank.over_turn is not None
+    assert (crank.link, crank.over_turn.span, crank.weight) == ("a", 1, None)
+    assert crank.over_turn.greatest_torque == pytest.approx(2.6959e-5, abs=5e-10)

@@ -5,22 +5,25 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator
-from itertools import combinations, pairwise
-from math import dist, hypot
+from itertools import combinations
+from math import cos, dist, hypot, pi, sin
 from typing import Any
 
 import numpy as np
 import pytest
+import shapely
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from sampling import first_few
+from shipped import built
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.parts.arbor_columns import AxisBearing, ColumnProblem, FramePlaces
 from geartrain.scene.parts.processes import PROCESSES, process_named
-from geartrain.scene.parts.stack_discs import StackDisc
-from geartrain.scene.parts.turned_parts import Band, revolved
-from geartrain.workshop import export_files, notices
+from geartrain.scene.parts.stack_discs import Passage, clear_passages, with_passages
+from geartrain.scene.solids.bearing_plates import around
+from geartrain.workshop import assembly_steps, export_files, notices
 
 manifold3d = pytest.importorskip("manifold3d")
 
@@ -108,29 +111,6 @@ def test_arbors_reach_both_plates_and_pivots_stand_in_their_holes_with_the_fit_t
         assert low - high == pytest.approx(np.ptp(thick) + 0.2, abs=1e-9), "0.2 mm of end shake"
 
 
-def test_seven_nested_pipes_have_their_clearance_and_share_no_volume() -> None:
-    """2 mm inside, 0.05 mm between, walls of 0.5 mm: 2, 3.05, 4.10, ... 8.30, six gaps of 0.025."""
-    solids, inner = [], 0.0
-    for k in range(7):
-        outer = 2.0 if not k else inner + 1.0
-        solids.append(body(Pipe(outer / 2, inner / 2).solid()))
-        inner = outer + 0.05
-    assert outer == pytest.approx(8.30)
-    for first, second in pairwise(solids):
-        assert (first ^ second).volume() == 0.0
-        assert first.min_gap(second, 1.0) == pytest.approx(0.025, abs=3e-3), "but for chords of 96 sides"
-
-
-class Pipe:
-    def __init__(self, outer: float, inner: float) -> None:
-        self.bands = [Band(0.0, 10.0, outer, inner)]
-
-    def solid(self) -> Any:
-        from geartrain.scene.parts.turned_parts import profile
-
-        return revolved(profile(self.bands))
-
-
 def test_coaxial_arbors_are_pipes_with_a_running_clearance() -> None:
     work = workpiece("longcase-clock-cycloidal")
     parts = {part.name: body(part.placed) for part in work.parts}
@@ -154,25 +134,6 @@ def test_coaxial_arbors_are_laid_out_so_that_one_runs_in_the_other(name: str) ->
 
 
 # -------------------------------------------------------------------------------------------------------- front plate
-
-
-def column(front: float) -> Any:
-    """The third arbor (wheels in levels 1 and 2), 34 mm from an hour wheel of tip radius 37.716 in level 5."""
-    own = [
-        StackDisc(name, "third", "third", (0, 0), h, h + 2.5, 9.0, root=3.14) for name, h in (("t56", 3.5), ("t8", 7))
-    ]
-    hour = StackDisc("h72", "hour", "centre", (34.0, 0.0), 17.5, 20.0, 37.716)
-    problem = ColumnProblem("third", (0, 0), own, [hour], {}, (-5, 30), "plates", process_named(None), 3.0)
-    return problem.columns(FramePlaces((-1.0, -1.0), (front, front)))
-
-
-def test_an_arbor_that_would_pass_a_wheel_is_told_with_its_depth_and_a_nearer_plate_frees_it() -> None:
-    through, *studs = column(21.0)
-    assert [(disc.name, round(room, 3)) for disc, room in through.hit] == [("h72", -5.216)]
-    assert any(not each.hit for each in studs), "a stud in the back plate ends before it"
-    near, *_ = column(12.0)
-    assert near.bearing is AxisBearing.THROUGH
-    assert near.hit == ()
 
 
 LOCKED = """
@@ -329,3 +290,189 @@ def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
     assert len(pillars) >= 3
     assert all(heights[part.name][1] == pytest.approx(heights["frame bridge"][1]) for part in pillars)
     assert "frame bridge" not in {part.name for part in workpiece("freeth-2008").parts}
+
+
+# -------------------------------------------------------------------------------------------------------------- pillars
+
+
+BRASS = 100_000.0  # N/mm2, Young's modulus
+PUSH = 10.0  # N, of a hand at the crank
+
+
+def parts_of_kind(name: str, kind: str) -> list[Any]:
+    return [part for part in built(name).parts if part.kind == kind]
+
+
+def thickness(pillar: Any) -> float:
+    return 2 * max(radius for _, _, radius, _ in pillar.bands)
+
+
+@pytest.mark.parametrize("name", ["worm", "bevel-differential", "humpage", "south-pointing-chariot", "zf-8hp70"])
+def test_pillars_are_thin_beside_their_plates_and_stiff_enough(name: str) -> None:
+    """Beams held at both ends, which one end leaves sideways: F l^3 / 12 E I a pillar (Roark, table 8.1, case 1b)."""
+    found = parts_of_kind(name, "pillar")
+    corners = np.array(parts_of_kind(name, "frame")[0].outlines[0]).reshape(-1, 2)
+    assert all(thickness(pillar) <= max(3.0, 0.062 * dist(np.ptp(corners, axis=0), (0, 0))) for pillar in found)
+    stiffness = 0.0
+    for pillar in found:
+        length = max(high - low for low, high, _, _ in pillar.bands)
+        stiffness += 12 * BRASS * pi * thickness(pillar) ** 4 / 64 / length**3
+    assert PUSH / stiffness < 0.02, "mm: a tenth of the shake of an arbor"
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "two-k-h-10000", "ferguson-paradox", "zf-8hp70"])
+def test_pillars_of_a_train_about_one_axis_stand_evenly_to_its_left_and_right(name: str) -> None:
+    """Else three stood at one end and one at the other, and the plate was a wedge."""
+    places = np.array([pillar.place[:2] for pillar in parts_of_kind(name, "pillar")])
+    (axis,) = {part.place[:2] for part in parts_of_kind(name, "arbor") if part.body and "planet" not in part.name}
+    left, right = (places[side * (places[:, 0] - axis[0]) > 0] - axis for side in (-1, 1))
+    assert len(left) == len(right) == 2
+    assert np.abs(left).mean(axis=0) == pytest.approx(np.abs(right).mean(axis=0), abs=0.3)
+    assert np.abs(places - axis)[:, 1].max() < 0.2 * np.abs(places - axis)[:, 0].min()
+
+
+# -------------------------------------------------------------------------------------------------- spacers and collets
+
+
+def heights(work: SolidModel) -> dict[str, tuple[float, float]]:
+    return {part.name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for part in work.parts}
+
+
+@pytest.fixture(scope="module", params=["longcase-clock-cycloidal", "freeth-2006", "price-1974"])
+def work(request: pytest.FixtureRequest) -> SolidModel:
+    train = load(request.param)
+    return SolidModel(train, ManufacturingSizes(), train.declaration.state_or_first(None))
+
+
+def test_a_spacer_goes_from_face_to_face(work: SolidModel) -> None:
+    faces = heights(work)
+    spacers = [part for part in work.parts if part.kind == "spacer"]
+    assert spacers
+    for part in spacers:
+        below, above = part.name.removeprefix("spacer ").split(" to ")
+        assert faces[part.name] == pytest.approx((faces[below][1], faces[above][0]), abs=1e-9)
+
+
+def test_a_collet_stands_at_a_face_of_its_wheel(work: SolidModel) -> None:
+    faces = heights(work)
+    collets = [part for part in work.parts if part.kind == "collet"]
+    assert collets
+    for part in collets:
+        (low, high), (bottom, top) = faces[part.name], faces[part.name.removeprefix("collet of ")]
+        assert low == pytest.approx(top, abs=1e-9) or high == pytest.approx(bottom, abs=1e-9)
+        assert high - low >= 0.5 - 1e-9
+
+
+def test_their_holes_are_those_of_the_wheels_beside_them(work: SolidModel) -> None:
+    for part in work.parts:
+        if part.kind in ("spacer", "collet"):
+            assert part.turned is not None
+            names = part.name.removeprefix("spacer ").removeprefix("collet of ").split(" to ")
+            bored = [work.blanks.wheels[name].bore for name in names if name in work.blanks.wheels]
+            for bore in bored:
+                assert bore == 0 or 2 * part.turned.bands[0].bore == pytest.approx(bore)
+            assert part.turned.bands[0].radius - part.turned.bands[0].bore >= 0.6 - 1e-9
+
+
+def test_they_stand_in_nothing(work: SolidModel) -> None:
+    """Solids against solids by manifold3d, their own arbors and wheels too."""
+    bodies = [(part, body(part.placed)) for part in work.parts]
+    for part, solid in bodies:
+        if part.kind not in ("spacer", "collet"):
+            continue
+        for other, foreign in bodies:
+            if other is part:
+                continue
+            a, b = solid.bounding_box(), foreign.bounding_box()
+            if all(a[k] < b[k + 3] and b[k] < a[k + 3] for k in range(3)):
+                shared = (solid ^ foreign).volume()
+                assert shared <= 1e-6 * solid.volume(), f"{part.name} stands in {other.name}"
+
+
+def test_steps_of_the_assembly_bring_them_in_with_their_wheels(work: SolidModel) -> None:
+    steps = assembly_steps(work)
+    brought = [name for step in steps for name in step.parts]
+    for part in work.parts:
+        if part.kind in ("spacer", "collet"):
+            assert brought.count(part.name) == 1
+            (step,) = (step for step in steps if part.name in step.parts)
+            assert ("spacer" if part.kind == "spacer" else "collet") in step.text
+
+
+def test_wheels_beside_pins_and_slots_have_none() -> None:
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    coupled = {link for each in work.train.declaration.couplings for link in (each.pin, each.slot)}
+    assert coupled
+    sleeves = [part for part in work.parts if part.kind in ("spacer", "collet") and part.turned is not None]
+    assert not coupled & {part.turned.link for part in sleeves if part.turned is not None}
+
+
+# --------------------------------------------------------------------------- plates where wheels across go through them
+
+
+PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
+
+
+def rectangle(passage: Passage) -> shapely.Polygon:
+    (x, y), (u, v), length, width = passage.middle, passage.way, passage.length, passage.width
+    corners = [(-length, -width), (length, -width), (length, width), (-length, width)]
+    return shapely.Polygon([(x + a * u - b * v, y + a * v + b * u) for a, b in corners])
+
+
+@given(st.floats(0, 60), st.floats(0, 40), st.floats(0, 2 * pi), st.floats(1, 60), st.floats(0.5, 4), st.floats(2, 9))
+def test_what_is_left_of_a_plate_is_what_a_foreign_library_leaves(
+    x: float, y: float, turn: float, length: float, width: float, edge: float
+) -> None:
+    """A window or one notch; a plate that would be cut in two, or lose a corner, stays whole."""
+    passage = Passage((x, y), (cos(turn), sin(turn)), length, width)
+    whole = around(PLATE, edge)
+    material = shapely.Polygon(whole.flattened(0.005))
+    corners = [shapely.Point(corner) for corner in rectangle(passage).exterior.coords[:4]]
+    assume(all(material.exterior.distance(corner) > 1.01 for corner in corners))
+    outline, windows = with_passages(whole, [passage])
+    found = shapely.Polygon(outline.flattened(0.005), [each.flattened(0.005) for each in windows])
+    assert found.is_valid
+    inside = [material.covers(corner) for corner in corners]
+    cut = material.difference(rectangle(passage))
+    if all(inside) or inside in ([True, False, False, True], [False, True, True, False]):
+        assert found.symmetric_difference(cut).area < 1e-6 * material.area
+    else:
+        assert not windows
+        assert found.equals(material)
+
+
+def test_a_window_that_would_leave_a_thin_web_is_a_notch() -> None:
+    outline, windows = with_passages(around(PLATE, 3.0), [Passage((30.0, 36.0), (0.0, 1.0), 6.5, 2.0)])
+    assert not windows
+    found = shapely.Polygon(outline.points)
+    assert not found.covers(shapely.Point(30.0, 42.9))
+    assert found.area == pytest.approx(shapely.Polygon(around(PLATE, 3.0).flattened(0.005)).area - 4 * 13.5, abs=1e-3)
+
+
+def test_a_passage_into_a_hole_is_left_out() -> None:
+    passage = Passage((30.0, 20.0), (1.0, 0.0), 10.0, 2.0)
+    assert clear_passages([passage], [((30.0, 23.0), 0.9)]) == [passage]
+    assert clear_passages([passage], [((30.0, 23.0), 1.1)]) == []
+    assert clear_passages([passage], [((41.0, 22.5), 1.2)]) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "wheel", "plate"),
+    [
+        ("worm", "w60", "case back plate"),
+        ("crossed-helical", "w20", "frame back plate"),
+        ("voulgaris-2024-a", "t1", "frame front plate"),
+    ],
+)
+def test_a_wheel_across_goes_through_its_plate_with_air_round_it(name: str, wheel: str, plate: str) -> None:
+    """In its own middle plane the wheel is a rectangle in the plate, 0.4 mm away from what is left."""
+    model = SolidModel(load(name), ManufacturingSizes())
+    parts = {part.name: part for part in model.parts}
+    flat = parts[plate]
+    own = (parts[wheel].placed.vertices - flat.place) @ flat.turn
+    within = own[np.abs(own[:, 2]) < flat.height / 2 + 3]
+    assert len(within)
+    outer, *holes = (each.flattened(0.005) for each in flat.contours)
+    material = shapely.Polygon(outer, holes)
+    gaps = [material.distance(shapely.Point(x, y)) for x, y, z in within if abs(z) <= flat.height / 2]
+    assert min(gaps) == pytest.approx(0.4, abs=0.02)

@@ -15,12 +15,8 @@ import shapely
 from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.dial_scale import engrave
-from geartrain.scene.palette import THEMES
-from geartrain.workshop import export_files
-from geartrain.workshop.export.assembly_pictures import step_pictures
-from geartrain.workshop.export.assembly_steps import assembly_steps
-from geartrain.workshop.export.parts_list import parts_list
+from geartrain.workshop import assembly_steps, export_files, parts_list
+from geartrain.workshop.export.assembly_guide import step_pictures
 
 
 def model(name: str) -> SolidModel:
@@ -129,9 +125,7 @@ def test_a_dxf_has_the_engraving_on_its_layer_as_open_lines() -> None:
     (found,) = [each for each in export_files(work, ["dxf"]) if each.path.endswith("and-seconds.dxf")]
     space = ezdxf.read(io.StringIO(found.make().decode())).modelspace()
     lines = [each for each in space.query("LWPOLYLINE") if each.dxf.layer == "ENGRAVE"]
-    letters = [each for dial in work.dials for circle in dial.circles for each in circle.scales.values()]
-    strokes = sum(len(part.lines) for scale in letters for part in engrave(scale) if part.kind == "letters")
-    assert len(lines) == 60 + 60 + 12 + 3 + strokes, "marks of three scales, their circles, their numerals"
+    assert len(lines) == len(engraved(work, "dial-minutes-and-hours-and-seconds")) > 60 + 60 + 12 + 3, "and numerals"
     assert not any(line.closed for line in lines)
 
 
@@ -163,15 +157,6 @@ def test_steps_have_pictures_that_name_what_comes_in() -> None:
             root = ElementTree.fromstring(files[path].make())
             told = [each.text for each in root.iter("{http://www.w3.org/2000/svg}text")]
             assert set(step.parts) <= set(told)
-
-
-def test_pictures_of_steps_have_the_colours_of_all_pictures() -> None:
-    theme = THEMES["light"]
-    pictures = [each.make().decode() for each in export_files(model("planetary-24-18-60"), ["svg"])
-                if each.path.startswith("assembly/") and each.path.endswith(".svg")]  # fmt: skip
-    assert len(pictures) > 2
-    used = set(re.findall(r'(?:fill|stroke)="([^"]+)"', " ".join(pictures))) - {"none"}
-    assert {theme.paper, theme.ink, theme.line, theme.band, theme.series[0]} == used
 
 
 def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
-from math import atan2, cos, hypot, pi, radians, sin
+from math import atan2, hypot, pi, radians
 
 import networkx as nx
 import numpy as np
@@ -148,31 +148,6 @@ def test_wheels_read_back_have_their_teeth_their_bore_and_the_same_area_in_svg_a
         assert "ENGRAVE" in dxf
 
 
-@pytest.mark.parametrize(("z1", "z2", "form"), [(24, 36, INVOLUTE), (64, 38, TRIANGULAR), (17, 43, "{form: ideal}")])
-def test_exported_wheels_mesh_over_a_pitch_at_the_distance_of_the_layout(z1: int, z2: int, form: str) -> None:
-    """Turned in the ratio of their teeth, with room between: they never overlap, and closer they would."""
-    work = workpiece(z1, z2, form, module=1)
-    places = work.layout.wheels
-    distance = hypot(*(a - b for a, b in zip(places["p"].centre[:2], places["w"].centre[:2], strict=True)))
-    assert distance == pytest.approx((z1 + z2) / 2)
-    first, second = (polygon(from_svg(wheel_file(work, each, ".svg"))["CUT"]) for each in ("p", "w"))
-    rotate, translate = shapely.affinity.rotate, shapely.affinity.translate
-
-    def overlap(turn: float, ahead: float, away: float = distance) -> float:
-        # a space of the second faces a tooth of the first on the line of centres
-        own = rotate(first, turn, (0, 0), use_radians=True)
-        other = rotate(second, pi + pi / z2 - turn * z1 / z2 + ahead, (0, 0), use_radians=True)
-        return float(own.intersection(translate(other, away, 0)).area)
-
-    for k in range(8):
-        turn = 2 * pi / z1 * k / 8
-        # real teeth lag or lead by less than a fifth of a pitch; in that play there is room
-        free = min(overlap(turn, 2 * pi / z2 * lag) for lag in np.linspace(-0.2, 0.2, 21))
-        assert free < 2e-3, "no room in the play"
-        assert overlap(turn, pi / z2) > 0.05, "half a pitch off, teeth stand in teeth"
-        assert min(overlap(turn, 2 * pi / z2 * lag, 0.97 * distance) for lag in (-0.1, 0.0, 0.1)) > 0.05, "too near"
-
-
 def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
     work = workpiece(64, 38, TRIANGULAR, module=1, bore=0)
     (outline,) = from_svg(wheel_file(work, "w", ".svg"))["CUT"]
@@ -262,20 +237,6 @@ def test_the_line_around_points_is_their_hull_made_thicker(points: list[tuple[in
     true = shapely.MultiPoint(points).convex_hull.buffer(radius, quad_segs=64)
     assert drawn.is_valid
     assert drawn.symmetric_difference(true).area < 5e-3 * true.area
-
-
-def test_a_wheel_that_two_pairs_would_cut_otherwise_is_named() -> None:
-    text = """
-links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 30}}}}, c: {{wheels: {{x: 40}}}}}}
-revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
-gears: [{{id: one, pair: [p, w], tooth_form: {first}}}, {{id: two, pair: [w, x], tooth_form: {second}}}]
-inputs: {{a: 1}}
-"""
-    for second, told in (("{form: involute, backlash: 0.2}", True), ("{form: cycloidal}", True), (INVOLUTE, False)):
-        work = SolidModel(declared(text.format(first=INVOLUTE, second=second)), ManufacturingSizes())
-        said = [each for each in notices(work, ["svg"]) if "its pairs 'one' and 'two'" in each.what]
-        assert len(said) == told
-        assert all(each.why and each.fix for each in said)
 
 
 @pytest.mark.parametrize("name", ["CON", "aux", "com1.x", "NUL.svg", "../x", "..", "a/b\\c:d", "/etc/passwd", "."])
@@ -426,13 +387,6 @@ def test_rexs_carries_teeth_distances_and_speeds_of_a_turbine_gearbox() -> None:
     running = model["load_spectrum"]["load_cases"][0]["components"]  # type: ignore[index]
     speeds = {each["name"]: each["attributes"][0]["floating_point"] for each in running}
     assert speeds["low"] / speeds["rotor"] == pytest.approx(1 + 99 / 21), "Willis: 1 + ring over sun"
-
-
-def test_helpers_of_this_file_measure_what_they_say() -> None:
-    square = unrolled([(0, 0), (2, 0), (2, 2), (0, 2)], [0, 1, 0, 0])
-    assert shapely.Polygon(square).area == pytest.approx(4 + pi / 2, rel=1e-2), "a half circle bulges out"
-    star = np.array([((1 + k % 2) * cos(pi * k / 5), (1 + k % 2) * sin(pi * k / 5)) for k in range(10)])
-    assert teeth_of(star, 1.5) == 5
 
 
 def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import struct
 from fractions import Fraction
@@ -270,25 +269,6 @@ def test_a_wheel_of_more_teeth_than_are_cut_is_its_pitch_circle(internal: str) -
     assert len(part.solid.vertices) < 10**5
     across = np.hypot(*part.solid.vertices[:, :2].T)
     assert float(abs(across - wheel.radius).min()) < 1e-9 * wheel.radius
-
-
-def test_trimesh_reads_the_bodies_of_a_glb_in_metres() -> None:
-    trimesh = pytest.importorskip("trimesh")
-    work = workpiece("planetary-24-18-60")
-    scene = trimesh.load(io.BytesIO(train_file(work, "glb")), file_type="glb")
-    assert {"frame", "sun", "planet", "carrier", "s", "p", "ring"} <= set(scene.graph.nodes)
-    parts = {part.name: part for part in work.parts}
-    assert set(scene.graph.nodes_geometry) == set(parts)
-    for node in scene.graph.nodes_geometry:
-        matrix, name = scene.graph[node]
-        mesh = scene.geometry[name].copy()
-        mesh.apply_transform(matrix)
-        mesh.merge_vertices(merge_norm=True)
-        assert mesh.is_watertight
-        assert 1e9 * mesh.volume == pytest.approx(volume(parts[node].solid), rel=1e-3)
-        assert 1000 * mesh.bounds == pytest.approx(np.array(box(parts[node].placed)), abs=1e-3)
-    top = scene.graph.transforms.parents["frame"]
-    assert abs(np.linalg.det(scene.graph.get(top)[0][:3, :3])) == pytest.approx(1e-9), "mm become metres"
 
 
 def box(solid: Solid) -> tuple[np.ndarray, np.ndarray]:

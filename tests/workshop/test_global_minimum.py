@@ -6,7 +6,7 @@ from math import cos, floor, pi
 
 import pytest
 
-from geartrain.workshop.sizes.global_minimum import minimise, polish
+from geartrain.workshop.sizes.size_search import minimise, polish
 
 
 def test_of_many_minima_with_kinks_the_least_is_found() -> None:

@@ -9,16 +9,19 @@ import numpy as np
 import pytest
 from polygons import Judge, Outline
 from studies.cut_pair_law import CutPairLaw
+from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 
 from geartrain import load
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.least_backlash import even_tooth_pair, jamming_bound, nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
 
 THIRTY = radians(30)
-KINDS = ("place", "tip", "leading", "trailing")
 
 
 def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> TriangularSizes:
@@ -71,134 +74,6 @@ def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: i
         assert len(stills) == lcm(z1, z2)
         assert stills[0].amount == pytest.approx(law.contact.lost, rel=1e-9)
         assert sum(e.end - e.start for e in stills) / len(stills) == pytest.approx(law.contact.idle, rel=1e-9)
-
-
-def test_the_law_is_one_of_a_mesh_of_a_train() -> None:
-    mesh = load("sorge-pairs").meshes[0]
-    sizes = mesh.cut_sizes
-    law = CutPairLaw.of(sizes, *even(sizes))
-    S = np.linspace(0, law.period, 500)
-    assert law.period == pytest.approx(2 * pi * lcm(sizes.z1, sizes.z2) / sizes.z1, rel=1e-15)
-    assert np.abs(law.error(S) - mesh.law.error(S)).max() < 1e-14 * sizes.p2 + 1e-15 * law.period
-    shaped = S.reshape(5, 4, 25)
-    for what in (law.error, law.speed, law.play):
-        assert what(shaped).shape == shaped.shape
-        assert what(shaped)[2, 3, 7] == what(float(shaped[2, 3, 7]))
-
-
-# --------------------------------------------------------------------------------------------------------- off centre
-
-
-def seen_from_the_centres(sizes: TriangularSizes, t: float, e: tuple[float, float], k: tuple[float, float]) -> float:
-    """The driver's lag at t by the law of even wheels, at the distance and on the line of their own centres."""
-    y = 0.0
-    for _ in range(200):
-        one = e[0] * np.exp(1j * (t + k[0]))
-        two = sizes.D - e[1] * np.exp(-1j * (y + k[1]))
-        line = two - one
-        D, turned = abs(line), np.angle(line)
-        here = sizes.at(D / sizes.deepest_distance - 1)
-        x = t - turned
-        # the driven wheel's own angle is counted from the line the other way round
-        found = -float(sizes.ratio * -x + TriangularTransmission(here).error(-x))
-        after = found - turned
-        if abs(after - y) < 1e-15:
-            break
-        y = after
-    return y
-
-
-@pytest.mark.parametrize("which", [(0.1, 0.0), (0.0, 0.1), (0.07, 0.06)])
-def test_eccentric_wheels_are_even_wheels_at_the_distance_of_their_centres(which: tuple[float, float]) -> None:
-    sizes = equally_deep(32, 20, 0.03)
-    e, k = tuple(share * min(sizes.depths) for share in which), (0.4, 2.1)
-    driver, driven = (wheel.eccentric(e[at], k[at]) for at, wheel in enumerate(even(sizes)))
-    law = CutPairLaw.of(sizes, driver, driven)
-    S = np.random.default_rng(2).uniform(0, law.period, 25)
-    far = 0.0
-    for angle, q in zip(S, law.angle(S), strict=True):
-        far = max(far, abs(-seen_from_the_centres(sizes, -angle, e, k) - q))
-    assert far < 1e-12 * sizes.p2
-    low, high = law.error_range()
-    assert high - low > 1.2 * np.ptp(TriangularTransmission(sizes).error_range())
-
-
-# ------------------------------------------------------------------------------------------------------ to first order
-
-
-def touch(x, r, b, s, c, D):
-    """f of one couple, for complex numbers too: approach and recess as their closure equations have them."""
-    approach = np.arcsin((D * np.sin(x + b) - r * np.sin(b)) / s) - x - b
-    seen = np.arctan(r * np.sin(x) / (D - r * np.cos(x)))
-    square = D * D + r * r - 2 * D * r * np.cos(x)
-    recess = c + seen - np.arcsin(s * np.sin(c) / np.sqrt(square))
-    return approach if approach.real < recess.real else recess
-
-
-def linear(sizes: TriangularSizes, S: float, errors: dict[str, np.ndarray], shift: float) -> float:
-    """The first-order change of the driven angle at S: complex steps through the couple that pushes."""
-    law = TriangularTransmission(sizes)
-    x = float(law.alpha1(S))
-    k = round((x + S) / sizes.p1)
-    i, j = k % sizes.z1, k % sizes.z2
-    step = 1e-30j
-
-    def value(h: complex) -> complex:
-        y = touch(
-            x + h * errors["place1"][i],
-            sizes.R1 + h * errors["tip1"][i],
-            sizes.beta1 + h * errors["leading1"][i],
-            sizes.R2 + h * errors["tip2"][j],
-            sizes.beta2 + h * errors["trailing2"][j],
-            sizes.D + h * shift,
-        )
-        return y - h * errors["place2"][j]
-
-    return -(value(step).imag / 1e-30)
-
-
-def test_small_errors_act_as_first_order_says_to_second_order() -> None:
-    """The rest falls with the square of the errors, in the mean over a pitch and at angles away from switches."""
-    sizes = equally_deep(24, 15, 0.03)
-    rng, law = np.random.default_rng(3), TriangularTransmission(sizes)
-    errors = {f"{kind}{at}": rng.standard_normal(z) for at, z in ((1, 24), (2, 15)) for kind in KINDS}
-    for at, R in ((1, sizes.R1), (2, sizes.R2)):
-        errors[f"tip{at}"] *= R
-    shift = float(rng.standard_normal()) * sizes.R1
-
-    def cut(size: float) -> CutPairLaw:
-        one, two = (
-            wheel.placed(size * errors[f"place{at}"])
-            .grown(size * errors[f"tip{at}"])
-            .widened(size * errors[f"leading{at}"], size * errors[f"trailing{at}"])
-            for at, wheel in zip((1, 2), even(sizes), strict=True)
-        )
-        return CutPairLaw.of(sizes, one, two, size * shift)
-
-    corners = np.sort(np.array(law.corners()) % sizes.p1)
-    S = rng.uniform(0, 2 * pi, 400)
-    S = S[(np.abs((S % sizes.p1)[:, None] - np.append(corners, [0, sizes.p1])).min(axis=1) > 0.05 * sizes.p1)]
-    first = np.array([linear(sizes, float(at), errors, shift) for at in S])
-    rests = [np.abs(cut(size).error(S) - law.error(S) - size * first) for size in (2e-4, 1e-4)]
-    orders = np.log2(rests[0] / rests[1])
-    assert len(S) > 100
-    assert 1.8 < np.median(orders) < 2.2
-    assert np.mean((orders > 1.8) & (orders < 2.2)) > 0.9
-
-    # the mean over the cycle: switches move by the errors, and the error is continuous there
-    weights = np.polynomial.legendre.leggauss(6)
-    edges = np.sort(np.concatenate([corners + n * sizes.p1 for n in range(lcm(24, 15))]))
-    edges = np.append(edges, edges[0] + law.period * lcm(24, 15))
-    half = np.diff(edges) / 2
-    nodes = (edges[:-1] + half)[:, None] + half[:, None] * weights[0]
-    slope = sum(
-        float(w * h * linear(sizes, float(node), errors, shift))
-        for row, h in zip(nodes, half, strict=True)
-        for node, w in zip(row, weights[1], strict=True)
-    ) / float(2 * half.sum())
-    mean = law.error_moments()[0]
-    rest = [abs(cut(size).error_moments()[0] - mean - size * slope) for size in (2e-4, 1e-4)]
-    assert 1.8 < np.log2(rest[0] / rest[1]) < 2.2
 
 
 # ------------------------------------------------------------------------------------------------------------ outlines
@@ -311,17 +186,21 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
 
 
 @pytest.mark.parametrize("number", [pytest.param(3), pytest.param(60, marks=pytest.mark.long)])
-def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: int) -> None:
-    """Marched on, the driven wheel dragging, it is soon caught between the tooth that came in and the one before."""
-    rng = np.random.default_rng(5)
-    while number:
-        sizes = equally_deep(16, 12, 0.0)
-        sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
-        places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
-        law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
-        if not law.events or {event.kind for event in law.events.all} != {"clash"} or law.events.play < 0:
-            continue
-        number -= 1
+def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> None:
+    """The outlines are turned on in small steps, the driven wheel dragging, and no step passes through a tooth.
+
+    Soon the driven wheel is caught between the tooth that came in and the one before, though flanks have play. If it
+    lags so far that the tooth that comes in passes its mate altogether, it is not pushed for most of a pitch.
+    """
+    rng, skipped, steps = np.random.default_rng(5), 0, 400
+    for _ in range(number):
+        while True:
+            sizes = equally_deep(16, 12, 0.0)
+            sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
+            places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
+            law = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+            if law.events and {event.kind for event in law.events.all} == {"clash"} and law.events.play >= 0:
+                break
         judge = Judge(
             *(
                 Outline(np.arange(w.z) * w.pitch + p, np.full(w.z, w.radius), *np.full((2, w.z), THIRTY))
@@ -329,52 +208,25 @@ def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: i
             ),
             sizes.D,
         )
-        start = law.events.stop.start
-        S = np.arange(start - 0.05 * sizes.p1, start + 0.5 * sizes.p1, sizes.p1 / 200)
-        y, on = -float(law.angle(S[0])) - 1e-9, np.linspace(0, 0.04 * sizes.p2, 41)
+        clash = law.events.stop
+        S = np.arange(clash.start - 0.05 * sizes.p1, clash.start + sizes.p1, sizes.p1 / steps)
+        # no pair of teeth of these turns the driven wheel on as fast as 4 times the mean
+        y, on = -float(law.angle(S[0])) - 1e-9, np.linspace(0, 4 * sizes.p2 / steps, 21)
         for angle in S[1:]:
-            hit = judge.overlap(np.full(41, -angle), y - on)
+            hit = judge.overlap(np.full(21, -angle), y - on)
             if hit.all():
                 break
             y -= on[np.argmin(hit)]
-        assert hit.all()
-        assert start - 0.01 * sizes.p1 < angle < start + 0.4 * sizes.p1
+        if hit.all():
+            assert clash.start - 0.01 * sizes.p1 < angle < clash.start + 0.4 * sizes.p1
+        else:
+            skipped += 1
+            assert clash.amount > 0.1 * sizes.p2
+            assert float(law.angle(angle)) + y > 0.6 * sizes.p2  # behind the law of its pushing flanks
+    assert skipped <= 0.05 * number
 
 
 # -------------------------------------------------------------------------------------------------------------- events
-
-
-def test_the_one_tooth_that_is_out_of_place_is_named() -> None:
-    sizes = equally_deep(16, 12, 0.03)
-    late = np.zeros(16)
-    late[5] = 0.45 * sizes.p1
-    driver, driven = even(sizes)
-    events = CutPairLaw.of(sizes, driver.placed(late), driven).events
-    assert events.jams
-    assert events.play < 0
-    teeth = {tooth[0] for event in events.of("jam", "clash") for tooth in (event.pushing, event.stopping) if tooth}
-    assert 5 in teeth
-    assert teeth <= {3, 4, 5, 6, 7}
-
-
-def test_a_jam_begins_where_the_play_is_used_up() -> None:
-    """Before it there is play, within it none: told by the outlines too."""
-    rng, seen = np.random.default_rng(7), 0
-    while seen < 4:
-        sizes, law, judge = drawn(rng)
-        if law.pair.count > 70:
-            continue
-        for event in law.events.of("jam")[:2]:
-            if event.end - event.start < 1e-4 * sizes.p1 or event.start < 0.01:
-                continue
-            seen += 1
-            edge = 1e-6 * sizes.p1
-            S = np.array([event.start - edge, event.start + edge])
-            play = law.play(S)
-            assert play[0] > 0 > play[1]
-            upper = -law.error(S) - sizes.ratio * S
-            assert list(judge.overlap(-S, upper - play / 2)) == [False, True]
-            assert event.amount > 0
 
 
 def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
@@ -408,3 +260,212 @@ def test_impossible_wheels_are_refused() -> None:
         with pytest.raises(RangeError) as caught:
             make()
         assert all(problem.what and problem.fix for problem in caught.value.problems)
+
+
+# -------------------------------------------------------------------------------------- many wheels cut by hand at once
+
+
+def stacked(wheels: list[CutWheel]) -> CutWheel:
+    """Wheels of one size as one batch."""
+    names = ("place", "tip", "leading", "trailing")
+    return CutWheel(wheels[0].radius, wheels[0].half_angle, *(np.stack([getattr(w, n) for w in wheels]) for n in names))
+
+
+def cut(
+    sizes: TriangularSizes, rng: np.random.Generator, trials: int, cutting: CuttingErrorModel
+) -> tuple[CutWheel, CutWheel]:
+    driver, driven = (cutting.draw(wheel, rng, trials) for wheel in even(sizes))
+    return driver, driven
+
+
+# --------------------------------------------------------------------------------------------------- one by one
+
+EVERY = CuttingErrorModel(
+    ErrorDistribution(0.02), ErrorDistribution(0.04), ErrorDistribution(0.03), ErrorDistribution(0.07)
+)
+HALF = CuttingErrorModel(
+    ErrorDistribution(0.01), ErrorDistribution(0.02), ErrorDistribution(0.015), ErrorDistribution(0.035)
+)
+PLACES = CuttingErrorModel(ErrorDistribution(0.04))
+
+
+@pytest.mark.parametrize("number", [pytest.param(5), pytest.param(60, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    ("cutting", "ring"),
+    [
+        pytest.param(EVERY, 0, id="every error-0"),
+        pytest.param(EVERY, 1, id="every error-1", marks=pytest.mark.slow),
+        pytest.param(EVERY, 2, id="every error-2", marks=pytest.mark.slow),
+        pytest.param(PLACES, 0, id="places-0"),
+        pytest.param(PLACES, 1, id="places-1"),
+        pytest.param(PLACES, 2, id="places-2"),
+    ],
+)
+def test_a_batch_says_of_each_what_its_own_law_says(
+    cutting: CuttingErrorModel, ring: Literal[0, 1, 2], number: int
+) -> None:
+    """Play, clash, standstill and gap of random pairs, on both sides of their windows."""
+    rng, kinds, done = np.random.default_rng(1), np.zeros(4, int), 0
+    while done < (2 * number if ring else number):
+        z1, z2 = (int(z) for z in rng.integers(9, 30, 2))
+        sizes = with_ring(z1, z2, ring, radians(rng.uniform(20, 35)))
+        if lcm(sizes.z1, sizes.z2) > 90:
+            continue
+        if not (window := find_window(sizes)):
+            continue
+        # tips of a ring part soon beyond the window
+        sizes = sizes.at(window.at(rng.choice([0.05, 0.3, 0.9, 1.02 if ring else 1.05])))
+        shift = 0.0 if cutting is PLACES else 0.01 * min(sizes.depths) * rng.standard_normal(4)
+        try:
+            # a ring that jams by more than the depth of a tooth has no law
+            driver, driven = cut(sizes, rng, 4, HALF if ring and cutting is EVERY else cutting)
+            found = batch_verdicts(sizes, driver, driven, shift)
+        except RangeError:
+            continue
+        if found.leans.any():
+            continue
+        done += 1
+        for at in range(4):
+            here = shift if np.ndim(shift) == 0 else float(shift[at])
+            events = CutPairLaw.of(sizes, driver.trial(at), driven.trial(at), here).events
+            if not (ring and found.disengaged[at]):  # where no tooth is in reach the play is that of no position
+                near = (1e-6 if cutting is PLACES else 1e-8) * sizes.p2
+                assert found.play[at] == pytest.approx(events.play, abs=near)
+            assert found.disengaged[at] == bool(events.of("disengaged"))
+            assert found.standstill[at] == bool(events.of("standstill"))
+            assert found.stops[at] == (events.stop is not None)
+            kinds += [found.jams[at], found.clash[at], found.standstill[at], not found.stops[at]]
+    assert kinds.min() >= 1, kinds
+
+
+def test_trials_do_not_know_each_other() -> None:
+    """In one chunk or in many, alone or together, with shared wheels or copies of them."""
+    sizes, rng = equally_deep(24, 15, 0.02), np.random.default_rng(2)
+    driver, driven = cut(sizes, rng, 12, EVERY)
+    whole = batch_verdicts(sizes, driver, driven)
+    for parts in (batch_verdicts(sizes, driver, driven, chunk=1), batch_verdicts(sizes, driver, driven, chunk=300)):
+        assert np.abs(parts.play - whole.play).max() < 1e-10 * sizes.p2
+        assert (parts.stops == whole.stops).all()
+    one = driven.trial(3)
+    shared = batch_verdicts(sizes, driver, one)
+    copied = batch_verdicts(sizes, driver, stacked([one] * 12))
+    assert np.abs(shared.play - copied.play).max() < 1e-10 * sizes.p2
+
+
+def test_places_alone_are_reckoned_in_another_way_with_the_same_result() -> None:
+    """Tips that grow by nothing to speak of send the same wheels through the general way."""
+    rng = np.random.default_rng(3)
+    for z1, z2, excess, sigma in ((64, 38, 0.02, 0.06), (24, 15, 0.02, 0.05), (15, 20, 0.03, 0.07)):
+        sizes = equally_deep(z1, z2, excess)
+        driver, driven = cut(sizes, rng, 12, CuttingErrorModel(ErrorDistribution(sigma)))
+        placed = batch_verdicts(sizes, driver, driven)
+        general = batch_verdicts(sizes, driver.grown(1e-14 * np.ones(z1)), driven)
+        assert np.abs(placed.play - general.play).max() < 1e-5 * sizes.p2
+        for name in ("jams", "clash", "standstill", "disengaged"):
+            assert (getattr(placed, name) == getattr(general, name)).all(), name
+
+
+def test_shifted_axles_are_another_centre_distance() -> None:
+    sizes, rng = equally_deep(24, 15, 0.02), np.random.default_rng(4)
+    driver, driven = cut(sizes, rng, 20, PLACES)
+    apart = sizes.at(0.03)
+    found = batch_verdicts(sizes, driver, driven, apart.D - sizes.D)
+    true = batch_verdicts(apart, driver, driven)
+    assert np.abs(found.play - true.play).max() < 1e-10 * sizes.p2
+    each = batch_verdicts(sizes, driver, driven, np.full(20, apart.D - sizes.D))
+    assert np.abs(each.play - true.play).max() < 1e-5 * sizes.p2
+
+
+@pytest.mark.parametrize("ring", [0, 1, 2])
+@pytest.mark.parametrize("phase", [APPROACH, RECESS])
+def test_the_derivatives_of_a_contact_are_those_of_its_angle(phase: str, ring: Literal[0, 1, 2]) -> None:
+    """Newton's method finds the least play by them."""
+    sizes = with_ring(24, 15, ring)
+    couple = even_tooth_pair(sizes.at(find_window(sizes).at(0.5)))
+    x, step = np.linspace(-0.9, 0.9, 7) * couple.reach, 1e-5
+    for function, derivative in ((couple.angle, couple.speed), (couple.speed, couple.slope)):
+        low, high = function(phase, x - step, np), function(phase, x + step, np)
+        assert derivative(phase, x, np) == pytest.approx((high - low) / (2 * step), rel=1e-6, abs=1e-8)
+
+
+# ----------------------------------------------------------------------------------------------- printed figures
+
+
+def test_the_nominal_play_of_the_table() -> None:
+    for z1, z2, excess, play in [
+        (64, 38, 0.01, 0.136),
+        (64, 38, 0.02, 0.368),
+        (64, 38, 0.03, 0.585),
+        (48, 24, 0.02, 0.207),
+        (127, 32, 0.01, 0.176),
+        (45, 225, 0.01, 0.394),
+    ]:
+        assert round(nominal_backlash(equally_deep(z1, z2, excess)), 3) == play
+
+
+@pytest.mark.parametrize(
+    ("z1", "z2", "excess", "sigma"),
+    [
+        (64, 38, 0.01, 0.015),
+        (64, 38, 0.03, 0.066),
+        (48, 24, 0.02, 0.028),
+        (127, 32, 0.01, 0.019),
+        (45, 225, 0.01, 0.048),
+    ],
+)
+def test_the_bound_of_the_table_is_about_one_in_a_hundred(z1: int, z2: int, excess: float, sigma: float) -> None:
+    sizes = equally_deep(z1, z2, excess)
+    assert jamming_bound(sizes, sigma) == pytest.approx(0.0125, abs=0.0075)
+    found = batch_verdicts(
+        sizes, *cut(sizes, np.random.default_rng(6), 300, CuttingErrorModel(ErrorDistribution(sigma)))
+    )
+    assert found.jams.mean() <= 0.02
+
+
+# ---------------------------------------------------------------------------------------------- eccentric wheels
+
+
+def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:
+    """To first order where e1 + e2 exceeds what the distance has above the least one of the window."""
+    sizes = equally_deep(64, 38, 0.02)
+    room = (0.02 - find_window(sizes).jam) * sizes.deepest_distance
+    share = np.array([0.6, 0.85, 1.15, 1.4])
+    driver, driven = even(sizes)
+    found = batch_verdicts(
+        sizes, driver.eccentric(share * room / 2, 0.3), driven.eccentric(share * room / 2, np.linspace(0, 1, 4))
+    )
+    assert list(found.jams) == [False, False, True, True]
+
+
+# ---------------------------------------------------------------------------------------------------------- drawing
+
+
+def test_what_cannot_be_judged_is_refused() -> None:
+    sizes = equally_deep(48, 24, 0.02)
+    driver, driven = even(sizes)
+    for make in (
+        lambda: batch_verdicts(sizes, driver, driven),
+        lambda: batch_verdicts(sizes, driven, driver),
+        lambda: jamming_bound(sizes, -1.0),
+    ):
+        with pytest.raises(RangeError) as caught:
+            make()
+        assert all(problem.what and problem.fix for problem in caught.value.problems)
+
+
+def test_a_bound_has_its_ends() -> None:
+    sizes = equally_deep(64, 38, 0.02)
+    assert jamming_bound(sizes, 0.0) == 0.0
+    assert jamming_bound(sizes, 1.0) == 1.0
+    assert jamming_bound(sizes.at(0.001), 0.01) == 1.0
+
+
+def test_wheels_whose_tips_do_not_meet_touch_nowhere_and_stop_nothing() -> None:
+    """Of places alone too, for which tables stand in of couples that there are none of."""
+    sizes = TriangularSizes(45, 225, *equal_depth(45, 225, THIRTY, THIRTY), THIRTY, THIRTY, 0.0225)
+    assert sizes.R1 + sizes.R2 < sizes.D
+    driver, driven = cut(sizes, np.random.default_rng(5), 3, PLACES)
+    found = batch_verdicts(sizes, driver, driven, 0.0)
+    assert found.play.tolist() == [np.inf] * 3
+    assert found.disengaged.all()
+    assert not (found.stops | found.standstill).any()

@@ -10,10 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.stats
+from numpy.typing import NDArray
 
 from geartrain import GearTrain
 from geartrain.numerics.confidence_intervals import PERCENTILES, IntervalEstimate, deviation_of, percentile_of, wilson
 from geartrain.workshop import TrialPlan, find_trial_plan, run_trials
+from geartrain.workshop.monte_carlo.sobol_indices import saltelli_indices
 
 REPEATS, TRIALS = 400, 256
 TEETH, MODULE, ANGLE = 12, 1.0, radians(20)  # mm
@@ -160,3 +163,60 @@ def test_the_interval_of_a_deviation_is_that_of_bonett() -> None:
     assert found.value == pytest.approx(sqrt(50 / 4))
     ends = [sqrt(c * 50 / 4 * exp(sign * z * error)) for sign in (-1, 1)]
     assert (found.low, found.high) == pytest.approx(ends)
+
+
+# --------------------------------------------------------------------------- sobol indices from two independent samples
+
+
+Floats = NDArray[np.float64]
+
+
+def sampled(model: Callable[[Floats], Floats], inputs: int, n: int, seed: int) -> Floats:
+    """The model at A, at A with one input after the other from B, and at B, of inputs uniform from -1 to 1."""
+    first, second = np.random.default_rng(seed).uniform(-1.0, 1.0, (2, n, inputs))
+    mixed = [np.where(np.arange(inputs) == at, second, first) for at in range(inputs)]
+    return np.stack([model(x) for x in (first, *mixed, second)], axis=1)
+
+
+def ishigami(x: Floats) -> Floats:
+    """Ishigami and Homma 1990 with a = 7, b = 0.1."""
+    x = np.pi * x
+    return np.asarray(np.sin(x[:, 0]) * (1 + 0.1 * x[:, 2] ** 4) + 7 * np.sin(x[:, 1]) ** 2)
+
+
+def linear(x: Floats) -> Floats:
+    """A sum without interactions, 5 off centre: the variances of its parts are as 1 to 4 to 9."""
+    return np.asarray(x @ [1.0, 2.0, 3.0] + 5)
+
+
+@pytest.mark.parametrize("model", [ishigami, linear])
+def test_the_estimates_are_those_of_scipy(model: Callable[[Floats], Floats]) -> None:
+    values = sampled(model, 3, 512, seed=2)
+    ours = saltelli_indices(values, seed=1)
+    outputs = {"f_A": values[None, :, 0], "f_B": values[None, :, -1], "f_AB": values[:, 1:-1].T[:, None]}
+    theirs = scipy.stats.sobol_indices(func=outputs, n=512)
+    # scipy centres by the mean of A and B, which scatters first-order estimates otherwise
+    assert [each.value for each, _ in ours] == pytest.approx(theirs.first_order, abs=0.02)
+    assert [each.value for _, each in ours] == pytest.approx(theirs.total_order, rel=1e-12)
+
+
+def test_intervals_of_a_linear_model_hold_as_often_as_they_say() -> None:
+    """First order and total are 1/14, 4/14 and 9/14; over 200 samples each interval contains its own."""
+    true = np.array([1.0, 4.0, 9.0]) / 14
+    held = np.zeros((2, 3))
+    for seed in range(200):
+        found = saltelli_indices(sampled(linear, 3, 256, seed), seed)
+        held += [
+            [each.low <= value <= each.high for each, value in zip(column, true, strict=True)]
+            for column in zip(*found, strict=True)
+        ]
+    assert ((held / 200 > 0.9) & (held / 200 < 0.99)).all()
+
+
+def test_the_same_seed_gives_the_same_intervals_and_a_constant_has_no_indices() -> None:
+    values = sampled(linear, 3, 100, seed=3)
+    assert saltelli_indices(values, seed=5) == saltelli_indices(values, seed=5)
+    assert saltelli_indices(values, seed=5) != saltelli_indices(values, seed=6)
+    assert {
+        (each.value, each.low, each.high) for pair in saltelli_indices(np.ones((9, 4)), seed=1) for each in pair
+    } == {(0.0, 0.0, 0.0)}

@@ -20,10 +20,9 @@ from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline, solve
 from geartrain.workshop import export_files, wheel_file
 from geartrain.workshop.export.proof import TrainProof, prove_train
-from geartrain.workshop.export.proof.cut_outlines import cut_lines, read_material
 from geartrain.workshop.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
-from geartrain.workshop.export.proof.solid_proof import prove_solids
-from geartrain.workshop.export.proof.turned_pair import NOTHING, TurnedPair
+from geartrain.workshop.export.proof.train_proof import prove_solids
+from geartrain.workshop.export.proof.turned_pair import NOTHING, TurnedPair, cut_lines, read_material
 
 
 @cache

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 from math import cos, hypot, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,10 +15,9 @@ from shapely.affinity import affine_transform, rotate, translate
 
 import geartrain
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.solid_part import SolidPart
 from geartrain.workshop import export_files
 from geartrain.workshop.export.proof import TrainProof, prove_train
-from geartrain.workshop.export.proof.cut_outlines import cut_lines
+from geartrain.workshop.export.proof.turned_pair import cut_lines
 
 Point = tuple[float, float]
 
@@ -58,11 +58,11 @@ def circles(name: str, drawing: str) -> list[Circle]:
     return [found for line in written(name)[drawing] if (found := Circle.of(line))]
 
 
-def part(name: str, of: str) -> SolidPart:
+def part(name: str, of: str) -> Any:
     return next(each for each in work(name).parts if each.name == of)
 
 
-def parts(name: str, start: str) -> list[SolidPart]:
+def parts(name: str, start: str) -> list[Any]:
     return [each for each in work(name).parts if each.name.startswith(start) and each.kind == "pin"]
 
 
@@ -302,7 +302,7 @@ def test_a_wave_that_does_not_bend_the_wheel_into_its_ring_is_seen() -> None:
     from dataclasses import replace
 
     from geartrain.workshop.export.proof.mesh_proof import read_wheels
-    from geartrain.workshop.export.proof.wave_proof import overlaps
+    from geartrain.workshop.export.proof.train_proof import overlaps
 
     model = work("strain-wave")
     assert model.frame is not None

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 import random
+import re
 from dataclasses import replace
-from math import pi, radians
+from math import exp, pi, radians
 
 import numpy as np
 import pytest
+from places import DOCS
 from scipy.optimize import differential_evolution
 
 from geartrain.errors import QuestionError
 from geartrain.workshop import ChanceLimit, SizeLimit, ToothSizes, find_tooth_sizes
-from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
+from geartrain.workshop.sizes.best_sizes import confirm_by_outlines
 from geartrain.workshop.sizes.size_design import AIMS, equal_depth_radii
 from geartrain.workshop.sizes.size_search import USUAL_RANGES, SizeSearch, undominated
 
@@ -215,3 +217,37 @@ def test_outlines_and_law_agree_on_wheels_of_two_half_angles() -> None:
     found = confirm_by_outlines(design)
     assert found.turns
     assert found.difference < 1e-4
+
+
+# ----------------------------------------------------------------------------------------- the law of the page on radii
+
+
+PAGE = (DOCS / "best-radii.md").read_text(encoding="utf-8")
+A, B = (float(each) for each in re.findall(r"-\s*([\d.]+)\\left\(", PAGE.split("$$")[1]))
+
+
+def law(z1: int, z2: int) -> float:
+    return exp(-A * (1 / z1 - 1 / z2) - B * (1 / z1 + 1 / z2) ** 2)
+
+
+def times_the_least(z1: int, z2: int) -> float:
+    pair = ToothSizes((z1, z2), law(z1, z2), 0.5, (pi / 6, pi / 6), 0.2)
+    near = (pair.radii - 0.03, pair.radii + 0.03)
+    return pair.loss / find_tooth_sizes(pair, free={"radii": near}).best.loss
+
+
+def test_the_law_is_within_a_few_percent_of_the_least_loss() -> None:
+    assert times_the_least(37, 89) < 1.02
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("teeth", [(13, 47), (47, 13), (22, 101), (101, 22), (71, 73), (11, 17), (113, 64), (64, 38)])
+def test_the_law_holds_for_other_counts_than_those_it_was_fitted_to(teeth: tuple[int, int]) -> None:
+    assert times_the_least(*teeth) < 1.02
+
+
+def test_the_page_has_the_pairs_of_the_literature() -> None:
+    """48/96 and 15/60: the best, pitch-true radii and equal depth."""
+    rows = {row[0]: row[3:] for line in PAGE.splitlines() if len(row := line.strip("| ").split(" | ")) == 7}
+    assert rows["48/96"] == ["0.89 %", "0.89 %", "2.27 %", "3.19 %"]
+    assert rows["15/60"] == ["2.65 %", "2.65 %", "5.03 %", "10.27 %"]

@@ -14,7 +14,7 @@ from geartrain import GearTrain
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.errors import QuestionError
 from geartrain.workshop import BestTrainSizes, SizeLimit, find_train_sizes
-from geartrain.workshop.sizes.train_sizes import declared_sizes, sizeable_meshes
+from geartrain.workshop.sizes.train_size_search import declared_sizes, sizeable_meshes
 
 NARROW = {"radii": (0.99, 1.06)}
 TWO = """

@@ -8,7 +8,7 @@ import numpy as np
 
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE, screw_efficiency
 from geartrain.errors import GearTrainError
-from geartrain.simulation.strength.formulas.point_contact import contact_ellipse
+from geartrain.simulation.strength.contact_pressure import contact_ellipse
 from geartrain.teeth import Cycloidal, LeastFriction, UniformStress, UniformTemperature
 from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.conjugate.wheel_pair import WheelPair

@@ -25,8 +25,7 @@ from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Floats, Ints
 from geartrain.teeth.transmission import behind
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.workshop.cutting.cut_pair import ROUNDING, CutGearPair, CutToothPairs
-from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.cut_wheel import ROUNDING, CutGearPair, CutToothPairs, CutWheel
 
 Cells = tuple[Ints, Floats, Floats]
 Value = Callable[[Ints, Floats], Floats]
@@ -144,10 +143,11 @@ class ContactEnvelope:
         return found
 
     def speed(self, first: FirstContact) -> Floats:
-        """tau of the couples that decide; 0 where they have left."""
+        """tau of the couples that decide; 0 where they have left, infinite where jammed teeth overlap past a flank."""
         couples = self.pair.couples(first.couple)
         x = self.inside(first)
-        found: Floats = np.where(first.state == LEFT, 0.0, couples.tau(x, first.state == APPROACHES))
+        with np.errstate(divide="ignore"):
+            found: Floats = np.where(first.state == LEFT, 0.0, couples.tau(x, first.state == APPROACHES))
         return found
 
     def inside(self, first: FirstContact) -> Floats:

@@ -14,11 +14,9 @@ from numpy.typing import NDArray
 from geartrain.numerics.confidence_intervals import wilson
 from geartrain.numerics.work import open_executor, run
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.workshop.cutting.cut_pair import CutGearPair
-from geartrain.workshop.cutting.cut_wheel import CutWheel
+from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
 from geartrain.workshop.cutting.least_backlash import nominal_backlash
-from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts
-from geartrain.workshop.cutting.meshing_verdicts import batch_verdicts
+from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, batch_verdicts
 from studies.cut_pair_law import CutPairLaw
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 from studies.uncertainty_records import ErrorRecord

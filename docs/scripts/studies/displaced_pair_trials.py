@@ -11,8 +11,7 @@ import numpy as np
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.workshop.cutting.displaced_pair import DisplacedPair
-from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.cutting.displaced_pair import DisplacedPair, DisplacedWheel
 from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts
 
 FORMS = {

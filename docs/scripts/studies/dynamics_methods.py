@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothYield
 from geartrain.simulation.contacts.law_tables import tabled_angle
-from geartrain.simulation.contacts.tooth_yield import ToothYield, damping_ratio
 from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.steps.run_record import BLOW_COUNT, BLOWS, GAP, TIME_APART
+from geartrain.simulation.contacts.yielding_train import damping_ratio
+from geartrain.simulation.steps.contact_solution import BLOW_COUNT, BLOWS, GAP, TIME_APART
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 

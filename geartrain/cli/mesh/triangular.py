@@ -260,7 +260,7 @@ def _run(
     check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")
     if best is not None or free or within or set_:
-        sizes = wing("workshop.sizes.pair_verb")
+        sizes = wing("workshop.sizes.verb")
         question = sizes.SizeQuestion(best, tuple(free or ()), tuple(within or ()), tuple(set_ or ()))
         question.check({"--vary": vary, "--teeth-plot": teeth_plot, "--profile": profile})
         coefficient = read_pair_friction(friction).number("--best")

@@ -21,14 +21,13 @@ from geartrain.teeth.rubbed_transmission import RubbedTransmission
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.inertia.inertial_contacts import FlankArms
+    from geartrain.simulation.contacts.inertial_contacts import FlankArms
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
     from geartrain.train.mechanism import GearPair
 
 _ROUGH = 1e-4  # of what friction adds, where it is read between nodes
-
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
 """Of the drive flank turning forward and back, and of the coast flank turning forward and back."""
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.contacts.tooth_yield import ToothYield
+    from geartrain.simulation.contacts.contact_model import ToothYield
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.transmission import TransmissionFunction

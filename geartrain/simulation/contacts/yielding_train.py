@@ -2,26 +2,47 @@
 
 M x'' + C x' + K x = 0 about contact, docs/dynamics.md (19): K = sum k r^T r over pairs that touch, r the row of speeds
 by which a pair closes, ratios at their means; and the springs of drives.
+
+Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
+wheel's axis, r the arm of that line: the base radius of involute teeth, the pitch radius of others. Damping follows the
+same way, or from restitution: docs/dynamics.md (16) and (17).
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from math import atan2, cos, exp, log, sqrt
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.simulation.contacts.tooth_yield import PairYield, ToothYield, ToothYieldTable
+from geartrain.simulation.contacts.contact_model import ToothYield
 from geartrain.simulation.contacts.train_model import TrainModel
+from geartrain.teeth.involute import Involute
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.quantity import Quantity
     from geartrain.simulation.contacts.contact_model import ContactPair
     from geartrain.simulation.contacts.rubbing_arms import Arms
+    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import ExactRatio
+    from geartrain.train import GearPair, Train
+
+
+DAMPING_RATIO = 0.05
+"""Of a pair of which neither damping nor restitution is declared: of the size measured on spur gears."""
+
+_LEAST = 0.05  # restitution: what comes back falls with the square of the damping, and never to nothing
+_SINGLE = 14e9
+"""N/m2: stiffness of one couple of steel teeth for each width of face, ISO 6336-1, method B, simplified."""
+
+_STEEL, _BRONZE = 206e9, 110e9  # N/m2, Young's moduli
+_DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # kg/m3, from and to; bronze and brass are alike
 
 
 @dataclass(frozen=True)
@@ -153,3 +174,145 @@ class YieldingTrain(TrainModel):
             inertia = self._inertia(self._row(pair))
             rates.append(float(c) / inertia / 2 if inertia else 0.0)
         return max(float(np.sqrt(self.vibration[0][-1])), *rates)
+
+
+# --------------------------------------------------------------------------------------- stiffness and damping of pairs
+
+
+@dataclass(frozen=True)
+class PairYield:
+    """How one pair yields: torque on the driven wheel for each radian (N m/rad) by which it does, the driver held.
+
+    source    where that is from; `note`, how it was estimated
+    damping   N m s/rad; None where it follows from `ratio`, that of critical damping
+    """
+
+    stiffness: float
+    source: Literal["declared", "estimated"]
+    damping: float | None
+    ratio: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class ToothYieldTable:
+    """How the pairs of a train yield.
+
+    meshes        those with real teeth; `driven`, the driven wheel of each pair
+    restitution   of every pair, in place of what is declared
+    """
+
+    train: Train
+    meshes: Mapping[str, GearMesh]
+    driven: Mapping[str, str]
+    restitution: float | None = None
+
+    @cached_property
+    def pairs(self) -> Mapping[str, PairYield]:
+        """Pairs and couplings whose stiffness is declared or can be estimated."""
+        found = {}
+        for gear in self.train.gears:
+            ratio = self._ratio(gear)
+            stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
+            if stiffness is not None:
+                own = None if damping is None else self._about_driven(gear, damping, "damping")
+                value = self._about_driven(gear, stiffness, "stiffness")
+                found[gear.name] = PairYield(value, "declared", own, ratio)
+            elif (estimate := self._estimate(gear)) is not None:
+                own = None if damping is None else self._about_driven(gear, damping, "damping")
+                found[gear.name] = PairYield(estimate[0], "estimated", own, ratio, estimate[1])
+        for coupling in self.train.couplings:
+            stiffness, damping = self.train.stiffness, self.train.damping
+            if stiffness is not None and stiffness.dimension == "torsional stiffness":
+                turning = damping is not None and damping.dimension == "torsional damping"
+                own = damping.si if damping is not None and turning else None
+                found[coupling.name] = PairYield(stiffness.si, "declared", own, self._ratio(coupling))
+        return found
+
+    def _ratio(self, part: GearPair | object) -> float:
+        restitution = self.restitution
+        if restitution is None:
+            restitution = self.train.restitution_of(part)  # type: ignore[arg-type]
+        return DAMPING_RATIO if restitution is None else damping_ratio(restitution)
+
+    def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
+        """About the driven wheel's axis (N m/rad, N m s/rad)."""
+        if quantity.dimension in ("torsional stiffness", "torsional damping"):
+            return quantity.si
+        arm = self._arm(gear)
+        if arm is None:
+            what = f"the {key} of '{gear.name}', {quantity}, is one along the line of action"
+            fix = f"declare the wheels' `module`, or a {key} in N m{'' if key == 'stiffness' else ' s'}/rad"
+            raise QuestionError(Problem(what, "nothing gives the pair a size, and so that line an arm", fix))
+        return quantity.si * arm**2
+
+    def _arm(self, gear: GearPair) -> float | None:
+        """Arm of the line of action about the driven wheel's axis (m)."""
+        wheel = self.driven[gear.name]
+        mesh = self.meshes.get(gear.name)
+        own = self.train.wheels[wheel][1]
+        module = mesh.wheels.module if mesh is not None else None
+        if module is None:
+            module = own.transverse_module
+        if module is None or own.count is None:
+            return None
+        radius = module * own.count / 2
+        if mesh is not None and isinstance(mesh.tooth_form, Involute):
+            return radius * cos(mesh.tooth_form.pressure_angle.si)
+        return radius
+
+    def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
+        """Stiffness of involute teeth of known width and metal, and the words for it."""
+        mesh, arm = self.meshes.get(gear.name), self._arm(gear)
+        if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
+            return None
+        wheels = [self.train.wheels[name][1] for name in gear.pair]
+        widths = [each.thickness or self.train.thickness for each in wheels]
+        moduli = [_youngs_modulus(each.density or self.train.density) for each in wheels]
+        if None in widths or None in moduli:
+            return None
+        width = min(each.si for each in widths if each is not None)
+        one, other = (each for each in moduli if each is not None)
+        elastic = 2 * one * other / (one + other)
+        note = (
+            f"stiffness of {gear.name} estimated: 14 N/(mm um) of face width, ISO 6336-1 for steel, times "
+            f"{elastic / _STEEL:.2g} by Young's modulus"
+        )
+        return _SINGLE * elastic / _STEEL * width * arm**2, note
+
+
+def restitution_at(ratio: float) -> float:
+    """Restitution of a spring and damper that push and never pull, at a ratio of critical damping, 0 or more.
+
+    They part where -k g - c dg/dt vanishes, before the spring is straight (Schwager and Poeschel 2007); at a ratio of 1
+    what comes back is 1/e^2.
+
+    >>> restitution_at(0.0), round(restitution_at(1.0), 6)
+    (1.0, 0.135335)
+    """
+    if abs(ratio - 1) < 1e-9:
+        return exp(-2)
+    if ratio < 1:
+        swing = sqrt(1 - ratio**2)
+        return exp(-ratio / swing * atan2(2 * ratio * swing, 2 * ratio**2 - 1))
+    creep = sqrt(ratio**2 - 1)
+    return exp(-2 * ratio / creep * log(ratio + creep))
+
+
+def damping_ratio(restitution: float) -> float:
+    """The ratio at which that much comes back; a restitution below 0.05 counts as 0.05.
+
+    >>> round(damping_ratio(0.3), 4), damping_ratio(1.0)
+    (0.4972, 0.0)
+    """
+    from scipy.optimize import brentq
+
+    wanted = max(restitution, _LEAST)
+    return float(brentq(lambda ratio: restitution_at(ratio) - wanted, 0.0, 10.0, xtol=1e-14)) if wanted < 1 else 0.0
+
+
+def _youngs_modulus(density: Quantity | None) -> float | None:
+    """Of the metal that has such a density (N/m2); None for one not in the list."""
+    if density is None:
+        return None
+    return next((modulus for low, high, modulus in _DENSITIES if low <= density.si <= high), None)

@@ -15,11 +15,74 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.numerics.kernels import kernel
-from geartrain.simulation.contacts.contact_system import ContactSystem
-from geartrain.simulation.steps.run_record import ContactState
+from geartrain.simulation.contacts.contact_model import ContactSystem
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
+
+OPEN, FRONT, BACK = 0, 1, 2
+"""Which flank of a pair touches: none, the drive flank, the coast flank."""
+
+WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, BLOWS, STEP, FRICTION = range(8)
+"""Columns of the energy account (J): three kinds of work put in, five of loss."""
+
+ENERGIES = 8
+TIME_APART, TIME_COAST, BLOW_COUNT, BLOW_ENERGY, BLOW_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
+"""Columns of what is counted of each pair: steps apart and on the coast flank, blows, their energy and greatest speed,
+impulse, energy rubbed away, greatest gap, changes of flank."""
+
+COUNTS = 9
+IMPACT_COLUMNS = 5
+"""Columns of the list of impacts: time, pair (stops behind the pairs), closing speed, energy, impulse."""
+
+
+class ContactState(NamedTuple):
+    """Where a train is: changed by the kernel in place.
+
+    clock      time (s), step number
+    angle      of the coordinates (rad); `speed` (rad/s)
+    touching   flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1
+    ratio      speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 in a blow
+    steady     impulse of each pair in its last step without blow
+    flown      steps for which each pair has been apart; `stop_rate`, (stops, 2), speeds at each stop a step ago, and
+               when it was last left
+    """
+
+    clock: Floats
+    angle: Floats
+    speed: Floats
+    touching: Ints
+    turning: Ints
+    stopped: Ints
+    ratio: Floats
+    struck: Ints
+    steady: Floats
+    flown: Ints
+    stop_rate: Floats
+
+
+class RunRecord(NamedTuple):
+    """What a run leaves: changed by the kernel in place.
+
+    energy         as `WORK_DRIVE` and the others
+    counts         (pairs and stops, COUNTS)
+    angles, speeds samples, (samples, n); `forces` mean force torques between samples, (samples, pairs + stops)
+    drive          mean torque of each prescribed coordinate between samples, (samples, n)
+    impacts        (room, IMPACT_COLUMNS); `numbers`: samples, impacts seen, steps not solved, pivots, steps
+                   counted, 1 where the steps diverged and the run stopped
+    """
+
+    energy: Floats
+    counts: Floats
+    angles: Floats
+    speeds: Floats
+    forces: Floats
+    drive: Floats
+    impacts: Floats
+    numbers: Ints
+
+
+SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
 class StepEquations(NamedTuple):
@@ -214,3 +277,99 @@ def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEq
                 rate += system.stop_c[x] * here.v[system.stop_of[x]]
             # a stop holds from ahead: r v <= k
             here.P[pairs + m] = system.stop_stiff[m] * (rate - here.stop_bound[m])
+
+
+AT_ONCE = 6
+"""Rounds in which all wrong guesses are turned round together."""
+
+
+@kernel
+def correct_guess(
+    system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
+) -> int:
+    """Turn wrong guesses round, all of them or only that of the least index; how many there were."""
+    found = correct_pairs(system, state, here, slack, single)
+    if len(system.sliding) > 0 and (found == 0 or not single):
+        found += correct_bearings(system, state, here, creep, single)
+    if len(system.stop_stiff) > 0 and (found == 0 or not single):
+        found += correct_stops(system, state, here, slack, single)
+    return found
+
+
+@kernel
+def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
+    """Let go of flanks that pull, and close gaps below zero."""
+    found = 0
+    for m in range(len(system.stiff)):
+        now = state.touching[m]
+        want = now
+        if now == OPEN:
+            driver, driven = 0.0, 0.0
+            for x in range(system.pair_at[m], system.pair_at[m + 1]):
+                driver += system.pair_driver[x] * here.v[system.pair_of[x]]
+                driven += system.pair_driven[x] * here.v[system.pair_of[x]]
+            if driven - here.ratio[m, 0] * driver < here.bound[m, 0] - slack:
+                want = FRONT
+            elif here.ratio[m, 1] * driver - driven < here.bound[m, 1] - slack:
+                want = BACK
+        elif here.P[m] < 0.0:
+            want = OPEN
+            if system.two_sided[m] != 0:
+                # without friction a force may have either sign
+                want = FRONT + BACK - now if system.rubbing[m, 0] >= 0 else now
+        if want != now:
+            state.touching[m] = want
+            found += 1
+            if single:
+                return found
+    return found
+
+
+@kernel
+def correct_bearings(
+    system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
+) -> int:
+    """Let bearings go that would creep too fast, and stick that turn against their friction."""
+    found = 0
+    for m in range(len(system.sliding)):
+        rate = 0.0
+        for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
+            rate += system.bearing_c[x] * here.v[system.bearing_of[x]]
+        now = state.turning[m]
+        want = now
+        if now == 0:
+            if rate > creep:
+                want = 1
+            elif rate < -creep:
+                want = -1
+        elif rate * now < 0.0:
+            want = 0 if single or rate * now > -creep else -now
+        if want != now:
+            state.turning[m] = want
+            found += 1
+            if single:
+                return found
+    return found
+
+
+@kernel
+def correct_stops(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
+    """Let go of stops that pull, and hold what passes one."""
+    found = 0
+    for m in range(len(system.stop_stiff)):
+        rate = 0.0
+        for x in range(system.stop_at[m], system.stop_at[m + 1]):
+            rate += system.stop_c[x] * here.v[system.stop_of[x]]
+        now = state.stopped[m]
+        want = now
+        if now != 0:
+            if here.P[len(system.stiff) + m] < 0.0:
+                want = 0
+        elif rate > here.stop_bound[m] + slack:
+            want = 1
+        if want != now:
+            state.stopped[m] = want
+            found += 1
+            if single:
+                return found
+    return found

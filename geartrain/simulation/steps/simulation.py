@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.simulation.contacts.contact_model import ContactModel
-from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.contact_model import ContactModel, ContactSystem
 from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
-from geartrain.simulation.steps.contact_solution import StepEquations, StepRules
-from geartrain.simulation.steps.run_record import (
+from geartrain.simulation.steps.contact_solution import (
     COUNTS,
     DIVERGED,
     ENERGIES,
@@ -25,13 +23,15 @@ from geartrain.simulation.steps.run_record import (
     STEP,
     ContactState,
     RunRecord,
+    StepEquations,
+    StepRules,
 )
 from geartrain.simulation.steps.time_steps import run_steps
 from geartrain.simulation.steps.yielding_steps import YieldingTeeth, run_yielding_steps
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.simulation.contacts.tooth_yield import ToothYield
+    from geartrain.simulation.contacts.contact_model import ToothYield
 
     _Mark = tuple[Floats, Floats, Floats]
 

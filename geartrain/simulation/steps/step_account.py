@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.kernels import kernel
-from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.contact_model import ContactSystem
 from geartrain.simulation.contacts.law_tables import LawTables
-from geartrain.simulation.steps.contact_solution import StepEquations, StepRules
-from geartrain.simulation.steps.run_record import (
+from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
     BLOW_COUNT,
     BLOW_ENERGY,
@@ -30,6 +29,8 @@ from geartrain.simulation.steps.run_record import (
     WORK_TORQUE,
     ContactState,
     RunRecord,
+    StepEquations,
+    StepRules,
 )
 
 if TYPE_CHECKING:

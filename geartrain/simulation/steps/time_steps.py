@@ -21,11 +21,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.kernels import kernel
-from geartrain.simulation.contacts.contact_system import ContactSystem
+from geartrain.simulation.contacts.contact_model import ContactSystem
 from geartrain.simulation.contacts.law_tables import LawTables, value_and_slope
-from geartrain.simulation.steps.contact_solution import StepEquations, StepRules, solve_guess
-from geartrain.simulation.steps.guess_correction import AT_ONCE, correct_guess
-from geartrain.simulation.steps.run_record import (
+from geartrain.simulation.steps.contact_solution import (
+    AT_ONCE,
     BACK,
     DIVERGED,
     IMPULSE,
@@ -38,6 +37,10 @@ from geartrain.simulation.steps.run_record import (
     UNSOLVED,
     ContactState,
     RunRecord,
+    StepEquations,
+    StepRules,
+    correct_guess,
+    solve_guess,
 )
 from geartrain.simulation.steps.step_account import count_contacts, count_energy, count_stops, leaps
 

@@ -11,26 +11,30 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import RangeError
-from geartrain.simulation.strength.formulas.archard_wear import deepest_passage, loss_over_friction
-from geartrain.simulation.strength.formulas.contact_pressure import (
+from geartrain.simulation.strength.contact_pressure import (
     ContactLoad,
     ContactPlace,
     Elasticity,
+    LeaningLoad,
+    base_helix_angle,
+    deepest_passage,
     elasticity_factor,
+    loss_over_friction,
 )
-from geartrain.simulation.strength.formulas.iso_6336 import (
+from geartrain.simulation.strength.iso_6336 import (
     IsoContact,
     IsoRoot,
     RackPair,
     RackWheel,
+    RootSection,
     ToothLean,
+    ToothLoad,
+    ToothSide,
     contact_stress,
     helical_root_stress,
     outer_single_contact,
     root_stress,
 )
-from geartrain.simulation.strength.formulas.leaning_contact import LeaningLoad, base_helix_angle
-from geartrain.simulation.strength.formulas.root_section import RootSection, ToothLoad, ToothSide
 from geartrain.simulation.strength.strength_results import FlankWear, PairStrength, WearRange, WheelStrength
 from geartrain.teeth.involute import Involute
 
@@ -225,7 +229,7 @@ class PairUnderLoad:
         return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, LeaningLoad) else 1.0
 
     def _pin_stress(self, own: WheelUnderLoad) -> float:
-        from geartrain.simulation.strength.formulas.root_section import pin_stress
+        from geartrain.simulation.strength.iso_6336 import pin_stress
 
         pins = own.teeth.pins
         return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)

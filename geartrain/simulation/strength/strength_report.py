@@ -11,8 +11,15 @@ from geartrain.report.document import Document, Section, Table, figure, filled_t
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.simulation.strength.contact_results import PinContact, PointContact, WheelForce
-    from geartrain.simulation.strength.strength_results import ArborStrength, PairStrength, TrainStrength, WearRange
+    from geartrain.simulation.strength.strength_results import (
+        ArborStrength,
+        PairStrength,
+        PinContact,
+        PointContact,
+        TrainStrength,
+        WearRange,
+        WheelForce,
+    )
 
 _FORCES = (
     "At the circles on which wheels roll, as means. Axial above 0 along the direction of the axis; radial towards the "

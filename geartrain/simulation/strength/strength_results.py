@@ -1,4 +1,4 @@
-"""Strength of a train in one state: pressures, stresses, safety factors, wear. Stresses in MPa, lengths in mm."""
+"""Strength of a train in one state: forces (N), pressures and stresses (MPa), safety factors, wear; lengths in mm."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from typing import Any, NamedTuple
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.results import Result, Tabular
-from geartrain.simulation.strength.contact_results import PinContact, PointContact, WheelForce
-from geartrain.simulation.strength.formulas.contact_pressure import YIELD_AT, ContactPlace
-from geartrain.simulation.strength.formulas.iso_6336 import IsoContact, IsoRoot
+from geartrain.simulation.strength.contact_pressure import YIELD_AT, ContactPlace
+from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 
 
 class WearRange(NamedTuple):
@@ -22,207 +21,6 @@ class WearRange(NamedTuple):
 
 
 NO_WEAR = WearRange(0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class FlankWear(Result):
-    """What all flanks of one wheel lose in one mesh: docs/strength.md (14) and (15).
-
-    Attributes
-    ----------
-    passages : float
-        How often each tooth passes.
-    volume : WearRange
-        Worn off all teeth [mm3].
-    mean_depth : WearRange
-        That, spread over their flanks [mm].
-    depth : WearRange or None
-        At the place that loses most [mm]; None where no path of contact says where that is.
-
-    See Also
-    --------
-    WheelStrength : holds it
-    """
-
-    passages: float
-    volume: WearRange
-    mean_depth: WearRange
-    depth: WearRange | None
-
-
-@dataclass(frozen=True)
-class WheelStrength(Result):
-    """One wheel of a loaded pair.
-
-    Attributes
-    ----------
-    wheel, material : str
-        Its name, and that of its material.
-    torque : float
-        On it [N m].
-    section, thickness : float
-        Where bending is greatest: distance from the axle, and thickness of the tooth there [mm].
-    lewis : float
-        Y of Lewis's formula, the load at the tip.
-    tip_stress : float
-        At the root, one couple bearing all at the tip [MPa].
-    shared_stress : float or None
-        The greatest while couples share the load evenly [MPa]; None without a path of contact.
-    pressure : float or None
-        Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound.
-    strength, spread : float
-        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
-    iso : IsoRoot or None
-        Root stress by ISO 6336-3 for the wheel as a hob cuts it.
-    wear : FlankWear or None
-        None where no time is given, or no hardness.
-
-    See Also
-    --------
-    PairStrength : holds it
-    """
-
-    KEYS = (
-        *("wheel", "material", "torque", "section", "thickness", "lewis", "tip_stress", "shared_stress", "pressure"),
-        *("strength", "spread", "root_safety", "contact_safety", "iso", "wear"),
-    )
-
-    wheel: str
-    material: str
-    torque: float
-    section: float
-    thickness: float
-    lewis: float
-    tip_stress: float
-    shared_stress: float | None
-    pressure: float | None
-    strength: float | None
-    spread: float | None
-    iso: IsoRoot | None = None
-    wear: FlankWear | None = None
-
-    @property
-    def root_safety(self) -> float | None:
-        """Strength over the stress at the root, one couple bearing all at the tip."""
-        return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
-
-    @property
-    def contact_safety(self) -> float | None:
-        """Pressure at which yielding begins below the flank over `pressure`."""
-        return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
-
-
-@dataclass(frozen=True)
-class PairStrength(Result):
-    """A gear pair under load.
-
-    Attributes
-    ----------
-    pair, form : str
-        Its name, and the form of its teeth.
-    module, face_width : float
-        mm; the width is that of the narrower wheel.
-    tangential : float
-        Force along the pitch line [N].
-    elasticity : float
-        ZE of both materials [sqrt(MPa)].
-    contact : tuple of ContactPlace
-        Pressures along the path of contact, the worst last; empty where Hertz's formula gives none.
-    iso : IsoContact or None
-        Contact stress by ISO 6336-2; None but for external spur involutes.
-    wheels : tuple of WheelStrength
-        Both, as the pair names them.
-    notes : tuple of str
-        What does not hold here, and why.
-
-    See Also
-    --------
-    TrainStrength : holds it
-    """
-
-    pair: str
-    form: str
-    module: float
-    face_width: float
-    tangential: float
-    elasticity: float
-    contact: tuple[ContactPlace, ...]
-    iso: IsoContact | None
-    wheels: tuple[WheelStrength, ...]
-    notes: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class ArborStrength(Result):
-    """An arbor between its two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26).
-
-    Attributes
-    ----------
-    link, material : str
-        The link, and the material of its arbor.
-    force : float
-        Across it, of all its meshes, as if they pulled one way [N].
-    thrust : float
-        Along it: what all its meshes together leave for a shoulder [N].
-    bending, torsion : float
-        Greatest stresses [MPa]; with bending counts what is pressed or drawn along it.
-    stress : float
-        Both together, by von Mises [MPa].
-    pivot_pressure : float
-        The whole force on one pivot, over its diameter times length [MPa].
-    shoulder_pressure : float or None
-        The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor.
-    strength : float or None
-        Of the material [MPa].
-
-    See Also
-    --------
-    TrainStrength : holds it
-    """
-
-    KEYS = (
-        *("link", "material", "force", "thrust", "bending", "torsion", "stress", "pivot_pressure"),
-        *("shoulder_pressure", "strength", "safety"),
-    )
-
-    link: str
-    material: str
-    force: float
-    thrust: float
-    bending: float
-    torsion: float
-    stress: float
-    pivot_pressure: float
-    shoulder_pressure: float | None
-    strength: float | None
-
-    @property
-    def safety(self) -> float | None:
-        """Strength over stress."""
-        return None if self.strength is None or not self.stress else self.strength / self.stress
-
-
-@dataclass(frozen=True)
-class WeakestPart(Result):
-    """What gives way first.
-
-    Attributes
-    ----------
-    part : str
-        The wheel or link.
-    what : {"root", "contact", "arbor", "pin"}
-        By what it gives way.
-    safety : float
-        Its safety factor.
-
-    See Also
-    --------
-    TrainStrength : holds it
-    """
-
-    part: str
-    what: str
-    safety: float
 
 
 @dataclass(frozen=True)
@@ -338,3 +136,378 @@ class TrainStrength(FrozenFields, Tabular, Result):
         ]
         found += [WeakestPart(each.link, "arbor", each.safety) for each in self.arbors if each.safety is not None]
         return min(found, key=lambda each: each.safety, default=None)
+
+
+@dataclass(frozen=True)
+class WeakestPart(Result):
+    """What gives way first.
+
+    Attributes
+    ----------
+    part : str
+        The wheel or link.
+    what : {"root", "contact", "arbor", "pin"}
+        By what it gives way.
+    safety : float
+        Its safety factor.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    part: str
+    what: str
+    safety: float
+
+
+# ----------------------------------------------------------------------------------------------------- parts of a train
+
+
+@dataclass(frozen=True)
+class PairStrength(Result):
+    """A gear pair under load.
+
+    Attributes
+    ----------
+    pair, form : str
+        Its name, and the form of its teeth.
+    module, face_width : float
+        mm; the width is that of the narrower wheel.
+    tangential : float
+        Force along the pitch line [N].
+    elasticity : float
+        ZE of both materials [sqrt(MPa)].
+    contact : tuple of ContactPlace
+        Pressures along the path of contact, the worst last; empty where Hertz's formula gives none.
+    iso : IsoContact or None
+        Contact stress by ISO 6336-2; None but for external spur involutes.
+    wheels : tuple of WheelStrength
+        Both, as the pair names them.
+    notes : tuple of str
+        What does not hold here, and why.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    form: str
+    module: float
+    face_width: float
+    tangential: float
+    elasticity: float
+    contact: tuple[ContactPlace, ...]
+    iso: IsoContact | None
+    wheels: tuple[WheelStrength, ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ArborStrength(Result):
+    """An arbor between its two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26).
+
+    Attributes
+    ----------
+    link, material : str
+        The link, and the material of its arbor.
+    force : float
+        Across it, of all its meshes, as if they pulled one way [N].
+    thrust : float
+        Along it: what all its meshes together leave for a shoulder [N].
+    bending, torsion : float
+        Greatest stresses [MPa]; with bending counts what is pressed or drawn along it.
+    stress : float
+        Both together, by von Mises [MPa].
+    pivot_pressure : float
+        The whole force on one pivot, over its diameter times length [MPa].
+    shoulder_pressure : float or None
+        The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor.
+    strength : float or None
+        Of the material [MPa].
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    KEYS = (
+        *("link", "material", "force", "thrust", "bending", "torsion", "stress", "pivot_pressure"),
+        *("shoulder_pressure", "strength", "safety"),
+    )
+
+    link: str
+    material: str
+    force: float
+    thrust: float
+    bending: float
+    torsion: float
+    stress: float
+    pivot_pressure: float
+    shoulder_pressure: float | None
+    strength: float | None
+
+    @property
+    def safety(self) -> float | None:
+        """Strength over stress."""
+        return None if self.strength is None or not self.stress else self.strength / self.stress
+
+
+@dataclass(frozen=True)
+class WheelStrength(Result):
+    """One wheel of a loaded pair.
+
+    Attributes
+    ----------
+    wheel, material : str
+        Its name, and that of its material.
+    torque : float
+        On it [N m].
+    section, thickness : float
+        Where bending is greatest: distance from the axle, and thickness of the tooth there [mm].
+    lewis : float
+        Y of Lewis's formula, the load at the tip.
+    tip_stress : float
+        At the root, one couple bearing all at the tip [MPa].
+    shared_stress : float or None
+        The greatest while couples share the load evenly [MPa]; None without a path of contact.
+    pressure : float or None
+        Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound.
+    strength, spread : float
+        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
+    iso : IsoRoot or None
+        Root stress by ISO 6336-3 for the wheel as a hob cuts it.
+    wear : FlankWear or None
+        None where no time is given, or no hardness.
+
+    See Also
+    --------
+    PairStrength : holds it
+    """
+
+    KEYS = (
+        *("wheel", "material", "torque", "section", "thickness", "lewis", "tip_stress", "shared_stress", "pressure"),
+        *("strength", "spread", "root_safety", "contact_safety", "iso", "wear"),
+    )
+
+    wheel: str
+    material: str
+    torque: float
+    section: float
+    thickness: float
+    lewis: float
+    tip_stress: float
+    shared_stress: float | None
+    pressure: float | None
+    strength: float | None
+    spread: float | None
+    iso: IsoRoot | None = None
+    wear: FlankWear | None = None
+
+    @property
+    def root_safety(self) -> float | None:
+        """Strength over the stress at the root, one couple bearing all at the tip."""
+        return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
+
+    @property
+    def contact_safety(self) -> float | None:
+        """Pressure at which yielding begins below the flank over `pressure`."""
+        return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
+
+
+@dataclass(frozen=True)
+class FlankWear(Result):
+    """What all flanks of one wheel lose in one mesh: docs/strength.md (14) and (15).
+
+    Attributes
+    ----------
+    passages : float
+        How often each tooth passes.
+    volume : WearRange
+        Worn off all teeth [mm3].
+    mean_depth : WearRange
+        That, spread over their flanks [mm].
+    depth : WearRange or None
+        At the place that loses most [mm]; None where no path of contact says where that is.
+
+    See Also
+    --------
+    WheelStrength : holds it
+    """
+
+    passages: float
+    volume: WearRange
+    mean_depth: WearRange
+    depth: WearRange | None
+
+
+# -------------------------------------------------------------------------------------------------- contacts and forces
+
+
+@dataclass(frozen=True)
+class WheelForce(Result):
+    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
+
+    Attributes
+    ----------
+    pair, wheel : str
+        The pair, and which of its wheels.
+    radius : float
+        Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm].
+    tangential : float
+        Along that circle, of the sign of its torque. On parallel axes and on bevels both wheels of a pair bear the
+        same, that of the wheel with the greater torque over radius: friction takes part of the other's torque.
+    axial : float
+        Above 0 along the direction of its axis.
+    radial : float or None
+        Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known.
+    torque : float
+        On it [N m].
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    wheel: str
+    radius: float
+    tangential: float
+    axial: float
+    radial: float | None
+    torque: float
+
+
+@dataclass(frozen=True)
+class FlankStrength(Result):
+    """A wheel whose teeth touch those of its mate at a point.
+
+    Attributes
+    ----------
+    wheel, material : str
+        Its name, and that of its material.
+    strength, spread : float
+        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
+    safety : float or None
+        Pressure at which yielding begins below the flank over that of the contact.
+    tip_stress : float or None
+        Bending at the root [MPa], one couple bearing all at the tip of a tooth; None where no such teeth are cut.
+
+    See Also
+    --------
+    PointContact : holds it
+    """
+
+    KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
+
+    wheel: str
+    material: str
+    strength: float | None
+    spread: float | None
+    safety: float | None
+    tip_stress: float | None = None
+
+    @property
+    def root_safety(self) -> float | None:
+        """Strength over the stress at the root."""
+        return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
+
+
+@dataclass(frozen=True)
+class PointContact(Result):
+    """Helical wheels on axes that cross, or a worm and its wheel, under load: docs/strength.md (24) and (25).
+
+    Attributes
+    ----------
+    pair : str
+        Its name.
+    contact_ratio : float
+        Pitches on which a couple touches, of teeth one module high.
+    normal_force : float
+        Across the flanks, of all couples together [N].
+    pitch_pressure : float
+        At the pitch point [MPa].
+    pressure : float
+        The greatest where as few couples touch as anywhere [MPa].
+    longer, shorter : float
+        Half axes of the ellipse in which they touch there [mm].
+    wheels : tuple of FlankStrength
+        Both, as the pair names them.
+    notes : tuple of str
+        What does not hold here, and why.
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    pair: str
+    contact_ratio: float
+    normal_force: float
+    pitch_pressure: float
+    pressure: float
+    longer: float
+    shorter: float
+    wheels: tuple[FlankStrength, ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class PinContact(Result):
+    """Pins on lobes of a disc, or in its holes, under load: docs/strength.md (28) to (30).
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or of the coupling.
+    disc, material : str
+        The wheel with the lobes or holes, and its material.
+    pins : int
+        How many there are.
+    width : float
+        Along which they touch [mm].
+    force : float
+        On the pin where pressure is greatest, at any time [N].
+    radius : float
+        Of a cylinder on a plane that presses as much [mm].
+    pressure : float
+        The greatest [MPa].
+    strength : float or None
+        Of the weaker of both materials [MPa].
+    pin_stress : float or None
+        At the foot of a pin that is held at one end [MPa]; None of pins that lie in their ring.
+    pin_strength : float or None
+        Of the material of pins [MPa].
+
+    See Also
+    --------
+    TrainStrength : holds it
+    """
+
+    KEYS = (
+        *("name", "disc", "material", "pins", "width", "force", "radius", "pressure", "strength", "contact_safety"),
+        *("pin_stress", "pin_strength", "pin_safety"),
+    )
+
+    name: str
+    disc: str
+    material: str
+    pins: int
+    width: float
+    force: float
+    radius: float
+    pressure: float
+    strength: float | None
+    pin_stress: float | None = None
+    pin_strength: float | None = None
+
+    @property
+    def contact_safety(self) -> float | None:
+        """Pressure at which yielding begins below the surface over `pressure`."""
+        return None if self.strength is None else YIELD_AT * self.strength / self.pressure
+
+    @property
+    def pin_safety(self) -> float | None:
+        """Strength of pins over their stress."""
+        return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

@@ -1,18 +1,20 @@
-"""Forces at the pitch points of a train under load: along the pitch circles, along the axes, and between them."""
+"""Forces at the pitch points of a train under load: along the pitch circles, along the axes, and between them.
+
+Equations (18) and (19) of docs/strength.md.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import copysign, cos, tan
-from typing import TYPE_CHECKING
+from math import atan, copysign, cos, sin, tan
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.errors import RangeError
 from geartrain.kinematics.circuits.fundamental import shaft_angle
-from geartrain.simulation.strength.contact_results import WheelForce
-from geartrain.simulation.strength.formulas.pitch_force import bevel_force, friction_angle, helical_force
-from geartrain.simulation.strength.formulas.point_contact import CrossedWheels
+from geartrain.simulation.strength.contact_pressure import CrossedWheels
+from geartrain.simulation.strength.strength_results import WheelForce
 from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Wheel
+
 
 _MM = 1e3
 WheelParts = tuple[float, float, float | None]
@@ -174,3 +177,65 @@ def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
         return shaft_angle(setting.train, setting.tree, circuit)
     except RangeError:
         return None
+
+
+# ----------------------------------------------------------------------------------------------------- at a pitch point
+
+
+class PitchForce(NamedTuple):
+    """What a wheel bears from its mate at the pitch point, in the unit of the tangential force.
+
+    tangential   of the torque: that of a torque above 0 is above 0
+    axial        above 0 along the direction of the wheel's axis
+    radial       towards its axis; below 0 of a ring, which is pushed outwards
+    """
+
+    tangential: float
+    axial: float
+    radial: float
+
+
+def helical_force(tangential: float, helix: float, pressure_angle: float, friction_angle: float = 0.0) -> PitchForce:
+    """Of a wheel with a helix angle, 0 of spur wheels: docs/strength.md (18).
+
+    Parameters
+    ----------
+    tangential : float
+        Torque over pitch radius.
+    helix : float
+        Helix angle (rad), of a right hand above 0; of a worm near a quarter turn.
+    pressure_angle : float
+        Across the teeth (rad).
+    friction_angle : float
+        Of the friction along the teeth (rad), atan(mu / cos(pressure angle)); below 0 of the driver, above 0 of the
+        driven wheel, the other way round where the helix angles make the teeth slide so. 0 on parallel axes.
+
+    Examples
+    --------
+    A driver of a right hand with 10 N along its pitch circle, turning about its axis, so that the torque is against it:
+    the thrust is along the axis, as the thumb of the right hand shows.
+
+    >>> from math import radians
+    >>> force = helical_force(-10.0, radians(30), radians(20))
+    >>> round(force.axial, 4), round(force.radial, 4)
+    (5.7735, 4.2028)
+    """
+    lean = helix + friction_angle
+    # N cos(alpha), the part of the force across the teeth that lies in the pitch plane, over the tangential one
+    across = cos(friction_angle) / cos(lean)
+    return PitchForce(tangential, 0.0 - tangential * tan(lean), abs(tangential * across) * tan(pressure_angle))
+
+
+def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: int = 1) -> PitchForce:
+    """Of a straight bevel with a half-angle of its pitch cone (rad): docs/strength.md (19).
+
+    `facing` is 1 where the wheel lies from the apex along its axis' direction, -1 against it: it is pushed away from
+    the apex.
+    """
+    apart = abs(tangential) * tan(pressure_angle)
+    return PitchForce(tangential, facing * apart * sin(cone), apart * cos(cone))
+
+
+def friction_angle(friction: float, pressure_angle: float) -> float:
+    """Of friction along teeth (rad): atan(mu / cos(pressure angle))."""
+    return atan(friction / cos(pressure_angle))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf
+from math import hypot, inf, pi, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
@@ -14,20 +14,19 @@ from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.dynamics.torques.train_torques import solve
 from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_numbers
-from geartrain.simulation.strength.arbor_strength import ArborLoad, arbor_strength
-from geartrain.simulation.strength.contact_results import PinContact, WheelForce
-from geartrain.simulation.strength.formulas.archard_wear import WEAR_RANGE
+from geartrain.simulation.strength.contact_pressure import WEAR_RANGE
 from geartrain.simulation.strength.loaded_pair import PairUnderLoad, WheelUnderLoad
 from geartrain.simulation.strength.pin_strength import PinnedDisc
-from geartrain.simulation.strength.skew_pair import SkewPair
 from geartrain.simulation.strength.strength_results import (
     ArborStrength,
     PairStrength,
+    PinContact,
     TrainStrength,
     WearRange,
+    WheelForce,
 )
 from geartrain.simulation.strength.tooth_forces import ToothForces
-from geartrain.simulation.strength.virtual_spurs import VirtualSpurs
+from geartrain.simulation.strength.virtual_spurs import SkewPair, VirtualSpurs
 from geartrain.teeth.cycloidal_disc import DiscMesh
 from geartrain.teeth.pin_coupling import PinsInHoles
 from geartrain.train import Train
@@ -40,10 +39,95 @@ if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import TrainTeeth
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.outlines.wheel_requirement import CutTooth
-    from geartrain.train import GearPair, Material, Wheel
+    from geartrain.train import ArborSizes, GearPair, Material, Wheel
+
 
 _YEAR = 365.25 * 86400  # s
 _PINS = "steel"  # what pins of couplings are made of, where the train declares no material
+
+
+def solve_strength(
+    train: TrainMechanics, state: str | None, service: Service, over: float | None = None
+) -> TrainStrength:
+    """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
+    check_numbers(over=over)
+    own, train = service.checked(), train.unfolded
+    found, loads = solve(train, state), train.load_case(state)
+    if not found.verdict or loads is None:
+        return TrainStrength(found.state, found.verdict)
+    if not has_torque_units(train.declaration, found.state):
+        what = "stresses need torques with a unit"
+        raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
+    scale = service.time(train, found.state)
+    covered = None if scale is None else scale * _input_speed(train, found.state)
+    question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
+    if over is None:
+        return question.answer()
+    from geartrain.dynamics.turn.train_turn import solve as solve_over_turns
+
+    cycle = solve_over_turns(train, state, over)
+    if not cycle.parts:
+        return TrainStrength(found.state, cycle.verdict)
+    greatest = {name: part.greatest for name, part in cycle.parts.items()}
+    return replace(question, over=over, greatest=greatest).answer()
+
+
+@dataclass(frozen=True)
+class Service:
+    """How long a train runs, and what is assumed of its wear.
+
+    turns, years   of the input, or of time; None where wear is not requested, and never both
+    wear           least and greatest wear coefficient; None for those of `WEAR_RANGE`
+    """
+
+    turns: float | None = None
+    years: float | None = None
+    wear: tuple[float, float] | None = None
+
+    def checked(self) -> WearRange:
+        """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
+        check_numbers(turns=self.turns, years=self.years)
+        own = WearRange(*(self.wear or WEAR_RANGE))
+        if not 0 < own.least <= own.greatest < inf:
+            what = f"{own.least:g} to {own.greatest:g} is no range of wear coefficients"
+            raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
+        return own
+
+    def time(self, train: TrainMechanics, state: str | None) -> float | None:
+        """Turns, in all the time, of a link whose speed is 1; None where no time is given."""
+        turns, years = self.turns, self.years
+        if turns is None and years is None:
+            return None
+        if turns is not None and years is not None:
+            raise QuestionError(Problem("a time is given twice", "by turns and by years", "leave one of them out"))
+        for name, value in (("turns", turns), ("years", years)):
+            if value is not None and not 0 < value < inf:
+                raise QuestionError(Problem(f"{value:g} {name} wear nothing", "", "give a number above 0"))
+        speed, declared = _input_speed(train, state), train.declaration
+        if not speed:
+            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input turns", "drive it from an input"))
+        if turns is not None:
+            return turns / speed
+        case, unit = train.kinematics.case(state), declared.unit_speed
+        assert years is not None
+        if case.rate is not None and case.rate.unit is not None:
+            return years * _YEAR * float(case.rate.base) / speed
+        if unit is None:
+            what, why = "years tell no number of turns here", "speeds are plain numbers"
+            raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
+        return years * _YEAR * float(unit)
+
+
+def _input_speed(train: TrainMechanics, state: str | None) -> float:
+    """Speed of the input that is counted: the crank's, else that of the first that turns."""
+    case, crank = train.kinematics.case(state), train.declaration.crank
+    speeds = train.kinematics.solution(case).speeds
+    if crank is not None and speeds.get(crank):
+        return abs(float(speeds[crank]))
+    return next((abs(float(speed)) for speed in case.inputs.values() if speed), 0.0)
+
+
+# ------------------------------------------------------------------------------------------ pairs of a train under load
 
 
 @dataclass(frozen=True)
@@ -348,85 +432,83 @@ class StrengthQuestion:
         ]
 
 
-# --------------------------------------------------------------------------------------------------- loads and time
+# ------------------------------------------------------------------------------------------ arbors between two bearings
 
 
-@dataclass(frozen=True)
-class Service:
-    """How long a train runs, and what is assumed of its wear.
+@dataclass(frozen=True, slots=True)
+class ArborLoad:
+    """What the wheels of an arbor bear, as bounds: as if all that pulls across pulled one way.
 
-    turns, years   of the input, or of time; None where wear is not requested, and never both
-    wear           least and greatest wear coefficient; None for those of `WEAR_RANGE`
+    across   all forces across it [N]
+    along    most of what pushes one way along it [N]; `thrust`, what is left for its shoulders
+    couple   of the forces along, at their radii [N mm]; `torque` [N mm]
     """
 
-    turns: float | None = None
-    years: float | None = None
-    wear: tuple[float, float] | None = None
+    across: float
+    along: float
+    thrust: float
+    couple: float
+    torque: float
 
-    def checked(self) -> WearRange:
-        """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
-        check_numbers(turns=self.turns, years=self.years)
-        own = WearRange(*(self.wear or WEAR_RANGE))
-        if not 0 < own.least <= own.greatest < inf:
-            what = f"{own.least:g} to {own.greatest:g} is no range of wear coefficients"
-            raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
-        return own
+    @classmethod
+    def of(cls, forces: Iterable[WheelForce], steepest: Mapping[str, float]) -> ArborLoad:
+        """Of wheels on one arbor.
 
-    def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Turns, in all the time, of a link whose speed is 1; None where no time is given."""
-        turns, years = self.turns, self.years
-        if turns is None and years is None:
-            return None
-        if turns is not None and years is not None:
-            raise QuestionError(Problem("a time is given twice", "by turns and by years", "leave one of them out"))
-        for name, value in (("turns", turns), ("years", years)):
-            if value is not None and not 0 < value < inf:
-                raise QuestionError(Problem(f"{value:g} {name} wear nothing", "", "give a number above 0"))
-        speed, declared = _input_speed(train, state), train.declaration
-        if not speed:
-            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input turns", "drive it from an input"))
-        if turns is not None:
-            return turns / speed
-        case, unit = train.kinematics.case(state), declared.unit_speed
-        assert years is not None
-        if case.rate is not None and case.rate.unit is not None:
-            return years * _YEAR * float(case.rate.base) / speed
-        if unit is None:
-            what, why = "years tell no number of turns here", "speeds are plain numbers"
-            raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
-        return years * _YEAR * float(unit)
+        steepest   by pair: the force of one couple that bears all, where that is known [N]
+        """
+        own = list(forces)
+        axial = [each.axial for each in own]
+        return cls(
+            sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in own),
+            max(sum(part for part in axial if part > 0), -sum(part for part in axial if part < 0)),
+            abs(sum(axial)),
+            sum(abs(each.axial) * each.radius for each in own),
+            max((abs(each.torque) * 1e3 for each in own), default=0.0),
+        )
 
 
-def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Speed of the input that is counted: the crank's, else that of the first that turns."""
-    case, crank = train.kinematics.case(state), train.declaration.crank
-    speeds = train.kinematics.solution(case).speeds
-    if crank is not None and speeds.get(crank):
-        return abs(float(speeds[crank]))
-    return next((abs(float(speed)) for speed in case.inputs.values() if speed), 0.0)
+def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
+    """Of an arbor between two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26)."""
+    diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
+    pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
+    length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
+    bending = bending_stress(greatest_moment(load.across, load.couple, span), diameter)
+    bending += 4 * load.along / (pi * diameter**2)
+    torsion = torsional_stress(load.torque, diameter)
+    strength = None if material.strength is None else material.strength.si / 1e6
+    shoulder = pi / 4 * (diameter**2 - pivot**2)
+    return ArborStrength(
+        link,
+        arbor.material,
+        load.across,
+        load.thrust,
+        bending,
+        torsion,
+        sqrt(bending**2 + 3 * torsion**2),
+        (load.across + load.couple / span) / (pivot * length),
+        load.thrust / shoulder if shoulder > 0 else None,
+        strength,
+    )
 
 
-def solve_strength(
-    train: TrainMechanics, state: str | None, service: Service, over: float | None = None
-) -> TrainStrength:
-    """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
-    check_numbers(over=over)
-    own, train = service.checked(), train.unfolded
-    found, loads = solve(train, state), train.load_case(state)
-    if not found.verdict or loads is None:
-        return TrainStrength(found.state, found.verdict)
-    if not has_torque_units(train.declaration, found.state):
-        what = "stresses need torques with a unit"
-        raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
-    scale = service.time(train, found.state)
-    covered = None if scale is None else scale * _input_speed(train, found.state)
-    question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
-    if over is None:
-        return question.answer()
-    from geartrain.dynamics.turn.train_turn import solve as solve_over_turns
+def bending_stress(moment: float, diameter: float) -> float:
+    """Of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
+    return 32 * moment / (pi * diameter**3)
 
-    cycle = solve_over_turns(train, state, over)
-    if not cycle.parts:
-        return TrainStrength(found.state, cycle.verdict)
-    greatest = {name: part.greatest for name, part in cycle.parts.items()}
-    return replace(question, over=over, greatest=greatest).answer()
+
+def torsional_stress(torque: float, diameter: float) -> float:
+    """Of a round bar [MPa]: 16 T/(pi d^3)."""
+    return 16 * torque / (pi * diameter**3)
+
+
+def greatest_moment(force: float, couple: float, span: float) -> float:
+    """Of a bar between two bearings [N mm] under forces and couples, wherever they stand: docs/strength.md (26).
+
+    A force across at x L bends by F L x (1 - x) there, a couple by at most M max(x, 1 - x).
+
+    >>> greatest_moment(10.0, 0.0, 40.0), greatest_moment(0.0, 50.0, 40.0)
+    (100.0, 50.0)
+    """
+    if couple >= force * span:
+        return couple
+    return (force * span + couple) ** 2 / (4 * force * span)

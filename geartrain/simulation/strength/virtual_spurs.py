@@ -1,7 +1,12 @@
-"""Spur wheels that stand for others: Tredgold's for straight bevels, and those across the teeth of crossed wheels."""
+"""Spur wheels that stand for others, and the contact of crossed wheels at a point.
+
+Tredgold's spur wheels stand for straight bevels; those across the teeth for helical wheels on crossed axes and worms,
+whose teeth touch at a point.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, sin
@@ -9,8 +14,14 @@ from typing import TYPE_CHECKING
 
 from geartrain.dynamics.wheel_teeth import CHORD
 from geartrain.errors import GearTrainError
-from geartrain.simulation.strength.formulas.point_contact import CrossedWheels
-from geartrain.simulation.strength.formulas.root_section import ToothSide
+from geartrain.simulation.strength.contact_pressure import (
+    YIELD_AT_POINT,
+    CrossedWheels,
+    Elasticity,
+    elasticity_factor,
+)
+from geartrain.simulation.strength.iso_6336 import ToothSide
+from geartrain.simulation.strength.strength_results import FlankStrength, PointContact, WheelForce
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
@@ -21,10 +32,18 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.outlines.wheel_requirement import CutTooth
+    from geartrain.train import Material
+
 
 _MM = 1e3
 _FLATTEST = 0.01  # cosine of a cone that still rolls on a spur wheel, not on a rack
 _WIDEST = 1 / 3  # of the cone's length: what makers allow
+_SPREAD = 2.0  # of its lever: how wide a force at a point is spread where it bends
+_MPA = 1e6
+_WORDS = {
+    "base": "a tip reaches below the base of the mate, where there is no flank: give the smaller wheel more teeth",
+    "width": "a wheel is so narrow that contact leaves it at the side",
+}
 
 
 @dataclass(frozen=True)
@@ -108,9 +127,6 @@ class VirtualSpurs:
         return ToothRequirement(self.pair, gear, CHORD, clearance, self.form.lantern_pins(self.wheels)).cut([])
 
 
-_SPREAD = 2.0  # of its lever: how wide a force at a point is spread where it bends
-
-
 @dataclass(frozen=True)
 class NormalSpurs:
     """The spur pair whose teeth are those of crossed helical wheels seen along them: docs/strength.md (27)."""
@@ -146,3 +162,61 @@ class NormalSpurs:
         section = side.weakest_section(load)
         width = min(self.crossed.tooth_length(at), _SPREAD * (load.apex - section.x) * module)
         return section.stress(force * arm * module, width, module)
+
+
+@dataclass(frozen=True)
+class SkewPair:
+    """A pair with the forces on both wheels, as the pair names them.
+
+    wheels      their shapes; `forces`, what they bear from each other
+    materials   names, and what they stand for
+    is_worm     one is a worm
+    form        of their teeth, seen along them
+    """
+
+    wheels: CrossedWheels
+    forces: tuple[WheelForce, WheelForce]
+    materials: tuple[tuple[str, Material], tuple[str, Material]]
+    is_worm: bool
+    form: Involute
+
+    def contact(self) -> PointContact:
+        """All figures."""
+        # what pushes the wheels apart is a part of the force across their flanks, whatever the friction
+        normal = max(abs(each.radial or 0.0) for each in self.forces) / sin(self.wheels.pressure_angle)
+        elasticities = (
+            Elasticity(each.youngs_modulus.si / _MPA, float(each.poisson.value)) for _, each in self.materials
+        )
+        factor = elasticity_factor(*elasticities)
+        worst = self.wheels.worst(normal, factor)
+        return PointContact(
+            self.forces[0].pair,
+            self.wheels.contact_ratio,
+            normal,
+            self.wheels.ellipse(0.0, normal, factor).pressure,
+            *worst,
+            tuple(self._flank(at, worst.pressure, normal) for at in (0, 1)),
+            tuple(self._notes()),
+        )
+
+    def _flank(self, at: int, pressure: float, normal: float) -> FlankStrength:
+        name, material = self.materials[at]
+        wheel, strength = self.forces[at].wheel, material.strength
+        bent = self._spurs.root_stress(at, normal)
+        if strength is None:
+            return FlankStrength(wheel, name, None, None, None, bent)
+        bears = strength.si / _MPA
+        return FlankStrength(wheel, name, bears, float(material.spread.value), YIELD_AT_POINT * bears / pressure, bent)
+
+    @cached_property
+    def _spurs(self) -> NormalSpurs:
+        return NormalSpurs(self.wheels, self.form)
+
+    def _notes(self) -> Iterator[str]:
+        if self.is_worm:
+            yield "its wheel is taken for a helical one, not hollowed out for the worm, which touches along a line"
+        if self.wheels.contact_ratio < 1:
+            yield "its contact ratio is below 1: one couple leaves before the next has come"
+        if any(self._spurs.root_stress(at, 1.0) is None for at in (0, 1)):
+            yield "no spur wheels of as many teeth as stand across its teeth can be cut, and their bending is left out"
+        yield from (_WORDS[why] for why in sorted(self.wheels.bounded_by) if why in _WORDS)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import repeat
-from math import tau
+from math import sqrt, tau
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from geartrain.numerics.labelled_array import labelled_array
-from geartrain.simulation.steps.run_record import (
+from geartrain.simulation.steps.contact_solution import (
     BEARINGS,
     BLOW_COUNT,
     BLOW_ENERGY,
@@ -33,23 +33,30 @@ from geartrain.simulation.steps.run_record import (
     WORK_SPRING,
     WORK_TORQUE,
 )
-from geartrain.simulation.time.angle_spectrum import find_peaks
-from geartrain.simulation.time.batch_means import batch_half_width
-from geartrain.simulation.time.run_parts import (
+from geartrain.simulation.time.time_run import (
     ContactInTime,
     EnergyAccount,
     ImpactList,
     OutputLead,
     SettledFigure,
     SpectrumPeak,
+    TimeRun,
 )
-from geartrain.simulation.time.time_run import TimeRun
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.train_model import TrainModel
     from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan
 
+
+FEWEST = 5
+"""Batches from which on an interval is given."""
+
+_CONFIDENCE = 0.95
+_CORRELATED = 0.9  # lag-1 correlation that is counted at most: beyond it the batches are too short for any interval
+_MOST = 12  # lines
+_HARMONICS = 24  # of each pair
+_NARROW = 1.0  # bins by which a line may miss a harmonic
 _AGREE = {"mean": 0.05, "extreme": 0.01}  # of a figure
 _SHARE, _ANGLE = 0.005, 1e-6  # of a share of time; rad
 _Figure = tuple[str, str, float, Literal["mean", "extreme"]]
@@ -340,3 +347,80 @@ def _frozen(values: Floats) -> Floats:
     values = np.asarray(values)
     values.flags.writeable = False
     return values
+
+
+# ------------------------------------------------------------------------------------ confidence intervals: batch means
+
+
+def batch_half_width(means: Floats) -> float | None:
+    """Half the 95 % interval of a mean, from means over equal consecutive batches; None of too few batches.
+
+    Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1 correlation r of the
+    batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and Analysis, section 9.5).
+
+    Parameters
+    ----------
+    means : array of float, (n,)
+        One mean a batch.
+    """
+    from scipy.special import stdtrit
+
+    n = len(means)
+    if n < FEWEST:
+        return None
+    off = means - means.mean()
+    squares = float(off @ off)
+    if not squares:
+        return 0.0
+    lag = min(max(float(off[1:] @ off[:-1]) / squares + 1 / n, 0.0), _CORRELATED)
+    wide = float(stdtrit(n - 1, (1 + _CONFIDENCE) / 2)) * sqrt(squares / (n - 1) / n)
+    return wide * sqrt((1 + lag) / (1 - lag))
+
+
+# ------------------------------------------------------------------------------------------------ spectrum of an output
+
+
+def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, float]) -> list[SpectrumPeak]:
+    """The strongest lines, under a Hann window.
+
+    time     evenly spaced (s); `angle` (rad), whose mean motion is taken off
+    rate     turns of the lead a second
+    cycles   periods of each pair in a turn of the lead
+    """
+    frequencies, size = find_amplitudes(time, angle)
+    if not len(size):
+        return []
+    bin_width = float(frequencies[1])
+    top = np.flatnonzero((size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])) + 1
+    strongest = top[np.argsort(-size[top])][:_MOST]
+    found = []
+    for at in strongest:
+        # a parabola through the logarithms of three bins: where between them the line is
+        left, middle, right = np.log(size[at - 1 : at + 2] + 1e-300)
+        shift = (left - right) / 2 / (left - 2 * middle + right)
+        frequency = float((at + shift) * bin_width)
+        order = frequency / rate
+        found.append(SpectrumPeak(order, frequency, float(size[at]), _source(order, bin_width / rate, cycles)))
+    return found
+
+
+def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
+    """Frequencies (Hz) and amplitudes (rad) under a Hann window, mean motion taken off; empty for too few samples."""
+    if len(time) < 16:
+        return np.zeros(0), np.zeros(0)
+    swing = angle - np.polyval(np.polyfit(time - time[0], angle, 1), time - time[0])
+    window = np.hanning(len(swing))
+    size = np.abs(np.fft.rfft(swing * window)) * 2 / window.sum()
+    return np.arange(len(size)) / (len(swing) * (time[1] - time[0])), size
+
+
+def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
+    """The lowest harmonic within reach."""
+    near = [
+        (harmonic, name)
+        for name, own in cycles.items()
+        if own
+        for harmonic in range(1, _HARMONICS + 1)
+        if abs(order - harmonic * own) <= _NARROW * width
+    ]
+    return "{1} x{0}".format(*min(near)) if near else ""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.simulation.steps.run_record import BLOW_ENERGY, TIME_APART, UNSOLVED, RunRecord
+from geartrain.simulation.steps.contact_solution import BLOW_ENERGY, TIME_APART, UNSOLVED, RunRecord
 from geartrain.simulation.steps.simulation import (
     StepPlan,
     check_convergence,

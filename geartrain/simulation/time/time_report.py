@@ -14,11 +14,11 @@ from geartrain.report.torque_report import turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.simulation.inertia.link_inertia import LinkInertia
-    from geartrain.simulation.inertia.separation_rate import SeparationRates
-    from geartrain.simulation.time.run_parts import ContactInTime, SettledFigure
+    from geartrain.simulation.contacts.link_inertia import LinkInertia
+    from geartrain.simulation.contacts.separation_rate import SeparationRates
     from geartrain.simulation.time.stepped_separation import SteppedSeparation
-    from geartrain.simulation.time.time_run import TimeRun
+    from geartrain.simulation.time.time_run import ContactInTime, SettledFigure, TimeRun
+
 
 _SURE = 1e-9  # an account that closes to less says nothing more
 _STILL = 1e-9  # rad: rounding of angles
@@ -85,8 +85,8 @@ def collect_time_report(
     >>> found.separation.pair, found.to_dict()["lead"]
     ('d2~e', 'crank')
     """
-    from geartrain.simulation.contacts.train_separation import find_separation, has_separation
-    from geartrain.simulation.inertia.link_inertia import find_link_inertias
+    from geartrain.simulation.contacts.link_inertia import find_link_inertias
+    from geartrain.simulation.contacts.separation_rate import find_separation, has_separation
 
     own, state = train.mechanics, run.state
     separation = find_separation(own, state, without) if has_separation(own, state) else None
@@ -119,10 +119,10 @@ def describe_time_run(found: TimeReport) -> Document:
 
 
 def _sections(found: TimeReport) -> Iterator[Section]:
-    from geartrain.simulation.inertia.separation_text import separation_section
-
     run = found.run
     if found.separation is not None:
+        from geartrain.simulation.contacts.separation_rate import separation_section
+
         section = separation_section(found.separation)
         yield replace(section, paragraphs=(*section.paragraphs, *_unlike(run)))
     if found.stepped is not None:

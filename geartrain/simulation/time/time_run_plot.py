@@ -27,12 +27,11 @@ from geartrain.drawing.style import (
     write,
 )
 from geartrain.errors import Problem, QuestionError
-from geartrain.simulation.time.angle_spectrum import find_amplitudes
+from geartrain.simulation.time.run_figures import find_amplitudes
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.time.run_parts import SpectrumPeak
-    from geartrain.simulation.time.time_run import TimeRun
+    from geartrain.simulation.time.time_run import SpectrumPeak, TimeRun
 
 _PAIRS = 6  # whose gaps are drawn: those most apart
 _STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair

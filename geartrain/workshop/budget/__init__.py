@@ -1,8 +1,8 @@
-"""The budget of a pointer's error: its causes in degrees and in days, one beside the other (docs/budgets.md).
+"""The budget of the error of a pointer: its causes in degrees and in days (docs/budgets.md).
 
-train_budget     what is requested; ratios that drift, wheels cut by hand; all causes together
-pin_theory       pins against the true motion of Moon and Sun
-tooth_motion     teeth and backlash
+train_budget     the question and all causes together; drift of ratios, wheels cut by hand
+motion_causes    pins against the true motion of Moon and Sun; teeth and backlash
 crank_load       torque and efficiency at the crank, over a run, and of a weight
-pointer_budget   what comes out
+pointer_budget   the results
+budget_report, budget_bars, verb   the report, the plot, the command
 """

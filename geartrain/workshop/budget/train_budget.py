@@ -22,20 +22,23 @@ from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
 from geartrain.numerics.confidence_intervals import deviation_of, percentile_of
 from geartrain.train.periods import period_table
 from geartrain.workshop.budget.crank_load import find_crank_load
-from geartrain.workshop.budget.pin_theory import Body, TheoryError, find_bodies, link_theory, theory_cause
-from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
-from geartrain.workshop.budget.tooth_motion import (
+from geartrain.workshop.budget.motion_causes import (
+    Body,
     DeclaredPairs,
     ErrorDifference,
+    TheoryError,
+    find_bodies,
     find_tooth_motion,
+    link_theory,
+    theory_cause,
     tooth_causes,
     without_teeth,
 )
+from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
 from geartrain.workshop.cutting.declared_errors import read_error_overrides
 from geartrain.workshop.monte_carlo.clearance_study import run_clearances
-from geartrain.workshop.monte_carlo.pointer_error import FEWEST
 from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
-from geartrain.workshop.monte_carlo.trial_results import turning_trials
+from geartrain.workshop.monte_carlo.trial_results import FEWEST, turning_trials
 from geartrain.workshop.monte_carlo.trial_run import run_trials
 
 if TYPE_CHECKING:
@@ -46,7 +49,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.work import Execution
     from geartrain.train import Target
-    from geartrain.workshop.budget.tooth_motion import ToothMotion
+    from geartrain.workshop.budget.motion_causes import ToothMotion
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults

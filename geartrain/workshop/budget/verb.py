@@ -28,7 +28,7 @@ from geartrain.cli.option_values import MOST_COUNT, Theme, quantity
 from geartrain.cli.option_values import turns as read_turns
 
 if TYPE_CHECKING:
-    from geartrain.workshop.budget.pin_theory import Body
+    from geartrain.workshop.budget.motion_causes import Body
 
 
 def run(

@@ -4,32 +4,120 @@ Couple k joins tooth k of the driver to tooth k of the driven wheel, both counte
 leading flank holds the driven trailing flank; the driver's trailing flank stands before the leading flank of the driven
 tooth k + 1. Each couple alone would let the driven wheel lag by so much, docs/cut-by-hand.md (2); the foremost drives,
 and what is left between it and the nearest couple on the other side is the play.
+
+Teeth are numbered as they pass the line of centres while the wheel turns forward, as those of `CutWheel`. Lengths are
+modules, on cones angles (rad) on the unit sphere.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from math import gcd
+from math import gcd, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.workshop.cutting.cut_wheel import of_teeth
-from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
 from geartrain.workshop.cutting.file_strokes import TightPlace
 from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from numpy.typing import NDArray
+
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
 
+
+_OF_TEETH = ("place", "tip", "leading", "trailing", "leading_low", "trailing_low")
 _PHASES = 4  # of a pitch at which couples are looked at, beside the ends of their paths: between, lags are smooth
 _UNEVEN_PHASES = 32  # where even wheels do not lag alike along their path
 _FINE = 512  # of a pitch: for the mean of a lag with a few corners
+
+
+@dataclass(frozen=True, slots=True)
+class DisplacedWheel:
+    """Arrays (..., z), leading axes trials; `e` and `towards` one for each trial.
+
+    place                       how far behind its even place a tooth stands (rad)
+    tip                         how far a tip stands out
+    leading, trailing           by how much the flanks are flatter, turned about their pitch points (rad)
+    leading_low, trailing_low   how far the flanks are lowered along their normals
+    e, towards                  where the middle of the teeth lies from the axle: how far, and in which direction (rad),
+                                counted from the first tooth against the way the wheel turns, as teeth are
+    """
+
+    place: Floats
+    tip: Floats
+    leading: Floats
+    trailing: Floats
+    leading_low: Floats
+    trailing_low: Floats
+    e: Any = 0.0
+    towards: Any = 0.0
+
+    @classmethod
+    def even(cls, z: int) -> DisplacedWheel:
+        """A wheel without errors."""
+        return cls(*(np.zeros(z) for _ in _OF_TEETH))
+
+    @property
+    def z(self) -> int:
+        """Tooth number."""
+        return int(self.place.shape[-1])
+
+    @property
+    def trials(self) -> tuple[int, ...]:
+        """Shape of the leading axes: () for one wheel."""
+        shapes = (getattr(self, name).shape[:-1] for name in _OF_TEETH)
+        return np.broadcast_shapes(*shapes, np.shape(self.e), np.shape(self.towards))
+
+    @property
+    def tips(self) -> Floats:
+        """How far tips stand out, those of an eccentric wheel with it."""
+        if not np.any(self.e):
+            return self.tip
+        angle = np.arange(self.z) * (2 * pi / self.z) - np.asarray(self.towards)[..., None]
+        found: Floats = self.tip + np.asarray(self.e)[..., None] * np.cos(angle)
+        return found
+
+    def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
+        """How much flatter one side of the teeth is, and how far lower."""
+        return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
+
+    @property
+    def cuttable(self) -> Bools:
+        """For each tooth, whether the next stands behind it."""
+        found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
+        return found
+
+    def taken(self, part: slice | NDArray[np.int64]) -> DisplacedWheel:
+        """Some wheels out of many; an array that all share stays."""
+        teeth = {name: getattr(self, name) for name in _OF_TEETH}
+        some = {name: each[part] if each.ndim > 1 else each for name, each in teeth.items()}
+        e, towards = (each[part] if np.ndim(each) else each for each in (self.e, self.towards))
+        return DisplacedWheel(**some, e=e, towards=towards)
+
+    def mirrored(self, first: int = 0) -> DisplacedWheel:
+        """The wheel seen from behind, turning the other way; tooth i is tooth `first` - i as it was."""
+        order = (first - np.arange(self.z)) % self.z
+        return DisplacedWheel(
+            -self.place[..., order],
+            self.tip[..., order],
+            self.trailing[..., order],
+            self.leading[..., order],
+            self.trailing_low[..., order],
+            self.leading_low[..., order],
+            self.e,
+            first * (2 * pi / self.z) - np.asarray(self.towards),
+        )
+
+    def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
+        """The wheel with its flanks lowered further."""
+        return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
 @dataclass(frozen=True)
@@ -343,10 +431,6 @@ def mean_lag(contact: DisplacedContact) -> float:
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
     S = np.linspace(0.0, contact.pitches[0], _FINE, endpoint=False)
     return float(pair.first_lag(np.zeros(_FINE, np.int64), S)[0].mean())
-
-
-# What two wheels add is apart for each, so that over a cycle of lcm(z1, z2) couples the least sum is that of the least
-# terms, over all teeth that meet: those whose numbers leave one rest.
 
 
 def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Generic, Protocol, Self, TypeVar
 
 import numpy as np
 
-from geartrain.workshop.cutting.cut_pair import CutGearPair
+from geartrain.workshop.cutting.cut_wheel import CutGearPair
 from geartrain.workshop.cutting.meshing_cycle import CHUNK, MeshingCycle, chunks, taken
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
-from geartrain.workshop.cutting.cut_pair import CutGearPair, CutToothPairs
+from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutToothPairs
 
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.teeth.transmission import TransmissionFunction, behind
-from geartrain.workshop.cutting.cut_pair import CutGearPair, CutToothPairs
-from geartrain.workshop.cutting.cut_wheel import of_teeth
+from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutToothPairs, of_teeth
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 
 if TYPE_CHECKING:

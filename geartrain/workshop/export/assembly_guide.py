@@ -1,27 +1,47 @@
-"""The README of an exported folder: its files, its parts with masses and fits, their assembly, and what is missing."""
+"""How to assemble the parts of an exported folder: its README, the steps in order of heights, and their pictures."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from html import escape
+from itertools import pairwise
 from math import degrees
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from geartrain.errors import Problem, install_command, printable
 from geartrain.kinematics.buildability import BuildFinding
 from geartrain.numerics.markdown_text import markdown_text
-from geartrain.scene.parts.arbor_columns import SHAKE
-from geartrain.workshop.export.assembly_pictures import picture_path
-from geartrain.workshop.export.assembly_steps import assembly_steps
+from geartrain.scene.palette import THEMES, series_colour
+from geartrain.scene.parts.arbor_columns import SHAKE, AxisBearing, AxisColumn
+from geartrain.scene.parts.turned_parts import rod_name
 from geartrain.workshop.export.parts_list import ListedPart, parts_list
-from geartrain.workshop.export.proof.cut_outlines import TOLERANCE
 from geartrain.workshop.export.proof.mesh_proof import ALLOWED, MeshProof
 from geartrain.workshop.export.proof.train_proof import TrainProof
-from geartrain.workshop.export.proof.turned_pair import NOTHING
+from geartrain.workshop.export.proof.turned_pair import NOTHING, TOLERANCE
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_teeth import PairPlay
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.parts.frame_plates import FramePlates
     from geartrain.scene.solids.solid_assembly import SolidModel
-    from geartrain.workshop.export.proof import TrainProof
+    from geartrain.scene.solids.solid_part import SolidPart
+
+
+_GROUPS = "In the way:", "Not among the files, to be made by hand:", "Noted:"
+_BY_HAND = "W3", "S1"  # notes that a wheel has no drawing, or an axis no bearing
+_HEADER = "| mesh | play declared | least play | overlap mm2 | contact ratio | clearance | tip width | verdict |"
+_CHORD = 0.1  # mm: how far what is drawn of an outline may leave it
+_GAP = 0.12  # of the width: between both views
+_MARGIN = 0.04
+_WIDE = 720  # pixels
+_LETTER = 0.016  # of the width
+_TOLD = 14  # parts that are named in the picture
+_PAPER = THEMES["light"]
+_NEW, _OLD = (series_colour(0), _PAPER.band), (_PAPER.line, "none")  # edge and face
 
 
 def unproved() -> str:
@@ -110,11 +130,7 @@ def _cell(text: str) -> str:
     return printable(markdown_text(text).replace("|", "\\|").replace("\n", " "))
 
 
-# ---------------------------------------------------------------------------------------------------------------- proof
-
-_GROUPS = "In the way:", "Not among the files, to be made by hand:", "Noted:"
-_BY_HAND = "W3", "S1"  # notes that a wheel has no drawing, or an axis no bearing
-_HEADER = "| mesh | play declared | least play | overlap mm2 | contact ratio | clearance | tip width | verdict |"
+# ------------------------------------------------------------------------------------------------- what the proof found
 
 
 def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
@@ -166,3 +182,365 @@ def _row(mesh: MeshProof, cell: Callable[[str], str]) -> str:
 
 def _turn(play: float | None) -> str:
     return "free" if play is None else f"{degrees(max(play, 0.0)):.3g}"
+
+
+# ---------------------------------------------------------------------------------------------------------------- steps
+
+
+@dataclass(frozen=True, slots=True)
+class AssemblyStep:
+    """One step of an assembly.
+
+    Attributes
+    ----------
+    text : str
+        What is done.
+    parts : tuple of str
+        The parts that it adds.
+    shown : bool
+        Whether a picture shows them; what hangs is too tall.
+
+    See Also
+    --------
+    assembly_steps : gives these.
+    """
+
+    text: str
+    parts: tuple[str, ...]
+    shown: bool = True
+
+
+def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
+    """Steps of the assembly of a train, in the order of heights.
+
+    Arbors and their wheels, what carriers bear, the back plate with studs, all arbors, the front plate, dials.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train at the sizes at which it is made.
+
+    Returns
+    -------
+    list of AssemblyStep
+        Empty for a train without plates.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
+    >>> assembly_steps(work)[0].text
+    "Fix s on the arbor of 'sun'"
+    """
+    return [] if work.frame is None else list(_Steps(work, work.frame).all())
+
+
+class _Steps:
+    def __init__(self, work: SolidModel, frame: FramePlates) -> None:
+        self.work, self.frame, self.plan = work, frame, frame.plan
+        self.known = {part.name for part in work.parts}
+        self.low, self.high = (
+            next(side for side, faces in frame.sides.items() if faces == each)
+            for each in (self.plan.places.back, self.plan.places.front)
+        )
+
+    def all(self) -> Iterator[AssemblyStep]:
+        for column in self.plan.all_columns:
+            yield from self._column(column)
+        yield from self._pins()
+        for plate in self.plan.turning:
+            posts = [post.name for post in self.frame.posts if plate.disc.name in post.through]
+            tail = ", pins through the ring" if plate.ring else ""
+            yield self._step(
+                f"Fix '{plate.disc.name}' to '{plate.disc.link}'{tail}", [plate.disc.name, plate.ring, *posts]
+            )
+        yield from self._carried()
+        base = self.plan.stack.frame
+        pillars = [name for name in self.known if name.startswith("pillar ")]
+        posts = [post.name for post in (*self.frame.posts, *self.frame.pins) if post.link == base]
+        rings = [disc.name for disc in self.plan.discs if not disc.hub and disc.link == base]
+        pins = " and pins" if any(each.link == base for each in self.frame.standing) else ""
+        yield self._step(
+            f"Press the pillars, and the posts{pins} of rings, into the {self.low} plate",
+            [f"{base} {self.low} plate", *sorted(pillars), *posts, *rings],
+        )
+        yield from self._studs(AxisBearing.BACK_STUD, self.low)
+        yield from self._through()
+        yield from self._studs(AxisBearing.FRONT_STUD, self.high)
+        yield self._step(
+            f"Lead all upper pivots into the {self.high} plate, press it on the pillars, and try the end shake of each "
+            "arbor",
+            [f"{base} {self.high} plate"],
+        )
+        yield from self._bridge()
+        yield from self._across()
+        if self.work.dials:
+            names = [dial.name for dial in self.work.dials]
+            feet = [foot.name for dial in self.work.dials for foot in dial.feet]
+            yield self._step(
+                f"Press the feet into {', '.join(names)} and into the plate before which each stands, and put hands "
+                "on the arbors",
+                [*names, *feet],
+            )
+        if "pendulum cock" in self.known:
+            yield self._step("Press the cock of the pendulum into its plate", ["pendulum cock"])
+            yield replace(self._step("Hang the pendulum on its cock", ["pendulum rod", "pendulum bob"]), shown=False)
+        if "weight" in self.known:
+            yield replace(self._step("Hang the weight on a line round its barrel", ["weight"]), shown=False)
+        yield AssemblyStep("Turn it by the lead through a whole turn of the slowest wheel before it is oiled", ())
+
+    def _across(self) -> Iterator[AssemblyStep]:
+        """Arms of pins, cages of carriers and brackets of arbors that lie across the plates."""
+        arms = sorted(name for name in self.known if name.endswith(" pin arm"))
+        cages = [part.name for cage in self.work.cages for part in cage.parts]
+        brackets = [bracket.part.name for bracket in self.work.brackets]
+        for names, text in (
+            (arms, "Fix the arms to the arbors of their links, pins outwards"),
+            (cages, "Fix the posts of the cages to their carriers, and hang the arbors across in the eyes"),
+            (brackets, "Screw the brackets to the plates, arbors between them"),
+        ):
+            if names:
+                yield self._step(text, names)
+
+    def _step(self, text: str, parts: Sequence[str]) -> AssemblyStep:
+        return AssemblyStep(text, tuple(name for name in parts if name in self.known))
+
+    def _column(self, column: AxisColumn) -> Iterator[AssemblyStep]:
+        """Which wheels go on which arbor or pipe, and which pipes over which."""
+        for member in column.members:
+            every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
+            wheels = [name for name in every if name not in self.plan.cut]
+            what = "pipe" if member.inner else "arbor"
+            if wheels:
+                order = ", from below in this order" if len(wheels) > 1 else ""
+                spacers, collets = self._sleeves(every)
+                order += _with(wheels, spacers, collets)
+                barrel = self._barrel(every)
+                text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
+                text += ", its barrel beside it" if barrel else ""
+                yield self._step(text, [rod_name(column, member), *every, *spacers, *collets, *barrel])
+                yield from self._on_eccentrics(every)
+                yield from self._plated_pins(every)
+        pipes = [member for member in column.members if member.inner]
+        if pipes and not column.is_stud:
+            links = ", ".join(member.link for member in pipes)
+            text = f"On axis {column.axis} slide on the pipes, innermost first: {links}"
+            yield self._step(text, [rod_name(column, member) for member in pipes])
+
+    def _sleeves(self, names: Sequence[str]) -> tuple[list[str], list[str]]:
+        """Spacers between neighbours of some wheels, and their collets."""
+        spacers = (f"spacer {low} to {high}" for low, high in pairwise(names))
+        collets = (f"collet of {name}" for name in names)
+        return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
+
+    def _barrel(self, wheels: Sequence[str]) -> list[str]:
+        """That is fixed to one of some wheels."""
+        barrel = self.frame.barrel
+        return [] if barrel is None or barrel.wheel not in wheels else [barrel.part.name]
+
+    def _pins(self) -> Iterator[AssemblyStep]:
+        for name, cut in self.work.cut_couplings.items():
+            if cut.pin is None:
+                continue
+            pins = [f"{name} pin {at + 1}" for at in range(len(cut.coupling.pins_at))] or [f"{name} pin"]
+            yield self._step(f"Press the pin{'s'[: len(pins) - 1]} of '{name}' into {cut.pin.id}", pins)
+
+    def _plated_pins(self, plates: Sequence[str]) -> Iterator[AssemblyStep]:
+        """Pins that stand in some of the plates that turn."""
+        for each in self.frame.standing:
+            if each.seat in plates:
+                pins = [f"{each.name} {at}" for at in range(1, 1 + len(each.spots))]
+                text = f"Press the pins of '{each.name.removesuffix(' pin')}' into {each.seat}"
+                if each.joined:
+                    text = f"Press the {each.name} into {each.seat}, and into {each.wheel} when all between them stands"
+                yield self._step(text, pins)
+
+    def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
+        """What turns on some eccentrics, of which it may need others that stand already."""
+        every = self.plan.stack.eccentrics
+        for each in (each for each in every if each.name in names):
+            own = [other.name for other in every if other.wheels == each.wheels]
+            if each.name == own[-1]:
+                washers = [f"{name} washer {at}" for name in own for at in (1, 2)]
+                text = f"Put {', '.join(each.wheels)} on {', '.join(own)}, to turn there between washers"
+                if each.wave is not None:
+                    text = f"Bend {', '.join(each.wheels)}, of one piece with its cup, over {each.name}"
+                yield self._step(text, [*each.wheels, *washers])
+
+    def _carried(self) -> Iterator[AssemblyStep]:
+        """Studs of carriers with what turns on them, the nearest to the carrier first."""
+        for seat in self.plan.choice.seats:
+            own = {
+                label: column
+                for label, column in self.plan.carried.items()
+                if self.plan.stack.carried[label].carrier == seat.link and self.plan.seat_of(seat.link) == seat.seat
+            }
+            feet = [label for label, column in own.items() if column.is_stud and not column.on]
+            for label in feet:
+                steps = [other for other, column in own.items() if column.on == label]
+                both = " and ".join([label, *steps])
+                text = f"Press the stud of {both} into {seat.seat}, its pipes on it" + (
+                    f": first that of {label}, then that of {steps[0]}" if steps else ""
+                )
+                yield self._step(text, [f"{axis} stud" for axis in (label, *steps)])
+
+    def _bridge(self) -> Iterator[AssemblyStep]:
+        bridged = [each for each in self.plan.columns if each.bearing is AxisBearing.BRIDGE and each.members]
+        if self.plan.bridge is None:
+            return
+        links, pillars = [each.members[0].link for each in bridged], len(self.frame.bridge_pillars)
+        rods = [name for link in links for name in (f"{link} arbor", f"{link} lower collar", f"{link} upper collar")]
+        text = (
+            f"Put the arbors of {', '.join(links)} into the bridge between their collars, and the bridge on its pillars"
+        )
+        names = [f"{self.plan.stack.frame} bridge", *(f"bridge pillar {k}" for k in range(1, pillars + 1)), *rods]
+        yield self._step(text, names)
+
+    def _studs(self, bearing: AxisBearing, side: str) -> Iterator[AssemblyStep]:
+        studs = [column.axis for column in self.plan.columns if column.bearing is bearing]
+        if studs:
+            text = f"Put the pipes on the studs of {', '.join(studs)} and press the studs into the {side} plate"
+            yield self._step(text, [f"{axis} stud" for axis in studs])
+
+    def _through(self) -> Iterator[AssemblyStep]:
+        through = sorted(
+            (each for each in self.plan.columns if each.bearing is AxisBearing.THROUGH and each.members),
+            key=lambda column: min((disc.low for each in column.members for disc in each.discs), default=0.0),
+        )
+        if through:
+            names = ", ".join(f"{each.axis} (pivot {each.pivot:g})" for each in through)
+            links = [each.members[0].link for each in through]
+            collars = [name for link in links for name in (f"{link} back collar", f"{link} front collar")]
+            arbors = [f"{link} arbor" for link in links]
+            yield self._step(
+                f"Stand the arbors in the {self.low} plate, lowest wheels first: {names}", [*arbors, *collars]
+            )
+
+
+def _with(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str]) -> str:
+    """In words, what goes on with the wheels."""
+    words = "" if not spacers else ", with the spacer between them" if len(spacers) == 1 else ", with their spacers"
+    if collets:
+        alone = [name.removeprefix("collet of ") for name in collets]
+        words += (
+            f", {'' if alone == [*wheels] else ', '.join(alone) + ' '}against {'its' if len(alone) == 1 else 'their'}"
+        )
+        words += " collet" if len(alone) == 1 else " collets"
+    return words
+
+
+# -------------------------------------------------------- pictures: a step from above and from the side, new parts dark
+
+
+def picture_path(number: int) -> str:
+    """Where the picture of a step is, in the folder."""
+    return f"assembly/{number:02d}.svg"
+
+
+def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
+    """Path, title and maker of the picture of every step by which parts come in."""
+    steps = assembly_steps(work)
+    pictures = AssemblyPictures(work, steps) if steps else None
+    before: dict[str, None] = {}
+    for number, step in enumerate(steps, 1):
+        if pictures is not None and step.parts and step.shown:
+            draw = partial(pictures.draw, step, number, tuple(before))
+            yield picture_path(number), f"step {number} of putting it together", draw
+        before |= dict.fromkeys(step.parts)
+
+
+class AssemblyPictures:
+    """Pictures of one train in the coordinates of its stack (mm)."""
+
+    def __init__(self, work: SolidModel, steps: Sequence[AssemblyStep]) -> None:
+        assert work.frame is not None
+        self.stack = work.frame.plan.stack
+        shown = {name for step in steps if step.shown for name in step.parts}
+        self.parts = {part.name: part for part in work.parts if part.name in shown}
+
+    @cached_property
+    def boxes(self) -> dict[str, Floats]:
+        """Least and greatest right, up and height of each part, (2, 3)."""
+        found = {}
+        for name, part in self.parts.items():
+            seen = part.placed.vertices @ self.stack.turn
+            found[name] = np.array([seen.min(axis=0), seen.max(axis=0)])
+        return found
+
+    @cached_property
+    def extent(self) -> tuple[Floats, Floats]:
+        """Of all parts."""
+        boxes = np.array(list(self.boxes.values()))
+        return boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
+
+    def draw(self, step: AssemblyStep, number: int, before: Sequence[str]) -> bytes:
+        """One step as SVG, after what came before it."""
+        low, high = self.extent
+        wide, deep, tall = (high - low).tolist()
+        gap, margin = _GAP * wide, _MARGIN * wide
+        letter = _LETTER * wide
+        width, height = wide + 2 * margin, deep + gap + tall + 2 * margin + 3 * letter
+        lines = [
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDE}" height="{_WIDE * height / width:.0f}" '
+            f'viewBox="0 0 {width:.3f} {height:.3f}">',
+            f"<title>{number}. {escape(step.text)}</title>",
+            f'<rect width="{width:.3f}" height="{height:.3f}" fill="{_PAPER.paper}"/>',
+            f'<g fill="{_PAPER.ink}" font-family="sans-serif" font-size="{letter:.3f}">',
+        ]
+        corner = np.array([margin, margin + 2 * letter])
+        there = (name for name in before if name in self.parts and name not in step.parts)
+        shown = [(name, _OLD) for name in there] + [(name, _NEW) for name in step.parts]
+        stroke = wide / 700
+        for name, (edge, fill) in shown:
+            part = self.parts[name]
+            style = f'stroke="{edge}" fill="{fill}" stroke-width="{stroke:.3f}" fill-opacity="0.35" fill-rule="evenodd"'
+            lines.append(f'<path d="{" ".join(self._plan(part, corner, name in step.parts))}" {style}/>')
+            (x0, _, z0), (x1, _, z1) = (self.boxes[name] - low).tolist()
+            y = corner[1] + deep + gap + tall - z1
+            lines.append(
+                f'<rect x="{x0 + margin:.3f}" y="{y:.3f}" width="{x1 - x0:.3f}" height="{z1 - z0:.3f}" {style}/>'
+            )
+        lines += self._names(step, letter, corner)
+        lines.append(f'<text x="{margin:.3f}" y="{margin + letter / 2:.3f}">Step {number}: from above</text>')
+        lines.append(f'<text x="{margin:.3f}" y="{corner[1] + deep + gap - letter:.3f}">and from the side</text>')
+        return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
+
+    def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
+        """Outlines from above; turned parts, and wheels that stand already, as circles."""
+        low, high = self.extent
+        radius = part.turned.diameter / 2 if part.turned is not None else 0.0
+        if part.kind == "wheel" and part.contours and not fine:
+            radius = float(np.hypot(*part.contours[0].points.T).max())
+        if radius:
+            x, y, _ = (part.place @ self.stack.turn).tolist()
+            x, y = corner[0] + x - low[0] - radius, corner[1] + high[1] - y
+            half = f"a {radius:.3f} {radius:.3f} 0 1 0"
+            yield f"M {x:.3f} {y:.3f} {half} {2 * radius:.3f} 0 {half} {-2 * radius:.3f} 0 Z"
+            return
+        for contour in part.contours:
+            flat = contour.flattened(_CHORD)
+            seen = (np.column_stack([flat, np.zeros(len(flat))]) @ part.turn.T + part.place) @ self.stack.turn
+            yield _closed(corner[0] + seen[:, 0] - low[0], corner[1] + high[1] - seen[:, 1])
+        if not part.contours:
+            (x0, y0, _), (x1, y1, _) = self.boxes[part.name].tolist()
+            x = corner[0] - low[0] + np.array([x0, x1, x1, x0])
+            yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
+
+    def _names(self, step: AssemblyStep, letter: float, corner: Floats) -> Iterator[str]:
+        """Names of what comes in, at its middle, those of one place below each other; none of many."""
+        low, high = self.extent
+        taken: set[tuple[int, int]] = set()
+        for name in step.parts if len(step.parts) <= _TOLD else ():
+            x, y, _ = self.boxes[name].mean(axis=0)
+            at = corner[0] + x - low[0], corner[1] + high[1] - y
+            column, row = round(at[0] / letter / 4), round(at[1] / letter)
+            while (column, row) in taken:
+                row += 1
+            taken.add((column, row))
+            yield f'<text x="{at[0]:.3f}" y="{row * letter:.3f}" text-anchor="middle">{escape(name)}</text>'
+
+
+def _closed(x: Floats, y: Floats) -> str:
+    points = " L ".join(f"{a:.3f} {b:.3f}" for a, b in zip(x.tolist(), y.tolist(), strict=True))
+    return f"M {points} Z"

@@ -1,8 +1,8 @@
-"""Which files an export is made of: one by its suffix, or a whole folder of them."""
+"""Which files an export is made of: one by its suffix, or a whole folder of them; tables of the train as CSV."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 from geartrain.drawing.flat_files import to_dxf, to_svg
 from geartrain.errors import GearTrainError, Problem, QuestionError, install_command, suggest
 from geartrain.kinematics import graph
+from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.files import csv_text
 from geartrain.scene.solids.bearing_plates import FlatDrawing
-from geartrain.workshop.export.assembly_guide import readme
-from geartrain.workshop.export.assembly_pictures import step_pictures
-from geartrain.workshop.export.csv_tables import to_tables
+from geartrain.workshop.export.assembly_guide import readme, step_pictures
 from geartrain.workshop.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.workshop.export.parts_list import parts_list, to_csv
 from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
@@ -23,6 +23,7 @@ from geartrain.workshop.export.rexs import to_rexs
 
 if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel
+
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
 """Kinds of files that `export_files` makes."""
@@ -44,6 +45,17 @@ WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
 """Suffixes of the one file that holds a wheel."""
 
 _NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}
+_WHAT = {
+    "graphml": "links and pairs as a graph",
+    "dot": "the same for Graphviz",
+    "rexs": "the gear unit as REXS 1.4",
+    "stl": "all parts, each a closed surface, mm",
+    "glb": "all parts, turning, m",
+    "step": "all parts with exact arcs, mm",
+}
+
+_DIGITS = 15
+Rows = Sequence[Sequence[object]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,16 +266,6 @@ def parts_wanted(kinds: Sequence[str]) -> bool:
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
-_WHAT = {
-    "graphml": "links and pairs as a graph",
-    "dot": "the same for Graphviz",
-    "rexs": "the gear unit as REXS 1.4",
-    "stl": "all parts, each a closed surface, mm",
-    "glb": "all parts, turning, m",
-    "step": "all parts with exact arcs, mm",
-}
-
-
 def _whole(work: SolidModel, kind: str, turns: Fraction | None) -> Callable[[], bytes]:
     return lambda: train_file(work, kind, turns)
 
@@ -343,3 +345,115 @@ def kind_of(name: str) -> str:
         return SUFFIXES[suffix]
     fix = f"use {', '.join(SUFFIXES)}, .fmu; wheels, plates and tables are many files: --to FOLDER"
     raise GearTrainError(Problem(f"no train is written as '{suffix or name}'", "", fix, "-o"))
+
+
+# --------------------------------------------------------------------------------------------------------------- tables
+
+
+def to_tables(work: SolidModel) -> Mapping[str, str]:
+    """CSV by the name of its table: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    made = {
+        "wheels": _wheels,
+        "links": _links,
+        "pairs": _pairs,
+        "circuits": _circuits,
+        "couplings": _couplings,
+        "axes": _axes,
+        "outputs": _outputs,
+    }
+    tables = {name: make(work) for name, make in made.items()}
+    return {name: csv_text(head.split(), rows) for name, (head, rows) in tables.items()}
+
+
+def _both(value: Fraction | None) -> tuple[str, str]:
+    """The exact text and the decimal."""
+    return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
+
+
+def _wheels(work: SolidModel) -> tuple[str, Rows]:
+    rows = []
+    for name, (link, wheel) in work.train.declaration.wheels.items():
+        place = work.layout.wheels[name]
+        doubt = wheel.doubt
+        rows.append(
+            (
+                *(name, link, wheel.count, " ".join(map(str, doubt.allowed)) if doubt else "", wheel.kind),
+                *("yes" if wheel.internal else "", place.axis, place.layer, f"{place.module / wheel.slant:.9g}"),
+                *(f"{place.radius:.9g}", *(f"{each:.9g}" for each in place.centre), wheel.status, wheel.source),
+            )
+        )
+    return "wheel link teeth allowed kind internal axis layer module_mm radius_mm x_mm y_mm z_mm status source", rows
+
+
+def _links(work: SolidModel) -> tuple[str, Rows]:
+    train = work.train
+    states = train.states if work.state is None else (work.state,)
+    rows = []
+    for answer in (train.solve(state, method="exact") for state in states or (None,)):
+        for link in train.declaration.links:
+            found = answer.speeds.get(link)
+            joint = train.kinematics.tree.parent.get(link)
+            parent, axis = joint if joint else ("", "")
+            speed = _both(None if found is None else Fraction(found))
+            wheels = " ".join(train.declaration.links[link].wheels)
+            rows.append((answer.state, link, parent, axis, *speed, answer.unit, wheels))
+    return "state link joined_to axis speed speed_decimal unit wheels", rows
+
+
+def _pairs(work: SolidModel) -> tuple[str, Rows]:
+    declared = work.train.declaration
+    carriers = {circuit.id: circuit.carrier for circuit in work.train.circuits}
+    rows = []
+    for gear in declared.gears:
+        first, second = gear.pair
+        form = declared.form_of(gear)
+        counts = [declared.wheels[wheel][1].count for wheel in gear.pair]
+        distance = work.layout.axis_distance(first, second)
+        shown = "" if distance is None else f"{distance:.9g}"
+        rows.append((gear.name, first, second, *counts, carriers[gear.name], form.form if form else "", shown))
+    return "pair first second first_teeth second_teeth carrier form distance_mm", rows
+
+
+def _circuits(work: SolidModel) -> tuple[str, Rows]:
+    rows = [
+        (each.id, each.kind, each.i, each.j, each.carrier, each.a, each.b, *_both(each.ratio), each.note)
+        for each in work.train.circuits
+    ]
+    return "circuit kind i j carrier a b ratio ratio_decimal note", rows
+
+
+def _couplings(work: SolidModel) -> tuple[str, Rows]:
+    rows = []
+    for each in work.train.declaration.couplings:
+        sizes = (None if size is None else f"{size.si * 1000:.12g}" for size in (each.pin_radius, each.offset))
+        rows.append((each.name, each.kind, each.pin, each.slot, *sizes, each.status))
+    return "coupling kind pin slot pin_radius_mm offset_mm status", rows
+
+
+def _axes(work: SolidModel) -> tuple[str, Rows]:
+    rows = [
+        (axis.label, axis.carrier, axis.how, *(f"{each:.9g}" for each in (*axis.point, *axis.direction)))
+        for axis in work.layout.axes.values()
+    ]
+    return "axis carrier how x_mm y_mm z_mm dx dy dz", rows
+
+
+def _outputs(work: SolidModel) -> tuple[str, Rows]:
+    train = work.train
+    states = train.states if work.state is None else (work.state,)
+    rows = []
+    for answer in (train.solve(state, method="exact") for state in states or (None,)):
+        for name, result in answer.outputs.items():
+            speed = _both(None if result.speed is None else Fraction(result.speed))
+            rows.append(
+                (
+                    answer.state,
+                    name,
+                    result.of,
+                    result.relative_to,
+                    *speed,
+                    answer.unit,
+                    "yes" if result.holds else "no",
+                )
+            )
+    return "state output of relative_to speed speed_decimal unit holds", rows

@@ -40,6 +40,10 @@ class ListedPart:
         Of one [g].
     fits : str
         Holes or seats, and how they are joined.
+
+    See Also
+    --------
+    parts_list : gives these.
     """
 
     names: tuple[str, ...]
@@ -56,7 +60,26 @@ class ListedPart:
 
 
 def parts_list(work: SolidModel) -> list[ListedPart]:
-    """All parts of a train, those of one shape together."""
+    """All parts of a train, those of one shape together.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train at the sizes at which it is made.
+
+    Returns
+    -------
+    list of ListedPart
+        Rows of the list, with the mass of one part [g].
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
+    >>> [(row.names, row.size) for row in parts_list(work) if row.kind == "wheel"][0]
+    (('ring',), 'thickness 5')
+    """
     alike: dict[tuple[object, ...], ListedPart] = {}
     for part in work.parts:
         row = ListedPart((part.name,), part.kind, _material(work, part), _size(part), 0.0, "; ".join(_fits(work, part)))

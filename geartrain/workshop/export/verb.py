@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 _SHOWN = 8  # notices on the terminal; all are in the README
-
 Size = str | None
 
 

@@ -25,7 +25,9 @@ from geartrain.numerics.confidence_intervals import (
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
+from geartrain.report.document import Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
+from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
 from geartrain.workshop.monte_carlo.trial_run import check_trials
 
@@ -37,11 +39,15 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 
-# --------------------------------------------------------------------------------------------------------- coefficients
-
-
+FIGURES = ("mean", "greatest", "starting", "efficiency")
 _TRAIN = "train"
 """What the train itself declares is called."""
+
+_TASKS = 32  # so many where trials are few, so that all processes have work until nearly the end
+_MOST = 8  # trials of a task: what is computed once for each task then costs less than they do
+
+
+# ----------------------------------------------------------------------------------------------------- the coefficients
 
 
 class FrictionSpread(NamedTuple):
@@ -244,12 +250,7 @@ def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction
     return friction.model_copy(update=update)
 
 
-# --------------------------------------------------------------------------------------------------------------- trials
-
-
-FIGURES = ("mean", "greatest", "starting", "efficiency")
-_TASKS = 32  # so many where trials are few, so that all processes have work until nearly the end
-_MOST = 8  # trials of a task: what is computed once for each task then costs less than they do
+# ----------------------------------------------------------------------------------------------------------- the trials
 
 
 @dataclass(frozen=True)
@@ -406,3 +407,36 @@ def _link(plan: FrictionPlan) -> str:
     from geartrain.analysis.gear_train import GearTrain
 
     return plan.of or GearTrain(plan.declared).torques(plan.state).asked[0]
+
+
+# -------------------------------------------------------------------------------------------------------------- as text
+
+
+def trial_sections(found: FrictionTrials) -> Iterator[Section]:
+    """What of the torque over the run is sure, given what is of friction."""
+    lines = [f"{found.done} trials, seed {found.seed}; estimates with the interval that holds with 95 %."]
+    if not found.complete:
+        lines.insert(0, f"PARTIAL: stopped after {found.done} of {found.wanted} trials.")
+    drawn = ", ".join(f"{name} {each.sliding:g} ± {each.deviation:g}" for name, each in found.spreads.items())
+    lines.append(f"Drawn from normal distributions, what falls below 0 as 0: {drawn}.")
+    if found.locks.count:
+        lines.append(f"The train locks in {share_text(found.locks)} of the trials, which have no mean torque.")
+    yield Section("Trials of friction", lines, (_figures(found),))
+
+
+def _figures(found: FrictionTrials) -> Table:
+    told = {
+        f"mean torque at {found.link}": found.mean,
+        "greatest": found.greatest,
+        "starting": found.starting,
+        "efficiency": found.efficiency,
+    }
+    rows = [_row(name, figure) for name, figure in told.items() if len(figure.values)]
+    return Table(("over the trials", "mean", "deviation", "95 % lie between", "and"), rows)
+
+
+def _row(name: str, figure: TrialFigure) -> tuple[str, ...]:
+    percentiles = figure.percentiles
+    low, high = min(percentiles), max(percentiles)
+    ends = f"{percentiles[low].value:.5g}", f"{percentiles[high].value:.5g}"
+    return (name, number_text(figure.mean, 5), number_text(figure.deviation), *ends)

@@ -1,111 +1,70 @@
-"""Trials of a train cut by hand as pictures, one for each thing they tell, and how an estimate settles as they grow."""
+"""Pictures of trials of a train cut by hand: errors of pointers, probabilities of a jam, and whose errors matter.
+
+`monte_carlo_figure` draws one picture of a result. Behind it are plots of plain numbers: bands and histograms of
+errors, a map of probabilities over two quantities, a tornado chart of shares of variance, and the convergence of an
+estimate.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from textwrap import shorten
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from geartrain.drawing.style import GREY, SMALL, TEXT, WIDTH, Axes, Figure, headed, plain, series_look
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    RED,
+    SCALE,
+    SKY,
+    SMALL,
+    TEXT,
+    WIDTH,
+    Axes,
+    Figure,
+    Line2D,
+    MaxNLocator,
+    Patch,
+    headed,
+    plain,
+    series_look,
+)
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import series_colour
-from geartrain.workshop.monte_carlo.jam_map import jam_map_figure
-from geartrain.workshop.monte_carlo.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
-from geartrain.workshop.monte_carlo.tornado_chart import VarianceShare, tornado_figure
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from geartrain.numerics import ProbabilityEstimate
     from geartrain.numerics.arrays import Floats
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import TrialResults
-
-
-_TICKS = 8  # counts of trials that are written, or a few more
-
-
-@dataclass(frozen=True, slots=True)
-class ConvergenceTrace:
-    """An estimate after so many trials, and its 95 percent interval: arrays (n,).
-
-    trials      rising, above 0
-    value       the estimate, from `low` to `high`
-    truth       what it should come to, where that is known
-    """
-
-    trials: Floats
-    value: Floats
-    low: Floats
-    high: Floats
-    truth: float | None = None
-
-
-def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "probability") -> Figure:
-    """Each estimate with its interval over the number of trials, and below how wide the interval is.
-
-    The dotted lines show what is known, and a slope of -1/2. Raises `QuestionError` where there is nothing to draw.
-    """
-    if not estimates or any(each.trials.size == 0 or each.trials.min() <= 0 for each in estimates.values()):
-        raise QuestionError(
-            Problem("no convergence to draw", "no estimate after a number of trials", "give one, after 1 trial or more")
-        )
-    figure = Figure(figsize=(WIDTH, 6.0), dpi=100, layout="constrained")
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    for axes in (above, below):
-        plain(axes)
-        axes.set_xscale("log")
-    for at, (name, each) in enumerate(estimates.items()):
-        look = {**series_look(at), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
-        above.fill_between(each.trials, each.low, each.high, color=series_colour(at), alpha=0.15, linewidth=0)
-        above.plot(each.trials, each.value, label=name, gid=name, **look)
-        if each.truth is not None:
-            above.axhline(each.truth, color=series_colour(at), linewidth=1.0, linestyle=":", gid=f"truth of {name}")
-        width = (each.high - each.low) / 2
-        seen = width > 0
-        below.plot(each.trials[seen], width[seen], gid=f"width of {name}", **look)
-    _slope(below, list(estimates.values()))
-    above.set_ylabel(unit, fontsize=TEXT)
-    below.set_ylabel("half width of the\n95 % interval", fontsize=TEXT)
-    widths = np.concatenate([(each.high - each.low) / 2 for each in estimates.values()])
-    if (widths > 0).any():
-        below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
-        below.set_yscale("log")
-    counts = sorted({float(count) for each in estimates.values() for count in each.trials})
-    below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
-    below.set_xticks([], minor=True)
-    below.xaxis.set_major_formatter(lambda count, _: f"{count:,.0f}")
-    below.set_xlabel("trials", fontsize=TEXT)
-    figure.legend(*above.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False)
-    return figure
-
-
-def _slope(axes: Axes, estimates: list[ConvergenceTrace]) -> None:
-    """A line that falls as the root of the number of trials."""
-    trials = np.concatenate([each.trials for each in estimates])
-    widths = np.concatenate([(each.high - each.low) / 2 for each in estimates])
-    seen = widths > 0
-    if not seen.any() or trials.min() == trials.max():
-        return
-    ends = np.array([trials.min(), trials.max()])
-    level = float(np.exp(np.mean(np.log(widths[seen] * np.sqrt(trials[seen])))))
-    axes.plot(ends, 0.6 * level / np.sqrt(ends), color=GREY, linewidth=1.0, linestyle=":", gid="slope")
-    axes.annotate(
-        "slope -1/2",
-        (ends[0], 0.6 * level / np.sqrt(ends[0])),
-        xytext=(0, -6),
-        textcoords="offset points",
-        fontsize=SMALL,
-        color=GREY,
-        va="top",
-        ha="left",
-    )
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults
 
 
 PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")
+PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)
+MOST = 20
+LEVELS = (0.01, 0.1, 0.5)
+Interval = tuple[float, float]
+_Given = TypeVar("_Given")
+_ROW = 2.3  # inches of a panel
+_POINTERS = 12  # drawn: those that stray most
+_SHARES = ("every trial", "95 % of the trials", "50 %")  # of the trials in a band
+_SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which lie on each other
+_DASHES: Any = (0, (4, 1.2))
+_STILL = 90  # letters of the names of pointers that never stray
+_BINS = (12, 60)  # fewest and most of a histogram
+_LEVEL_DASHES: tuple[Any, ...] = ((0, (1.2, 1.2)), (0, (5, 2)), "solid")
+_JAM_TICKS = (0.0, 0.1, 0.5, 1.0)
+_BOUND = 0.01  # of the bound, where its line is drawn
+_TICKS = 8  # counts of trials that are written, or a few more
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
@@ -228,3 +187,382 @@ def clearances_figure(cleared: Sequence[ClearanceCase], title: str = "", event: 
     factors = bool(clearances) and clearances[0] >= 1
     across = "clearance factor" if factors else "share of each pair's own window of clearance"
     return jam_map_figure(clearances, scales, table, axis_names=(across, "errors, over those declared"), title=title)
+
+
+# --------------------------------------------------------------------------------------------------- errors of pointers
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorBands:
+    """What part of the trials stays within what error, over the turns of the input: arrays (positions,).
+
+    turns             of the input
+    least, greatest   error of any trial (deg)
+    percentiles       2.5, 25, 50, 75 and 97.5 percent of the trials are below (deg), (5, positions)
+    trials            that run; those that jam point nowhere
+    example           error of one trial (deg), or None
+    """
+
+    turns: Floats
+    least: Floats
+    greatest: Floats
+    percentiles: Floats
+    trials: int
+    example: Floats | None = None
+
+    @classmethod
+    def of(cls, turns: ArrayLike, errors: ArrayLike) -> ErrorBands:
+        """From the errors (deg) of every trial, (trials, positions); trials with a NaN are left out.
+
+        Raises `QuestionError` where no trial is left, or where positions and turns are not as many.
+        """
+        places, table = np.asarray(turns, dtype=float), np.atleast_2d(np.asarray(errors, dtype=float))
+        table = table[np.isfinite(table).all(axis=1)]
+        if table.shape[1:] != places.shape or not table.size:
+            raise _nothing(f"errors of shape {table.shape} at {places.size} positions")
+        levels = np.percentile(table, PERCENTS, axis=0)
+        return cls(places, table.min(axis=0), table.max(axis=0), levels, len(table), table[0])
+
+
+def pointer_error_figure(pointers: Mapping[str, ErrorBands], lead: str = "the input") -> Figure:
+    """Of each pointer: median, the middle 50 and 95 percent, and the extremes of its error over the turns of `lead`.
+
+    The thin dashed line is one trial. Raises `QuestionError` where there is none to draw.
+    """
+    shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
+    spans = {float(np.ptp(bands.turns)) for bands in shown.values()}
+    figure, panels = _panels(shown, sharex=len(spans) <= 1)  # each over a turn of its own pointer
+    for axes, (name, bands) in zip(panels, shown.items(), strict=True):
+        low, lower, middle, upper, high = bands.percentiles
+        for each in zip((bands.least, low, lower), (bands.greatest, high, upper), _SHADES, _SHARES, strict=True):
+            _between(axes, bands.turns, *each)
+        if bands.example is not None:
+            axes.plot(
+                bands.turns, bands.example, color=RED, linewidth=0.9, linestyle=_DASHES, label="one of them", gid="one"
+            )
+        axes.plot(bands.turns, middle, color=BLACK, linewidth=1.6, label="median", gid="median")
+        axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
+        axes.set_ylabel(f"{name}\nerror (deg)", fontsize=TEXT)
+        axes.set_xlim(bands.turns[0], bands.turns[-1])
+    panels[-1].set_xlabel(f"turns of {lead}{left}", fontsize=TEXT)
+    _legend(figure, panels[0])
+    return figure
+
+
+def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
+    """How often each pointer is how far off (deg), with the percentiles 2.5, 25, 50, 75 and 97.5 as lines.
+
+    errors   pointer -> its error in every trial; NaN, of trials that jam, is left out
+    note     stands under the last panel, such as where in the cycle the errors are
+    Raises `QuestionError` where there is nothing to draw.
+    """
+    shown, left = _most(errors, _spread)
+    figure, panels = _panels(shown)
+    for axes, (name, given) in zip(panels, shown.items(), strict=True):
+        values = np.asarray(given, dtype=float).ravel()
+        values = values[np.isfinite(values)]
+        if not values.size:
+            raise _nothing(f"'{name}' has no trial that runs")
+        axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=(1, 2, 5, 10), integer=True))
+        _percentiles(axes, values)
+        axes.set_ylabel(f"{name}\ntrials of {values.size:,}", fontsize=TEXT)
+    panels[-1].set_xlabel(f"error (deg){'; ' if note else ''}{note}{left}", fontsize=TEXT)
+    return figure
+
+
+def _most(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
+    """The pointers that stray most, in the order given, and words on the others; none that never strays."""
+    straying = [name for name in what if spread(what[name]) > 0] or list(what)
+    names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
+    left, still = len(straying) - len(names), [name for name in what if name not in straying]
+    words = f"\n{left} pointers that stray less are left out: name them with --output" if left else ""
+    if still:
+        words += f"\nnever astray: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
+    return {name: each for name, each in what.items() if name in names}, words
+
+
+def _spread(given: ArrayLike) -> float:
+    """Of the trials that run; 0 where none does."""
+    values = np.asarray(given, dtype=float)
+    values = values[np.isfinite(values)]
+    return float(np.ptp(values)) if values.size else 0.0
+
+
+def _percentiles(axes: Axes, values: Floats) -> None:
+    low, lower, middle, upper, high = np.percentile(values, PERCENTS)
+    axes.axvline(middle, color=BLACK, linewidth=1.8, label=f"median {middle:.3g}", gid="median")
+    for ends, style, share in (((lower, upper), (0, (6, 2)), 50), ((low, high), (0, (2, 1.5)), 95)):
+        words = f"{share} %: {ends[0]:.3g} to {ends[1]:.3g}"
+        for at, end in enumerate(ends):
+            axes.axvline(end, color=RED, linewidth=1.5, linestyle=style, label=None if at else words, gid=f"{share} %")
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize=SMALL, ncols=3)
+
+
+def _edges(values: Floats) -> Floats:
+    """Bins by the rule of Freedman and Diaconis, 2 IQR / n^(1/3) wide, within bounds; around a single value, some."""
+    low, high = float(values.min()), float(values.max())
+    if high - low <= 1e-12 * max(abs(low), abs(high)):  # bins narrower than rounding would be empty or endless
+        half = max(abs(low), 1e-9) * 0.1
+        return np.linspace(low - half, high + half, _BINS[0] + 1)
+    middle = float(np.subtract(*np.percentile(values, (75, 25))))
+    width = 2 * middle / values.size ** (1 / 3)
+    bins = _BINS[1] if width <= 0 else int(np.clip((high - low) / width, *_BINS))
+    return np.linspace(low, high, bins + 1)
+
+
+def _panels(what: Mapping[str, Any], sharex: bool = False) -> tuple[Figure, Sequence[Axes]]:
+    if not what:
+        raise _nothing("no pointer is given")
+    figure = Figure(figsize=(WIDTH, 1.3 + _ROW * len(what)), dpi=100, layout="constrained")
+    panels = list(figure.subplots(len(what), 1, sharex=sharex, squeeze=False)[:, 0])
+    for axes in panels:
+        plain(axes)
+    return figure, panels
+
+
+def _between(axes: Axes, x: Floats, low: Floats, high: Floats, alpha: float, label: str) -> None:
+    axes.fill_between(x, low, high, color=BLUE, alpha=alpha, linewidth=0, gid=label)
+
+
+def _bands_key() -> list[Patch]:
+    """Bands as they are seen: each lies on those that are wider."""
+    through = np.cumprod([1 - shade for shade in _SHADES])
+    return [
+        Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
+        for left, label in zip(through, _SHARES, strict=True)
+    ]
+
+
+def _legend(figure: Figure, axes: Axes) -> None:
+    handles = [*_bands_key(), *axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower left", ncols=5, fontsize=SMALL, frameon=False)
+
+
+def _nothing(why: str) -> QuestionError:
+    return QuestionError(Problem("there is no error to draw", why, "give trials that turn, and one pointer or more"))
+
+
+# ------------------------------------------------------------------------------------------------- map of probabilities
+
+
+def jam_map_figure(
+    clearances: ArrayLike,
+    sizes: ArrayLike,
+    chances: ArrayLike,
+    bound: ArrayLike | None = None,
+    axis_names: tuple[str, str] = ("clearance factor", "error of place (standard deviation, % of the pitch)"),
+    title: str = "",
+) -> Figure:
+    """Probability of a jam as shade, with lines where it is 1, 10 and 50 percent.
+
+    clearances  (n,), rising; `sizes` of the error (m,), rising
+    chances     of a jam, 0 to 1, (n, m); NaN where there is no pair
+    bound       that the chance cannot exceed, (n, m): drawn where it is 1 percent
+    axis_names  of clearances and sizes
+
+    Raises `QuestionError` for arrays that are no map.
+    """
+    x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, chances))
+    limit = None if bound is None else np.asarray(bound, dtype=float)
+    _check(x, y, table, limit)
+    figure = Figure(figsize=(WIDTH, 6.4), dpi=100, layout="constrained")
+    axes = figure.add_subplot()
+    shown = np.ma.masked_invalid(table.T)
+    mesh = axes.pcolormesh(x, y, shown, shading="gouraud", cmap=SCALE, vmin=0.0, vmax=1.0, rasterized=True)
+    mesh.set_gid("map")
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, ticks=_JAM_TICKS, format=lambda tick, _: f"{tick:.0%}")
+    bar.set_label("probability of a jam", fontsize=TEXT)
+    bar.ax.tick_params(labelsize=SMALL)
+    handles = [_line(axes, x, y, shown, *each) for each in zip(LEVELS, _LEVEL_DASHES, strict=True)]
+    if limit is not None:
+        handles.append(_bound(axes, x, y, limit))
+    figure.legend(handles=handles, loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False, handlelength=4)
+    axes.set_xlabel(axis_names[0], fontsize=TEXT)
+    axes.set_ylabel(axis_names[1], fontsize=TEXT)
+    axes.tick_params(labelsize=SMALL)
+    if title:
+        axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK)
+    return figure
+
+
+def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: Any) -> Line2D:
+    # chances go from 0 to 1 in few cells: between them the arc of the root runs straighter than they do
+    contour = axes.contour(x, y, _straight(shown), levels=[_straight(level)], colors=BLACK, linewidths=2.0)
+    contour.set_linestyle([dashes])
+    contour.set_gid(f"{level:.0%}")
+    return Line2D([], [], color=BLACK, linestyle=dashes, linewidth=2.0, label=f"{level:.0%}")
+
+
+def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
+    """Below this line the bound alone says that a jam is rare."""
+    color = ORANGE
+    # a bound of 0 has no logarithm; one that is far rarer than the line is as good
+    rare = np.log10(np.clip(np.ma.masked_invalid(limit.T), 1e-9, 1.0))
+    contour = axes.contour(x, y, rare, levels=[np.log10(_BOUND)], colors=color, linewidths=2.0)
+    contour.set_linestyle(["dashdot"])
+    contour.set_gid("bound")
+    return Line2D([], [], color=color, linestyle="dashdot", linewidth=2.0, label=f"bound of {_BOUND:.0%}")
+
+
+def _straight(chance: Any) -> Any:
+    return np.arcsin(np.sqrt(chance))
+
+
+def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
+    finite = table[np.isfinite(table)]
+    rising = all(each.ndim == 1 and each.size > 1 and (np.diff(each) > 0).all() for each in (x, y))
+    shaped = table.shape == (x.size, y.size) and (limit is None or limit.shape == table.shape)
+    if not (rising and shaped and finite.size and finite.min() >= 0 and finite.max() <= 1):
+        raise QuestionError(
+            Problem(
+                f"no map to draw: clearances {x.shape}, sizes {y.shape}, chances {table.shape}",
+                "a map has two or more rising values on each side, and a chance from 0 to 1 for each two of them",
+                "give arrays (n,), (m,) and (n, m)",
+            )
+        )
+
+
+# -------------------------------------------------------------------------------------------------------- tornado chart
+
+
+@dataclass(frozen=True, slots=True)
+class VarianceShare:
+    """A part of the variance of a result that one cause brings.
+
+    own        by itself, with its `own_within` interval or None
+    whole      together with all it acts with, and its `whole_within`; None where causes only add
+    """
+
+    own: float
+    own_within: Interval | None = None
+    whole: float | None = None
+    whole_within: Interval | None = None
+
+    @property
+    def rank(self) -> float:
+        """By what the bars are sorted."""
+        return self.own if self.whole is None else self.whole
+
+
+def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: int = MOST) -> Figure:
+    """A bar for each cause, sorted: what it brings alone, and with others; whiskers are intervals.
+
+    Beyond `most` causes the least are not drawn, and a line says how many. Raises `QuestionError` where there is none.
+    """
+    if not shares or most < 1:
+        raise QuestionError(Problem("no sensitivity to draw", "no cause is given", "give the share of one or more"))
+    ranked = sorted(shares.items(), key=lambda each: -each[1].rank)
+    shown, rest = ranked[:most], ranked[most:]
+    figure = Figure(figsize=(WIDTH, 1.6 + 0.34 * len(shown)), dpi=100, layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    axes.grid(False, axis="y")
+    both = any(share.whole is not None for _, share in shown)
+    for at, (_, share) in enumerate(shown):
+        if share.whole is not None:
+            _bar(axes, at, share.whole, share.whole_within, {"color": SKY, "height": 0.72, "gid": "whole"}, 0.18)
+        _bar(axes, at, share.own, share.own_within, {"color": BLUE, "height": 0.36, "gid": "own"}, -0.08)
+    axes.set_yticks(range(len(shown)), [name for name, _ in shown])
+    axes.set_ylim(len(shown) - 0.4, -0.6)
+    axes.axvline(0.0, color=GREY, linewidth=0.8)
+    axes.set_xlabel(f"share of the variance{_left_out(rest)}", fontsize=TEXT)
+    axes.set_title(title, fontsize=TEXT, loc="left", color=BLACK)
+    if both:
+        handles = [Patch(color=BLUE, label="alone (first order)"), Patch(color=SKY, label="with others (total)")]
+        axes.legend(handles=handles, loc="lower right", fontsize=SMALL, frameon=False)
+    return figure
+
+
+def _bar(axes: Axes, at: int, value: float, within: Interval | None, look: dict[str, Any], beside: float) -> None:
+    axes.barh(at, value, **look)
+    if within is not None:
+        low, high = within
+        axes.plot([low, high], [at + beside] * 2, color=BLACK, linewidth=1.2, marker="|", markersize=6, gid="within")
+
+
+def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
+    if not rest:
+        return ""
+    each = "one" if len(rest) == 1 else "each"
+    return f"; {len(rest)} more, {each} {max(share.rank for _, share in rest):.2g} or less"
+
+
+# ---------------------------------------------------------------------------------------------------------- convergence
+
+
+@dataclass(frozen=True, slots=True)
+class ConvergenceTrace:
+    """An estimate after so many trials, and its 95 percent interval: arrays (n,).
+
+    trials      rising, above 0
+    value       the estimate, from `low` to `high`
+    truth       what it should come to, where that is known
+    """
+
+    trials: Floats
+    value: Floats
+    low: Floats
+    high: Floats
+    truth: float | None = None
+
+
+def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "probability") -> Figure:
+    """Each estimate with its interval over the number of trials, and below how wide the interval is.
+
+    The dotted lines show what is known, and a slope of -1/2. Raises `QuestionError` where there is nothing to draw.
+    """
+    if not estimates or any(each.trials.size == 0 or each.trials.min() <= 0 for each in estimates.values()):
+        raise QuestionError(
+            Problem("no convergence to draw", "no estimate after a number of trials", "give one, after 1 trial or more")
+        )
+    figure = Figure(figsize=(WIDTH, 6.0), dpi=100, layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    for axes in (above, below):
+        plain(axes)
+        axes.set_xscale("log")
+    for at, (name, each) in enumerate(estimates.items()):
+        look = {**series_look(at), "linewidth": 1.6, "marker": "o", "markersize": 3.5}
+        above.fill_between(each.trials, each.low, each.high, color=series_colour(at), alpha=0.15, linewidth=0)
+        above.plot(each.trials, each.value, label=name, gid=name, **look)
+        if each.truth is not None:
+            above.axhline(each.truth, color=series_colour(at), linewidth=1.0, linestyle=":", gid=f"truth of {name}")
+        width = (each.high - each.low) / 2
+        seen = width > 0
+        below.plot(each.trials[seen], width[seen], gid=f"width of {name}", **look)
+    _slope(below, list(estimates.values()))
+    above.set_ylabel(unit, fontsize=TEXT)
+    below.set_ylabel("half width of the\n95 % interval", fontsize=TEXT)
+    widths = np.concatenate([(each.high - each.low) / 2 for each in estimates.values()])
+    if (widths > 0).any():
+        below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
+        below.set_yscale("log")
+    counts = sorted({float(count) for each in estimates.values() for count in each.trials})
+    below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
+    below.set_xticks([], minor=True)
+    below.xaxis.set_major_formatter(lambda count, _: f"{count:,.0f}")
+    below.set_xlabel("trials", fontsize=TEXT)
+    figure.legend(*above.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=SMALL, frameon=False)
+    return figure
+
+
+def _slope(axes: Axes, estimates: list[ConvergenceTrace]) -> None:
+    """A line that falls as the root of the number of trials."""
+    trials = np.concatenate([each.trials for each in estimates])
+    widths = np.concatenate([(each.high - each.low) / 2 for each in estimates])
+    seen = widths > 0
+    if not seen.any() or trials.min() == trials.max():
+        return
+    ends = np.array([trials.min(), trials.max()])
+    level = float(np.exp(np.mean(np.log(widths[seen] * np.sqrt(trials[seen])))))
+    axes.plot(ends, 0.6 * level / np.sqrt(ends), color=GREY, linewidth=1.0, linestyle=":", gid="slope")
+    axes.annotate(
+        "slope -1/2",
+        (ends[0], 0.6 * level / np.sqrt(ends[0])),
+        xytext=(0, -6),
+        textcoords="offset points",
+        fontsize=SMALL,
+        color=GREY,
+        va="top",
+        ha="left",
+    )

@@ -11,9 +11,8 @@ from geartrain.report.document import Document, Section, Table, cut
 if TYPE_CHECKING:
     from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorStatistics
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import PairEventRates
+    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:

@@ -18,9 +18,8 @@ from geartrain.workshop.monte_carlo.trial_run import run_course
 
 if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
-    from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import TrialResults
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults
 
 
 ErrorSizes = dict[str, dict[str, dict[str, float]]]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.workshop.cutting.cut_wheel import CutWheel
-from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,7 +14,7 @@ from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.transmission import ConstantLag
 from geartrain.workshop.cutting.cut_wheel import CutWheel
-from geartrain.workshop.cutting.displaced_wheel import DisplacedWheel
+from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel
 
 if TYPE_CHECKING:
@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.workshop.cutting.file_strokes import FilingWork
     from geartrain.workshop.cutting.trial_transmission import TrialTransmissionFunction
-    from geartrain.workshop.monte_carlo.trial_pair import TrialPair
-    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
+    from geartrain.workshop.monte_carlo.trial_plan import TrialPair, TrialPlan
 
     Marks = NDArray[np.uint8]
 

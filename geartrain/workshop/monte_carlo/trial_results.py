@@ -1,18 +1,24 @@
-"""What many trials say: how often pairs jam, and by pair and output all that is known of them."""
+"""The results of many trials: how often pairs jam, and how far pointers are off, at random places and along a turn."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import nan, sqrt
-from typing import TYPE_CHECKING, TypedDict, cast
+from math import degrees, nan, sqrt
+from typing import TYPE_CHECKING, NamedTuple, TypedDict, cast
 
 import numpy as np
 
-from geartrain.numerics.confidence_intervals import IntervalEstimate, ProbabilityEstimate, deviation_of, mean_of
+from geartrain.numerics.confidence_intervals import (
+    IntervalEstimate,
+    ProbabilityEstimate,
+    deviation_of,
+    in_degrees,
+    mean_of,
+    percentiles_of,
+)
 from geartrain.numerics.results import Key, Result, finite
-from geartrain.workshop.monte_carlo.pointer_error import FirstOrderError, PointerErrorCourse, PointerErrorStatistics
 from geartrain.workshop.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
 
 if TYPE_CHECKING:
@@ -23,95 +29,11 @@ if TYPE_CHECKING:
 
     Marks = NDArray[np.uint8]
 
+
+FEWEST = 30
+"""Trials that must run for a pointer to be judged by them alone."""
+
 EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, "disengaged": DISENGAGED}
-
-
-class EventRates(TypedDict):
-    """How often wheels do what beside turning."""
-
-    jam: ProbabilityEstimate
-    clash: ProbabilityEstimate
-    stops: ProbabilityEstimate
-    standstill: ProbabilityEstimate
-    disengaged: ProbabilityEstimate
-
-
-@dataclass(frozen=True, slots=True)
-class PairEventRates(Result):
-    """How often one pair, or any pair of the train, does what over its full cycle of teeth.
-
-    Attributes
-    ----------
-    name : str
-        Of the pair, or "the train".
-    events : mapping of str to ProbabilityEstimate
-        Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut.
-    uncut : int
-        Trials that hold a wheel that cannot be cut.
-    play : float
-        Nominal play of even wheels [pitch of the driven wheel]; NaN for the train.
-    bound : float
-        Bound on the probability of a jam by pitch errors alone; NaN where other errors take part.
-
-    See Also
-    --------
-    TrialResults : holds them
-    """
-
-    KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
-
-    name: str
-    events: Mapping[str, ProbabilityEstimate]
-    uncut: int
-    play: float = nan
-    bound: float = nan
-
-    @property
-    def rates(self) -> EventRates:
-        """The events, by name."""
-        return cast("EventRates", self.events)
-
-
-@dataclass(frozen=True, slots=True)
-class FilingStatistics(Result):
-    """How much one pair, or the whole train, was filed until it passed.
-
-    Attributes
-    ----------
-    name : str
-        Of the pair, or "the train".
-    filed : ProbabilityEstimate
-        How often it jams before it is filed.
-    strokes, teeth : IntervalEstimate
-        Mean number of strokes, and of teeth that took them, over all trials.
-    most : int
-        Strokes of the trial that took most.
-    jams : ProbabilityEstimate
-        How often it jams after, a flank being spoilt first.
-
-    See Also
-    --------
-    TrialResults : holds them
-    """
-
-    KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
-
-    name: str
-    filed: ProbabilityEstimate
-    strokes: IntervalEstimate
-    teeth: IntervalEstimate
-    most: int
-    jams: ProbabilityEstimate
-
-
-@dataclass(frozen=True)
-class ConvergenceStep:
-    """A probability from the first so many trials."""
-
-    KEYS = ("trials", Key("", "share"))
-
-    trials: int
-    share: ProbabilityEstimate
 
 
 @dataclass(frozen=True)
@@ -288,3 +210,258 @@ def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
         found[name] = product - part * whole / count if count else 0.0
     total = sum(found.values())
     return {name: each / total for name, each in found.items()} if total else {}
+
+
+# ---------------------------------------------------------------------------------------------------------------- pairs
+
+
+class EventRates(TypedDict):
+    """How often wheels do what beside turning."""
+
+    jam: ProbabilityEstimate
+    clash: ProbabilityEstimate
+    stops: ProbabilityEstimate
+    standstill: ProbabilityEstimate
+    disengaged: ProbabilityEstimate
+
+
+@dataclass(frozen=True, slots=True)
+class PairEventRates(Result):
+    """How often one pair, or any pair of the train, does what over its full cycle of teeth.
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or "the train".
+    events : mapping of str to ProbabilityEstimate
+        Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut.
+    uncut : int
+        Trials that hold a wheel that cannot be cut.
+    play : float
+        Nominal play of even wheels [pitch of the driven wheel]; NaN for the train.
+    bound : float
+        Bound on the probability of a jam by pitch errors alone; NaN where other errors take part.
+
+    See Also
+    --------
+    TrialResults : holds them
+    """
+
+    KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
+
+    name: str
+    events: Mapping[str, ProbabilityEstimate]
+    uncut: int
+    play: float = nan
+    bound: float = nan
+
+    @property
+    def rates(self) -> EventRates:
+        """The events, by name."""
+        return cast("EventRates", self.events)
+
+
+@dataclass(frozen=True, slots=True)
+class FilingStatistics(Result):
+    """How much one pair, or the whole train, was filed until it passed.
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or "the train".
+    filed : ProbabilityEstimate
+        How often it jams before it is filed.
+    strokes, teeth : IntervalEstimate
+        Mean number of strokes, and of teeth that took them, over all trials.
+    most : int
+        Strokes of the trial that took most.
+    jams : ProbabilityEstimate
+        How often it jams after, a flank being spoilt first.
+
+    See Also
+    --------
+    TrialResults : holds them
+    """
+
+    KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
+
+    name: str
+    filed: ProbabilityEstimate
+    strokes: IntervalEstimate
+    teeth: IntervalEstimate
+    most: int
+    jams: ProbabilityEstimate
+
+
+@dataclass(frozen=True)
+class ConvergenceStep:
+    """A probability from the first so many trials."""
+
+    KEYS = ("trials", Key("", "share"))
+
+    trials: int
+    share: ProbabilityEstimate
+
+
+# ------------------------------------------------------------------------------------------------------------- pointers
+
+
+class FirstOrderError(NamedTuple):
+    """Root mean square (rad) of what superposition to first order is off, and of the errors there."""
+
+    off: float
+    rms: float
+
+
+@dataclass(frozen=True, slots=True)
+class PointerErrorStatistics(Result):
+    """How far one output is from where even teeth would have it on average, at random positions of the input.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    errors : ndarray
+        Of the trials in which no pair that moves it jams or is lost, in their order [rad].
+    all : ndarray
+        Of all trials, as the pushing flanks alone would have it; none where nothing touches [rad].
+    stopped : int
+        Trials left out of `errors`.
+    first : FirstOrderError
+        Rms of what superposition to first order is off, and of the errors there [rad].
+    shares : mapping of str to float
+        Pair -> its share of the variance, from superposition; they sum to 1.
+
+    See Also
+    --------
+    TrialResults : holds them
+    """
+
+    KEYS = (
+        Key("output", "name"),
+        Key("trials", "runs"),
+        "stopped",
+        "of_all",
+        Key("mean_deg", "mean", in_degrees),
+        Key("deviation_deg", "deviation", in_degrees),
+        Key("percentiles_deg", "percentiles", in_degrees),
+        Key("greatest_deg", "greatest", degrees),
+        Key("deviation_of_all_deg", "deviation_of_all", in_degrees),
+        Key("first_order", "first", keys=(Key("off_deg", "off", degrees), Key("rms_deg", "rms", degrees))),
+        Key("variance_shares", "shares"),
+    )
+
+    name: str
+    errors: Floats
+    all: Floats
+    stopped: int
+    first: FirstOrderError
+    shares: Mapping[str, float]
+
+    @property
+    def runs(self) -> int:
+        """Trials that run."""
+        return len(self.errors)
+
+    @property
+    def kept(self) -> Floats:
+        """The trials to look at: those that run, or all where too few do."""
+        return self.all if self.of_all else self.errors
+
+    @property
+    def of_all(self) -> bool:
+        """True if so few trials run that all are looked at, as the pushing flanks alone would have them."""
+        return len(self.errors) < FEWEST
+
+    @property
+    def mean(self) -> IntervalEstimate:
+        """Mean (rad)."""
+        return mean_of(self.kept)
+
+    @property
+    def deviation(self) -> IntervalEstimate:
+        """Standard deviation (rad)."""
+        return deviation_of(self.kept)
+
+    @property
+    def deviation_of_all(self) -> IntervalEstimate:
+        """Standard deviation in all trials, as the pushing flanks alone would have it (rad)."""
+        return deviation_of(self.all)
+
+    @property
+    def percentiles(self) -> dict[float, IntervalEstimate]:
+        """Percentiles (rad)."""
+        return percentiles_of(self.kept)
+
+    @property
+    def greatest(self) -> float:
+        """Greatest error either way that was seen (rad)."""
+        return float(np.abs(self.kept).max(initial=0.0))
+
+    def beyond(self, angle: float) -> ProbabilityEstimate:
+        """How often the error exceeds an angle, either way.
+
+        Parameters
+        ----------
+        angle : float
+            0 or more [rad].
+        """
+        return ProbabilityEstimate(int(np.count_nonzero(np.abs(self.kept) > angle)), len(self.kept))
+
+
+@dataclass(frozen=True, slots=True)
+class PointerErrorCourse(Result):
+    """Errors of one output along one turn of it, trial by trial.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    turns : ndarray
+        Where the input stands, (n,) [turn].
+    errors : ndarray
+        By trial, (trials, n) [rad].
+
+    See Also
+    --------
+    run_course : gives it
+    """
+
+    KEYS = (
+        Key("output", "name"),
+        Key("trials", "count"),
+        "turns",
+        "bands_deg",
+        Key("greatest_deg", "percentiles", in_degrees),
+    )
+
+    name: str
+    turns: Floats
+    errors: Floats
+
+    @property
+    def greatest(self) -> Floats:
+        """Greatest error of each trial along the turn, either way (rad)."""
+        found: Floats = np.abs(self.errors).max(axis=1)
+        return found
+
+    @property
+    def count(self) -> int:
+        """Number of trials."""
+        return len(self.errors)
+
+    @property
+    def percentiles(self) -> dict[float, IntervalEstimate]:
+        """Percentiles of the greatest errors (rad)."""
+        return percentiles_of(self.greatest)
+
+    @property
+    def bands_deg(self) -> Floats:
+        """The bands in degrees, (7, n)."""
+        found: Floats = np.degrees(self.bands())
+        return found
+
+    def bands(self) -> Floats:
+        """Least, 2.5, 25, 50, 75, 97.5 % and greatest at each position (rad), (7, n)."""
+        found: Floats = np.quantile(self.errors, (0, 0.025, 0.25, 0.5, 0.75, 0.975, 1), axis=0)
+        return found

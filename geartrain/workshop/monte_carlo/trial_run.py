@@ -18,7 +18,6 @@ from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.pointer_error import PointerErrorCourse
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import (
     UNCUT,
@@ -28,7 +27,7 @@ from geartrain.workshop.monte_carlo.trial_block import (
     judge_trial_pairs,
     trial_pointers,
 )
-from geartrain.workshop.monte_carlo.trial_results import TrialResults, turning_trials
+from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults, turning_trials
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

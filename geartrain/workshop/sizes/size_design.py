@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf, isnan
+from math import degrees, inf, isnan
 from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.errors import GearTrainError, check_choice
@@ -22,6 +22,8 @@ PARAMETERS = ("radii", "window", "half_angle")
 """What of a design can be free; `half_angle` is that of both wheels."""
 AIMS = ("loss", "error", "impact", "jam")
 """What a design can be best in; of `jam` the margin before it is wanted large, of the others the figure small."""
+DIGITS = 6
+"""Decimals of radii and windows in a declaration: reported figures are those of the rounded sizes."""
 
 
 def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
@@ -273,3 +275,20 @@ class SizeLimit(Result):
 def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:
     """Whether a design turns and keeps all limits."""
     return design.runs and all(limit.excess(design) <= 0 for limit in limits)
+
+
+def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
+    """Sizes as a declaration says them; `exact`: with all digits of a float."""
+    angles, lengths = ("", "") if exact else (".10g", f".{DIGITS}f")
+    first, second = (f"{degrees(angle):{angles}} deg" for angle in sizes.half_angles)
+    return {
+        "form": "triangular",
+        "half_angle": first if first == second else [first, second],
+        "window": f"{sizes.window:{lengths}}",
+        "radii": f"{sizes.radii:{lengths}}",
+    }
+
+
+def rounded(sizes: ToothSizes) -> ToothSizes:
+    """With the digits that a declaration has."""
+    return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})

@@ -1,19 +1,26 @@
 """The best sizes of a pair with triangular teeth: least loss, error or impact, or the widest margin, within limits.
 
 The figures are continuous in the sizes, but have kinks wherever the structure of the real path changes, and several
-local minima: `numerics.global_minimum` finds the least. A front between two aims holds what no design is better than in
-both: the least of the one under bounds on the other (the method of epsilon constraints), and every design on the way.
+local minima: DIRECT finds the lowest of them (`minimise`). A front between two aims holds what no design is better than
+in both: the least of the one under bounds on the other (the method of epsilon constraints), and all designs on the way.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from math import pi
+from dataclasses import dataclass, field
+from math import inf, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import Bounds, direct, minimize, minimize_scalar
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.workshop.sizes.global_minimum import Point, SampledFunction, distance, minimise, polish
-from geartrain.workshop.sizes.size_design import PARAMETERS, SizeLimit, ToothSizes, keeps
+from geartrain.numerics.arrays import Floats
+from geartrain.workshop.sizes.size_design import PARAMETERS, SizeLimit, ToothSizes, form_data, keeps
+
+if TYPE_CHECKING:
+    from geartrain.workshop.cutting.declared_errors import ErrorOverride
 
 Range = tuple[float, float]
 USUAL_RANGES: Mapping[str, Range] = {
@@ -22,12 +29,16 @@ USUAL_RANGES: Mapping[str, Range] = {
     "half_angle": (pi / 12, pi / 4),
 }
 """Where a free parameter is looked for if no bounds are given."""
+
 _BEYOND = 1e3  # above every figure: designs that turn but miss a limit
 _NOTHING = 1e6  # designs that do not turn
 _FRONT = 9  # bounds on the second aim
 _WORTH = 0.005  # of a front in its second aim: how far apart its designs are
 _CLEARANCES = ("clearance", "excess", "backlash", "centre_distance")  # as declarations may give it
 _WIDEST = {"radii": (0.1, 10.0), "window": (0.0, 1.0), "half_angle": (0.0, pi / 2)}
+_ASKED = 30  # designs that a costly limit refuses before it is given up
+_NEAR = 0.02  # of a range: designs this near to a refused one are not asked
+_HALVINGS = 5  # between the best design that is let in and one that is not
 
 
 class SizeSearch:
@@ -145,12 +156,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     return found
 
 
-# The best design under a limit that costs too much to be asked of every one, such as a chance from trials.
-
-
-_ASKED = 30  # designs that a costly limit refuses before it is given up
-_NEAR = 0.02  # of a range: designs this near to a refused one are not asked
-_HALVINGS = 5  # between the best design that is let in and one that is not
+# ---------------------------------------------------------------------------------------- a limit on the chance to stop
 
 
 @dataclass(frozen=True)
@@ -171,6 +177,62 @@ class ChanceLimit:
 
     bound: float
     chance: Callable[[ToothSizes], float]
+
+
+@dataclass(frozen=True)
+class PairTrials:
+    """Monte Carlo trials of single pairs, all with the same errors and the same seed.
+
+    Attributes
+    ----------
+    errors : sequence of ErrorOverride
+        Of cutting and fitting; `read_error_overrides` reads them.
+    trials : int
+        How many times each pair is cut.
+    seed : int
+        The same for all pairs, so that they differ by their sizes alone.
+
+    See Also
+    --------
+    run_trials : the same of a train.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.workshop import ToothSizes
+    >>> from geartrain.workshop import read_error_overrides
+    >>> trials = PairTrials(read_error_overrides(["placement=0.1 %"]), 64)
+    >>> trials.stops(ToothSizes((48, 96), 0.98, 0.5, (pi / 6, pi / 6), 0.2))
+    0.0
+    """
+
+    errors: Sequence[ErrorOverride]
+    trials: int = 256
+    seed: int = 1
+
+    def stops(self, sizes: ToothSizes) -> float:
+        """The share of trials in which the pair jams or clashes.
+
+        Parameters
+        ----------
+        sizes : ToothSizes
+            The pair as designed.
+        """
+        from geartrain.analysis.gear_train import GearTrain
+        from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
+        from geartrain.workshop.monte_carlo.trial_run import run_trials
+
+        (z1, z2), driver = sizes.teeth, ("w1", "w2")[sizes.driver - 1]
+        train = GearTrain.declare(
+            {
+                "links": {"frame": {}, "a": {"wheels": {"w1": z1}}, "b": {"wheels": {"w2": z2}}},
+                "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+                "gears": [{"pair": ["w1", "w2"], "tooth_form": form_data(sizes, exact=True), "driver": driver}],
+                "inputs": {("a", "b")[sizes.driver - 1]: 1},
+                "outputs": {("b", "a")[sizes.driver - 1]: {}},
+            }
+        )
+        return run_trials(find_trial_plan(train, self.errors), self.trials, self.seed).train.events["stops"].value
 
 
 def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[ToothSizes, float]:
@@ -202,3 +264,137 @@ def _narrowed(
         better = value(middle) < value(at) and (found := limit.chance(search.design(middle))) <= limit.bound
         at, beyond, chance = (middle, beyond, found) if better else (at, middle, chance)
     return search.design(at), chance
+
+
+# ------------------------------------------------------------------------------------------------------- global minimum
+
+
+Point = tuple[float, ...]
+Function = Callable[[Point], float]
+_DIVISIONS = (45, 250, 450, 700)  # samples of DIRECT for 1, 2, 3 and 4 variables
+_BASINS = 3  # lowest samples whose surroundings are searched
+_CLOSE = 0.1  # of a range: samples nearer than this lie in one basin
+_FINE = 1e-7  # of a range: values there differ by rounding only, where a minimum is smooth
+_GAIN = 1e-5  # of the value: a round that gains less is the last
+_ROUNDS = 5
+_STEP = 0.05  # of a range: the first simplex
+
+
+@dataclass
+class SampledFunction:
+    """A function of points in a box, worked out once at each of them; `seen` has them all."""
+
+    value: Function
+    bounds: Sequence[tuple[float, float]]
+    seen: dict[Point, float] = field(default_factory=dict)
+
+    def __call__(self, x: Sequence[float] | Floats) -> float:
+        at = self.inside(x)
+        if at not in self.seen:
+            self.seen[at] = self.value(at)
+        return self.seen[at]
+
+    def inside(self, x: Sequence[float] | Floats) -> Point:
+        """A point drawn into the box."""
+        return tuple(min(max(float(each), low), high) for each, (low, high) in zip(x, self.bounds, strict=True))
+
+    @property
+    def best(self) -> Point:
+        """The sample with the least value."""
+        return min(self.seen, key=lambda at: self.seen[at])
+
+
+def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
+    """The greatest difference of two points of a box, in ranges."""
+    return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
+
+
+def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
+    """Samples of `value` in a box, the best of which is its least value as far as is found.
+
+    bounds   of each variable, low < high
+    starts   points that are tried too: the result is never worse than they are
+    """
+    sampled = SampledFunction(value, bounds)
+    for start in starts:
+        sampled(start)
+    lows, highs = zip(*bounds, strict=True)
+    # neither volume nor side ends it: the number of samples does
+    number = _DIVISIONS[min(len(bounds), len(_DIVISIONS)) - 1]
+    direct(_plain(sampled), Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
+    if len(bounds) == 1:
+        for end in bounds[0]:  # neither DIRECT nor Brent looks at an end
+            sampled((end,))
+        for low, high in _brackets(sampled):
+            _search_between(sampled, low, high)
+    else:
+        for start in _apart(sampled):
+            polish(sampled, start, rounds=2)
+        polish(sampled, sampled.best)
+    return sampled
+
+
+def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
+    """Search on from one point; what is found is among the samples."""
+    if len(start) == 1:
+        ((low, high),) = sampled.bounds
+        _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
+        return
+    step, here = _STEP, start
+    for turn in range(rounds):
+        before = sampled(here)
+        # to the other side of the last simplex: one that has collapsed along a kink is not begun anew as it was
+        corners = [here, *(_moved(sampled, here, which, step if turn % 2 else -step) for which in range(len(here)))]
+        options = {"initial_simplex": np.array(corners), "maxfev": 50 * len(here), "xatol": 1e-6, "fatol": 1e-10}
+        found = minimize(_plain(sampled), np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
+        here = min((here, sampled.inside(found.x)), key=sampled)
+        if before - sampled(here) <= _GAIN * abs(before):
+            break
+        step /= 2
+
+
+def _plain(sampled: SampledFunction) -> Callable[[Floats], float]:
+    """The function as scipy wants it."""
+
+    def value(x: Floats) -> float:
+        return sampled(x)
+
+    return value
+
+
+def _apart(sampled: SampledFunction) -> list[Point]:
+    """The lowest samples, none near another."""
+    found: list[Point] = []
+    for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
+        if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
+            found.append(at)
+        if len(found) == _BASINS:
+            break
+    return found
+
+
+def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
+    """The neighbours of the lowest local minima among the samples of one variable."""
+    places = sorted(at[0] for at in sampled.seen)
+    values = [sampled.seen[at,] for at in places]
+    around = [inf, *values, inf]
+    low = [k for k, value in enumerate(values) if value <= around[k] and value <= around[k + 2]]
+    low.sort(key=lambda k: values[k])
+    return [(places[max(k - 1, 0)], places[min(k + 1, len(places) - 1)]) for k in low[:_BASINS]]
+
+
+def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
+    """Brent's bounded method."""
+    first, last = sampled.bounds[0]
+    low, high = max(low, first), min(high, last)
+    if high > low:
+        tolerance = _FINE * (last - first)
+        minimize_scalar(lambda x: sampled((x,)), bounds=(low, high), method="bounded", options={"xatol": tolerance})
+
+
+def _moved(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
+    """A point moved along one variable by a part of its range, to the side where there is room."""
+    low, high = sampled.bounds[which]
+    by = step * (high - low)
+    place = at[which] + by if low <= at[which] + by <= high else at[which] - by
+    return (*at[:which], place, *at[which + 1 :])

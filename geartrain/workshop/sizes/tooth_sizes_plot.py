@@ -25,7 +25,7 @@ from geartrain.drawing.style import (
 if TYPE_CHECKING:
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
     from geartrain.workshop.sizes.size_design import ToothSizes
-    from geartrain.workshop.sizes.train_sizes import BestTrainSizes
+    from geartrain.workshop.sizes.train_size_search import BestTrainSizes
 
 _LABELS = {
     "loss": "loss (%)",

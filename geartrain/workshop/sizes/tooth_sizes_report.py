@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Document, Section, Table
 
 if TYPE_CHECKING:
-    from geartrain.workshop.sizes.best_sizes import BestToothSizes
-    from geartrain.workshop.sizes.outline_agreement import OutlineAgreement
+    from geartrain.workshop.sizes.best_sizes import BestToothSizes, OutlineAgreement
     from geartrain.workshop.sizes.size_design import SizeLimit, ToothSizes
-    from geartrain.workshop.sizes.train_sizes import BestTrainSizes, PairSizes
+    from geartrain.workshop.sizes.train_size_search import BestTrainSizes, PairSizes
 
 AIM_WORDS: Mapping[str, str] = {
     "loss": "least loss",

@@ -8,8 +8,8 @@ pair after the other until the figure gains nothing more, so that it is never wo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 from typing import Any
@@ -20,92 +20,24 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.numerics.graphs import DisjointSets
+from geartrain.numerics.results import Key, Pictured, Result, Tabular
 from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
-from geartrain.workshop.sizes.outline_agreement import confirm_by_outlines
-from geartrain.workshop.sizes.size_design import AIMS, SizeLimit, ToothSizes, keeps
+from geartrain.workshop.sizes.best_sizes import OutlineAgreement, confirm_by_outlines
+from geartrain.workshop.sizes.size_design import AIMS, SizeLimit, ToothSizes, form_data, keeps, rounded, size_columns
 from geartrain.workshop.sizes.size_search import Range, SizeSearch, checked_ranges
-from geartrain.workshop.sizes.train_sizes import (
-    BestTrainSizes,
-    PairSizes,
-    as_form,
-    declared_sizes,
-    form_data,
-    rounded,
-    sizeable_meshes,
-)
-
-# One half angle for the pairs that share wheels: a wheel is cut with one, whatever it meshes with.
-
-
-_SCAN = 7  # half angles that are tried first
-_ANGLE_TRIES, _NEAR = 8, 1e-3  # of Brent's method between the neighbours of the best of them; its tolerance (rad)
-
-
-def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
-    """The pairs of a train in groups that are connected by common wheels.
-
-    wheels   of each pair, by its name
-
-    >>> pairs_by_shared_wheels({"ab": ("a", "b"), "cd": ("c", "d"), "bd": ("b", "e")})
-    (('ab', 'bd'), ('cd',))
-    """
-    joined: DisjointSets[str] = DisjointSets()
-    for first, second in wheels.values():
-        joined.join(first, second)
-    groups: dict[str, list[str]] = {}
-    for name, (first, _) in wheels.items():
-        groups.setdefault(joined.find(first), []).append(name)
-    return tuple(tuple(each) for each in groups.values())
-
-
-def best_shared_angle(
-    start: Mapping[str, ToothSizes],
-    sized: Callable[[str, float], ToothSizes],
-    bounds: Range,
-    aim: str,
-    limits: Sequence[SizeLimit],
-) -> dict[str, ToothSizes]:
-    """Pairs at the one half angle at which their figures together are best, never worse than at the start.
-
-    start    the pairs with the half angles that they have
-    sized    the best sizes of a pair at a half angle; raises `QuestionError` where none turns
-    limits   that each pair has to keep
-    """
-
-    def figure(designs: Mapping[str, ToothSizes]) -> float:
-        if not all(keeps(each, limits) for each in designs.values()):
-            return inf
-        each = [design.merit(aim) for design in designs.values()]
-        return max(each) if aim == "jam" else sum(each)
-
-    found = figure(start), dict(start)
-
-    def value(angle: float) -> float:
-        nonlocal found
-        try:
-            designs = {name: sized(name, angle) for name in start}
-        except QuestionError:
-            return 1e6
-        least = figure(designs)
-        found = min(found, (least, designs), key=lambda each: each[0])
-        return min(least, 1e6)
-
-    low, high = bounds
-    step = (high - low) / (_SCAN - 1)
-    best = min((low + step * each for each in range(_SCAN)), key=value)
-    around = max(low, best - step), min(high, best + step)
-    minimize_scalar(value, bounds=around, method="bounded", options={"maxiter": _ANGLE_TRIES, "xatol": _NEAR})
-    return found[1]
-
 
 OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
 """Of the input, over which the error of a pointer is followed; its extremes do not depend on the positions."""
+
 _REACH = 0.03  # of a range: how far one step of the descent looks
 _TRIES = 8  # figures of the train in one step of the descent
 _SWEEPS = 4
 _GAIN = 1e-3  # of the figure: a sweep that gains less is the last
+_SCAN = 7  # half angles that are tried first
+_ANGLE_TRIES, _NEAR = 8, 1e-3  # of Brent's method between the neighbours of the best of them; its tolerance (rad)
 
 
 def find_train_sizes(
@@ -397,3 +329,198 @@ class TrainSizeSearch:
             "title": f"{self.train.declaration.title or self.train.name}: teeth sized for {self.aim} at {self.output}",
             "gears": gears,
         }
+
+
+# ----------------------------------------------------------------------------------------------------------- the result
+
+
+@dataclass(frozen=True)
+class PairSizes(Result):
+    """One pair of a train, its sizes as declared, best by itself, and best in the train.
+
+    Attributes
+    ----------
+    name : str
+        The pair.
+    driver : str
+        The wheel that drives.
+    before, apart, together : ToothSizes
+        As declared; best for the pair by itself; best for the train.
+    runs : bool
+        Whether the pair turns as declared.
+    outlines : OutlineAgreement
+        What the contact of the drawn outlines says of the last.
+
+    See Also
+    --------
+    find_train_sizes : finds them.
+    """
+
+    KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
+
+    name: str
+    driver: str
+    before: ToothSizes
+    apart: ToothSizes
+    together: ToothSizes
+    runs: bool
+    outlines: OutlineAgreement
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Of the first and the second wheel that the pair names."""
+        return self.before.teeth
+
+    @property
+    def declared(self) -> ToothSizes | None:
+        """As declared; None where the pair does not turn so."""
+        return self.before if self.runs else None
+
+
+@dataclass(frozen=True)
+class BestTrainSizes(Tabular, Pictured, Result):
+    """The sizes of the triangular teeth with which a train is best, and what they gain.
+
+    Attributes
+    ----------
+    train : str
+        Its name.
+    aim, output, source : str
+        What was asked for; the link or output, and the link at which power enters.
+    free : mapping of str to tuple of float
+        Bounds of the free parameters; angles in rad.
+    limits : tuple of SizeLimit
+        What each pair has to keep.
+    before, apart, together : float or None
+        The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
+        together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module].
+    pairs : tuple of PairSizes
+        The pairs that act on the output.
+    untouched : mapping of str to str
+        Pairs with real teeth that stay as they are, and why.
+    declaration : mapping
+        A train that extends the one given, with the sizes best together.
+
+    See Also
+    --------
+    find_train_sizes : an example.
+    """
+
+    FIGURE = "train_sizes_figure"
+    DRAWN_IN = "workshop"
+
+    KEYS = (
+        *("train", "aim", "output", "source", "free", "limits", "before", "apart", "together", "pairs"),
+        *("untouched", "declaration"),
+    )
+
+    train: str
+    aim: str
+    output: str
+    source: str
+    free: Mapping[str, Range]
+    limits: tuple[SizeLimit, ...]
+    before: float | None
+    apart: float
+    together: float
+    pairs: tuple[PairSizes, ...]
+    untouched: Mapping[str, str]
+    declaration: Mapping[str, Any]
+
+    @property
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """By pair, a row for its sizes as declared (if it turns so), best by itself, and best for the train."""
+        rows = [
+            (pair.name, name, sizes)
+            for pair in self.pairs
+            for name, sizes in (("declared", pair.declared), ("by itself", pair.apart), ("together", pair.together))
+            if sizes is not None
+        ]
+        told = {"pair": [pair for pair, _, _ in rows], "design": [name for _, name, _ in rows]}
+        return {**told, **size_columns([sizes for _, _, sizes in rows])}
+
+
+def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
+    """The pairs with triangular teeth whose sizes are not declared as lengths, by name."""
+    found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
+    return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
+
+
+def as_form(sizes: ToothSizes) -> Triangular:
+    """A design as the form of a pair."""
+    return Triangular.declared(form_data(sizes))
+
+
+def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
+    """The sizes of a pair as declared: the first wheel of the pair first; in mid window where it does not turn."""
+    sizes, window = mesh.law.sizes, mesh.window
+    driver = 1 + mesh.gear.pair.index(mesh.driver)
+    if driver == 2:
+        sizes = sizes.swapped()
+    place = 0.5
+    if window and mesh.verdict.kind == "runs":
+        place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
+    radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
+    # friction by a law of speed is searched under with its mean coefficient at the speed of the pair
+    friction = mesh.losses.friction if mesh.verdict else mesh.law.friction
+    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver, sizes.ring)
+
+
+# ---------------------------------------------------------------------------------------------- pairs that share wheels
+
+
+def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
+    """The pairs of a train in groups that are connected by common wheels.
+
+    wheels   of each pair, by its name
+
+    >>> pairs_by_shared_wheels({"ab": ("a", "b"), "cd": ("c", "d"), "bd": ("b", "e")})
+    (('ab', 'bd'), ('cd',))
+    """
+    joined: DisjointSets[str] = DisjointSets()
+    for first, second in wheels.values():
+        joined.join(first, second)
+    groups: dict[str, list[str]] = {}
+    for name, (first, _) in wheels.items():
+        groups.setdefault(joined.find(first), []).append(name)
+    return tuple(tuple(each) for each in groups.values())
+
+
+def best_shared_angle(
+    start: Mapping[str, ToothSizes],
+    sized: Callable[[str, float], ToothSizes],
+    bounds: Range,
+    aim: str,
+    limits: Sequence[SizeLimit],
+) -> dict[str, ToothSizes]:
+    """Pairs at the one half angle at which their figures together are best, never worse than at the start.
+
+    start    the pairs with the half angles that they have
+    sized    the best sizes of a pair at a half angle; raises `QuestionError` where none turns
+    limits   that each pair has to keep
+    """
+
+    def figure(designs: Mapping[str, ToothSizes]) -> float:
+        if not all(keeps(each, limits) for each in designs.values()):
+            return inf
+        each = [design.merit(aim) for design in designs.values()]
+        return max(each) if aim == "jam" else sum(each)
+
+    found = figure(start), dict(start)
+
+    def value(angle: float) -> float:
+        nonlocal found
+        try:
+            designs = {name: sized(name, angle) for name in start}
+        except QuestionError:
+            return 1e6
+        least = figure(designs)
+        found = min(found, (least, designs), key=lambda each: each[0])
+        return min(least, 1e6)
+
+    low, high = bounds
+    step = (high - low) / (_SCAN - 1)
+    best = min((low + step * each for each in range(_SCAN)), key=value)
+    around = max(low, best - step), min(high, best + step)
+    minimize_scalar(value, bounds=around, method="bounded", options={"maxiter": _ANGLE_TRIES, "xatol": _NEAR})
+    return found[1]

@@ -1,11 +1,12 @@
-"""`geartrain optimise`: the sizes of triangular teeth with which a train loses or errs least at an output."""
+"""`geartrain optimise`, and `geartrain mesh triangular --best`: sizes of triangular teeth that are best in an aim."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
@@ -26,10 +27,23 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.option_values import Theme
-from geartrain.workshop.sizes.pair_verb import read_free, read_limits
+from geartrain.cli.mesh.form_options import FormOptions, read_form
+from geartrain.cli.option_values import Theme, at_option, decimal, quantity
+from geartrain.errors import GearTrainError, Problem
+from geartrain.teeth.triangular.triangular_form import Triangular
+
+if TYPE_CHECKING:
+    from geartrain.workshop.sizes.size_design import SizeLimit, ToothSizes
+    from geartrain.workshop.sizes.size_search import ChanceLimit
+
 
 _YAML = (".yaml", ".yml")
+_DESIGNS = {1: 60, 2: 500, 3: 900}
+"""About so many designs are looked at for so many free parameters, for each aim."""
+
+_OTHER = ("clearance", "excess", "backlash", "centre_distance")
+_DIMENSIONS = {"loss": "fraction", "error": "angle", "play": "angle"}
+"""Of limits; others are plain numbers."""
 
 
 def run(
@@ -87,3 +101,134 @@ def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
     if to.path is not None and Path(file).exists():
         parent = os.path.relpath(file, to.path.parent).replace(os.sep, "/")
     emit(as_yaml({**declaration, "extends": parent}), to)
+
+
+# ----------------------------------------------------------------------------------------------- mesh triangular --best
+
+
+@dataclass(frozen=True)
+class SizeQuestion:
+    """What `--best` asks for: one aim or two with a comma, what is free, limits, and errors of the wheels."""
+
+    best: str | None
+    free: tuple[str, ...]
+    within: tuple[str, ...]
+    errors: tuple[str, ...]
+
+    def check(self, others: Mapping[str, object]) -> None:
+        """Refuse options that need `--best`, and `--best` beside options that request something else."""
+        if self.best is None:
+            for option, given in (("--free", self.free), ("--within", self.within), ("--set", self.errors)):
+                if given:
+                    raise typer.BadParameter(
+                        "nothing says what sizes are to be best in: give --best", param_hint=option
+                    )
+            return
+        for option, other in others.items():
+            if other:
+                raise typer.BadParameter("--best asks for something else: leave one of the two out", param_hint=option)
+
+    def answer(self, start: ToothSizes, to: Sink, picture: Sink, json: bool) -> NoReturn:
+        """The best sizes as a page, as data and as a picture; then the command ends."""
+        from geartrain.workshop.sizes.best_sizes import find_tooth_sizes
+        from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
+
+        aims = tuple(part.strip() for part in (self.best or "").split(","))
+        free, limits = read_free(self.free), read_limits([text for text in self.within if not _is_chance(text)])
+        chance = self._chance()
+        work = _DESIGNS.get(len(free), 900) * len(aims)
+        with progress("best sizes", work, patience=2) as bar:
+            found = find_tooth_sizes(start, aims, free, limits, chance, bar.advance)
+        give(to, json, lambda: found, lambda: [describe_tooth_sizes(found)])
+        if picture.path is not None:
+            from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure
+
+            draw(tooth_sizes_figure(found), picture)
+        raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
+
+    def _chance(self) -> ChanceLimit | None:
+        """The limit on the chance that a pair cut with errors stops."""
+        from geartrain.workshop.sizes.size_search import ChanceLimit
+
+        given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
+        if bool(given) != bool(self.errors):
+            what = "--within stops=5% and the errors, such as --set 'placement=1 %', go together"
+            raise typer.BadParameter(what, param_hint="--within" if given else "--set")
+        if not given:
+            return None
+        from geartrain.workshop.cutting.declared_errors import read_error_overrides
+        from geartrain.workshop.sizes.size_search import PairTrials
+
+        bound = min(quantity("--within", text, "fraction", plain=True, least="0") for text in given)
+        return ChanceLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
+
+
+def _is_chance(text: str) -> bool:
+    """True for the limit that asks for trials."""
+    return text.partition("=")[0].strip() == "stops"
+
+
+def read_start(
+    teeth: tuple[int, int], own: FormOptions, friction: float, driver: int, internal: bool = False
+) -> ToothSizes:
+    """The pair that options give; its clearance is in the middle of the window where none is given."""
+    from geartrain.workshop.sizes.size_design import ToothSizes
+
+    for name in _OTHER:
+        if own[name] is not None:
+            option = f"--{name.replace('_', '-')}"
+            why = "the window moves with the radii, and a clearance that is kept would leave it"
+            raise GearTrainError(Problem(f"{option} does not go with --best", why, "give --window", option))
+    window = own["window"] or "0.5"
+    # radii follow from the counts at any clearance: this one is in no window, which there need not be
+    shape = read_form(Triangular, {"half_angle": own["half_angle"], "radii": own["radii"], "excess": "1e-6"}, "--radii")
+    placed = read_form(Triangular, {"half_angle": own["half_angle"], "window": window}, "--window")
+    assert isinstance(shape, Triangular)
+    assert isinstance(placed, Triangular)
+    assert placed.window is not None
+    try:
+        sizes = shape.sizes(*teeth, ring=2 if internal else 0)
+    except GearTrainError as error:
+        raise at_option(error, "--teeth") from None
+    radii = sizes.R2 / sizes.R1 * teeth[0] / teeth[1]
+    return ToothSizes(teeth, radii, float(placed.window.value), sizes.half_angles, friction, driver, sizes.ring)
+
+
+def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
+    """NAME or NAME=LOW:HIGH, by name; the radii where nothing is given."""
+    found: dict[str, tuple[float, float] | None] = {}
+    for text in given or ("radii",):
+        name, equals, rest = text.partition("=")
+        low, colon, high = rest.partition(":")
+        if bool(equals) != bool(colon):
+            raise typer.BadParameter(f"'{text}' is not NAME or NAME=LOW:HIGH", param_hint="--free")
+        name = name.strip().replace("-", "_")
+        found[name] = (_bound(name, low), _bound(name, high)) if equals else None
+    return found
+
+
+def _bound(name: str, text: str) -> float:
+    if name == "half_angle":
+        return quantity("--free", text.strip(), "angle")
+    return decimal("--free", text, "bound", "0.9")
+
+
+def read_limits(given: Sequence[str]) -> list[SizeLimit]:
+    """NAME=LIMIT, each on the side that is bad."""
+    from geartrain.workshop.sizes.size_design import SizeLimit
+
+    found = []
+    for text in given:
+        name, equals, rest = text.partition("=")
+        name = name.strip().replace("-", "_")
+        if not equals or name not in SizeLimit.FIGURES:
+            what = f"'{text}' is not NAME=LIMIT, NAME one of {', '.join(SizeLimit.FIGURES)}"
+            raise typer.BadParameter(what, param_hint="--within")
+        found.append(SizeLimit(name, _limit(_DIMENSIONS.get(name), rest.strip())))
+    return found
+
+
+def _limit(dimension: str | None, text: str) -> float:
+    if dimension is not None:
+        return quantity("--within", text, dimension, plain=dimension == "fraction", least="0")
+    return decimal("--within", text, "limit", "0.02")

@@ -14,8 +14,15 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.buildability import BuildFinding, BuildLevel
 from geartrain.numerics.results import Result
 from geartrain.workshop.export.cut_sheets import compensated, wheel_sheets
-from geartrain.workshop.export.proof.cut_outlines import TOLERANCE, plane_geometry, read_material
-from geartrain.workshop.export.proof.turned_pair import NOTHING, SAME, FreeTurn, TurnedPair
+from geartrain.workshop.export.proof.turned_pair import (
+    NOTHING,
+    SAME,
+    TOLERANCE,
+    FreeTurn,
+    TurnedPair,
+    plane_geometry,
+    read_material,
+)
 
 if TYPE_CHECKING:
     from typing import Any

@@ -7,20 +7,28 @@ their corners, and the best stretches are searched ever finer. Where a speed jum
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import inf, tau
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.dynamics.motion.corner_positions import CornerSearch
+from geartrain.errors import check_numbers
 from geartrain.numerics.results import Result
+from geartrain.simulation.contacts.inertial_contacts import find_inertial_loads, torques_have_units
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from geartrain.dynamics.motion.pair_impacts import ToothImpact
+    from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.inertia.inertial_contacts import InertialContacts
-    from geartrain.simulation.inertia.link_inertia import LinkInertia
+    from geartrain.report.document import Section
+    from geartrain.simulation.contacts.inertial_contacts import InertialContacts
+    from geartrain.simulation.contacts.link_inertia import LinkInertia
+
 
 _INSIDE = 1e-9  # of a stretch: its ends are asked so far within it, on its own side of a corner
 _SAMPLES = 9  # positions of a stretch at first
@@ -29,6 +37,120 @@ _ZOOMS = 9  # of which each narrows what is searched to a quarter
 _NARROW = 1e-12  # turns: a stretch between two corners at one place is none
 _PLACES = 8  # of turns: positions on both sides of a corner are told as one
 _MOST_CORNERS = 80_000  # times pairs, searched by default: some seconds
+
+
+def find_separation(
+    train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
+) -> SeparationRates:
+    """The rates of the input at which flanks first part, by pair: `motion` does not apply above the lowest.
+
+    Inertia, loads, a weight or a torque that drives, friction of bearings and of teeth that do not keep their ratio,
+    viscous drag, and impacts where speeds jump are included (docs/dynamics.md, section 3).
+
+    Parameters
+    ----------
+    train : TrainMechanics
+        `GearTrain.mechanics`.
+    state : str, optional
+        A declared state; None only of a train that has none.
+    without : sequence of str
+        Pairs left out, as of `motion`.
+    turns : float, optional
+        Turns of the input that are searched [turn]; by default all after which everything repeats, or fewer where
+        these are very many.
+
+    Returns
+    -------
+    SeparationRates
+        With the pair that parts first.
+
+    Raises
+    ------
+    QuestionError
+        If the train does not move, no inertia is declared, or a torque has no unit.
+
+    Examples
+    --------
+    A slot whose axis is 8 mm from that of a pin at 10 mm, with 100 g cm^2 and a drag of 1 N mm behind it:
+
+    >>> import geartrain
+    >>> train = geartrain.load('''
+    ... links: {frame: {}, a: {}, b: {inertia: 100 g cm2, bearing: 1 N mm}}
+    ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    ... couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm}]
+    ... inputs: {a: 1}
+    ... ''')
+    >>> found = find_separation(train.mechanics)
+    >>> found.pair, round(found.rate, 6)
+    ('a~b', 0.440669)
+    """
+    from geartrain.dynamics.motion.motion_problem import find_motion_problem
+    from geartrain.simulation.contacts.inertial_contacts import InertialContacts
+    from geartrain.simulation.contacts.link_inertia import find_link_inertias
+    from geartrain.simulation.contacts.rubbing_arms import separate_rubbing
+
+    check_numbers(turns=turns)
+    train = train.planets_as_one
+    inertias, moving = find_link_inertias(train, state), find_motion_problem(train, state, without)
+    declared, case = train.declaration, train.kinematics.case(state)
+    acting = find_inertial_loads(declared, case, train.tree, inertias, moving.speeds)
+    rubbing, uncounted = separate_rubbing(moving, declared.gears)
+    contacts = InertialContacts(moving, acting, rubbing=rubbing)
+    return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=uncounted)
+
+
+def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
+    """True if `find_separation` has an answer: a link behind the input has an inertia, and torques have units."""
+    declared = train.declaration
+    if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
+        return False
+    from geartrain.simulation.contacts.link_inertia import find_link_inertias
+
+    return any(each.value for each in find_link_inertias(train, state))
+
+
+def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mapping[str, ToothImpact]:
+    """Power lost in collisions of triangular teeth by pair (docs/motion.md, equation 7).
+
+    Empty unless inertias and a rate are declared.
+
+    Parameters
+    ----------
+    train : TrainMechanics
+        `GearTrain.mechanics`.
+    state : str, optional
+        A declared state; None only of a train that has none.
+
+    Returns
+    -------
+    mapping of str to ToothImpact
+        By pair.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> found = find_tooth_impacts(geartrain.load("moon-triangular-inertia").mechanics)
+    >>> list(found)
+    []
+    """
+    train = train.planets_as_one
+    case = train.kinematics.case(state)
+    if case.rate is None or case.rate.unit is None or not train.undriven or not train.declaration.has_inertia:
+        return {}
+    from geartrain.dynamics.motion.motion_model import Motion
+    from geartrain.dynamics.motion.motion_problem import find_motion_problem
+    from geartrain.dynamics.motion.pair_impacts import find_impacts
+    from geartrain.simulation.contacts.link_inertia import find_link_inertias
+
+    inertias = {each.link: each.value for each in find_link_inertias(train, state)}
+    moving = find_motion_problem(train, state)
+    if moving.contradictions():
+        return {}
+    every = {link: (link, moving.frame) for link in train.declaration.links}
+    return find_impacts(Motion(moving, every), inertias, case.rate.si)
+
+
+# ----------------------------------------------------------------------------------------------------------- the result
 
 
 @dataclass(frozen=True)
@@ -57,13 +179,6 @@ class PairSeparation(Result):
     rate: float | None
     at: float
     leap: bool = False
-
-
-def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """From what rate on a pair parts, and at what position, in words."""
-    if pair.rate is None:
-        return "never", "-"
-    return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
 
 
 @dataclass(frozen=True)
@@ -130,6 +245,54 @@ class SeparationRates(Result):
         head = f"<tr><th>pair</th><th>parts from (turn/s)</th><th>at (turns of {html.escape(self.input)})</th></tr>"
         text = f"rate of {html.escape(self.input)} at which flanks part, in {self.turns:g} turns"
         return f"<p>{text}</p><table>{head}{rows}</table>"
+
+
+def separation_section(found: SeparationRates) -> Section:
+    """The rate of each pair."""
+    from geartrain.report.document import Section, Table
+
+    rows = [(each.pair, *separation_words(each)) for each in found.pairs]
+    header = ("pair", f"parts from (turn/s of {found.input})", f"at (turns of {found.input})")
+    return Section("Up to which rate it holds", tuple(separation_text(found)), (Table(header, rows),))
+
+
+def separation_text(found: SeparationRates) -> Iterator[str]:
+    """Which pair parts first and when, what was searched, and which inertias are not known."""
+    yield _first_separation(found)
+    if found.uncounted:
+        yield f"Friction not counted: that of {', '.join(found.uncounted)}."
+    if not found.complete:
+        yield f"Searched were {found.turns:.6g} turns of '{found.input}', not all after which everything repeats."
+    if found.unknown:
+        yield f"Counted without inertia, for none is known: {', '.join(found.unknown)}."
+
+
+def separation_words(pair: PairSeparation) -> tuple[str, str]:
+    """From what rate on a pair parts, and at what position, in words."""
+    if pair.rate is None:
+        return "never", "-"
+    return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
+
+
+def _first_separation(found: SeparationRates) -> str:
+    first = found.first
+    if first is None:
+        return f"No teeth part, at whatever rate '{found.input}' turns."
+    where = f"after {separation_words(first)[1]} turns of '{found.input}'"
+    if first.leap:
+        return f"Teeth of {first.pair} part at any rate: {where} a speed falls at once, and nothing pulls."
+    if not first.rate:
+        return (
+            f"Teeth of {first.pair} part at any rate, first {where}: neither load nor friction of bearings holds them "
+            "together there."
+        )
+    return (
+        f"Holds up to {first.rate:.5g} turn/s of '{found.input}': from there on the teeth of {first.pair} part, "
+        f"{where}, for what they drive runs ahead."
+    )
+
+
+# ----------------------------------------------------------------------------------------------------------- the search
 
 
 def find_separation_rates(

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
@@ -24,34 +25,25 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.pair_errors import PairErrors
+from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.transmission_table import CellTable, fit, folded_corners
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
-    from geartrain.kinematics.circuits import Circuit
+    from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.simulation.inertia.inertial_loads import InertialLoads
+    from geartrain.numerics.quantity import Quantity
+    from geartrain.simulation.contacts.link_inertia import LinkInertia
     from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.train import StateCase, Train
+
 
 _SLOPE = 1e-12  # of the mean ratio: speeds of the tables whose derivatives are taken
 _DEGREE = 9
 _LEAP = 1e-7  # of the input's speed and the greatest of a link's: a lesser jump of a speed is rounding
 _MANY, _TABLES = 8, 1e-11  # laws of longer trains are read from tables of so many pitches
 _NUMBERS = 1 << 22  # most entries of matrices at once
-
-
-def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
-    """The least w >= 0 from which on D + V w + A w^2 is negative for a while; infinite where it never is."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        root = np.sqrt(V * V - 4 * D * A)  # NaN where it never vanishes
-        q = -(V + np.copysign(root, V)) / 2  # no digits are lost in this sum, nor in the quotients
-        first, second = q / A, D / q
-    roots = np.stack([np.where(each > 0, each, inf) for each in (first, second)]).min(axis=0)
-    starts = (D < 0) | ((D == 0) & ((V < 0) | ((V == 0) & (A < 0))))
-    # at D = 0 a root above 0 is one from which on it is negative only where A is
-    return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
-
 
 FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
 """What friction adds to the arm of a driver on its drive flank, turning forward and back, by its forward angle."""
@@ -76,55 +68,6 @@ class _State(NamedTuple):
     slope: Floats
     arm: Floats
     virtual: Floats
-
-
-@dataclass(frozen=True)
-class YieldingPairs:
-    """The matrix J = I - diag(slope) G at many positions, in the order in which pairs determine each other.
-
-    gain     G, (sources, pairs); `pairs`, the pair of each source
-    blocks   sources that are solved together, each block after those that it depends on
-    """
-
-    gain: Floats
-    pairs: Sequence[int]
-    blocks: Sequence[Sequence[int]]
-
-    def errors(self, slope: Floats, given: Floats) -> Floats:
-        """J^-1 times vectors, (pairs, n)."""
-        found = given.copy()
-        for block in self.blocks:
-            rows = [self.pairs[at] for at in block]
-            known = found.copy() if len(block) > 1 else found
-            right = np.stack([given[row] + slope[at] * (self._before(block, at) @ known)
-                              for at, row in zip(block, rows, strict=True)])  # fmt: skip
-            found[rows] = self._solved(block, slope, right, transposed=False)
-        return found
-
-    def torques(self, slope: Floats, given: Floats) -> Floats:
-        """The transposed of J^-1 times vectors, (pairs, n)."""
-        found = given.copy()
-        for block in reversed(self.blocks):
-            rows = [self.pairs[at] for at in block]
-            found[rows] = self._solved(block, slope, found[rows], transposed=True)
-            for at, row in zip(block, rows, strict=True):
-                found += self._before(block, at)[:, None] * (slope[at] * found[row])
-        return found
-
-    def _before(self, block: Sequence[int], at: int) -> Floats:
-        """What pairs outside of its block add to a source's driver."""
-        row: Floats = self.gain[at].copy()
-        row[[self.pairs[each] for each in block]] = 0.0
-        return row
-
-    def _solved(self, block: Sequence[int], slope: Floats, right: Floats, transposed: bool) -> Floats:
-        own = self.gain[np.ix_(block, [self.pairs[at] for at in block])]
-        if not own.any():
-            return right
-        matrices = np.eye(len(block)) - slope[list(block)].T[:, :, None] * own
-        if transposed:
-            matrices = np.swapaxes(matrices, 1, 2)
-        return np.asarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
 
 
 class InertialContacts:
@@ -287,7 +230,152 @@ class InertialContacts:
         return found
 
 
+@dataclass(frozen=True)
+class YieldingPairs:
+    """The matrix J = I - diag(slope) G at many positions, in the order in which pairs determine each other.
+
+    gain     G, (sources, pairs); `pairs`, the pair of each source
+    blocks   sources that are solved together, each block after those that it depends on
+    """
+
+    gain: Floats
+    pairs: Sequence[int]
+    blocks: Sequence[Sequence[int]]
+
+    def errors(self, slope: Floats, given: Floats) -> Floats:
+        """J^-1 times vectors, (pairs, n)."""
+        found = given.copy()
+        for block in self.blocks:
+            rows = [self.pairs[at] for at in block]
+            known = found.copy() if len(block) > 1 else found
+            right = np.stack([given[row] + slope[at] * (self._before(block, at) @ known)
+                              for at, row in zip(block, rows, strict=True)])  # fmt: skip
+            found[rows] = self._solved(block, slope, right, transposed=False)
+        return found
+
+    def torques(self, slope: Floats, given: Floats) -> Floats:
+        """The transposed of J^-1 times vectors, (pairs, n)."""
+        found = given.copy()
+        for block in reversed(self.blocks):
+            rows = [self.pairs[at] for at in block]
+            found[rows] = self._solved(block, slope, found[rows], transposed=True)
+            for at, row in zip(block, rows, strict=True):
+                found += self._before(block, at)[:, None] * (slope[at] * found[row])
+        return found
+
+    def _before(self, block: Sequence[int], at: int) -> Floats:
+        """What pairs outside of its block add to a source's driver."""
+        row: Floats = self.gain[at].copy()
+        row[[self.pairs[each] for each in block]] = 0.0
+        return row
+
+    def _solved(self, block: Sequence[int], slope: Floats, right: Floats, transposed: bool) -> Floats:
+        own = self.gain[np.ix_(block, [self.pairs[at] for at in block])]
+        if not own.any():
+            return right
+        matrices = np.eye(len(block)) - slope[list(block)].T[:, :, None] * own
+        if transposed:
+            matrices = np.swapaxes(matrices, 1, 2)
+        return np.asarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
+
+
+def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
+    """The least w >= 0 from which on D + V w + A w^2 is negative for a while; infinite where it never is."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        root = np.sqrt(V * V - 4 * D * A)  # NaN where it never vanishes
+        q = -(V + np.copysign(root, V)) / 2  # no digits are lost in this sum, nor in the quotients
+        first, second = q / A, D / q
+    roots = np.stack([np.where(each > 0, each, inf) for each in (first, second)]).min(axis=0)
+    starts = (D < 0) | ((D == 0) & ((V < 0) | ((V == 0) & (A < 0))))
+    # at D = 0 a root above 0 is one from which on it is negative only where A is
+    return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
+
+
 def speed_slope(law: TransmissionFunction) -> CellTable:
     """d tau / dS (1/rad) of a law, from a table of its speed that is cut at its corners."""
     greatest = max(abs(each) for each in law.speed_range())
     return fit(law.speed, law.period, folded_corners(law), _SLOPE * max(greatest, 1.0), _DEGREE).derivative()
+
+
+# --------------------------------------------------------------------------------------------------- what acts on links
+
+
+@dataclass(frozen=True)
+class InertialLoads:
+    """What acts on links besides their pairs: SI units, by link, about their own axes.
+
+    inertia    kg m2; of a link that takes others round, theirs too
+    load       constant torque (N m), positive about the link's axis
+    friction   of its bearing while it turns (N m), 0 or more; `drag`, viscous (N m s)
+    bearer     the link in which it turns
+    crank      the link at which power enters so that the input turns evenly; None where that is the input
+    """
+
+    inertia: Mapping[str, float]
+    load: Mapping[str, float]
+    friction: Mapping[str, float]
+    drag: Mapping[str, float]
+    bearer: Mapping[str, str]
+    crank: str | None = None
+
+
+def find_inertial_loads(
+    train: Train, case: StateCase, tree: Tree, inertias: Sequence[LinkInertia], speeds: Mapping[str, Fraction]
+) -> InertialLoads:
+    """Of one state. Raises `QuestionError` where no link has an inertia, or a torque has no unit.
+
+    speeds   mean speeds of links: a weight or a torque that drives pulls the way its link turns
+    """
+    if not any(each.value for each in inertias):
+        what = f"no link of '{train.name}' has a moment of inertia"
+        fix = "give links an `inertia`, such as 30 kg mm2, or wheels `density`, `thickness` and `module`"
+        raise QuestionError(Problem(what, "without one no teeth part", fix))
+    turning = {link: part for link, part in train.links.items() if link != train.frame}
+    load, friction = _torques(train, case)
+    for key, torques in (("load", load), ("bearing", friction)):
+        for link, torque in torques.items():
+            if _is_plain(torque):
+                what = f"the {key} of '{link}', {torque}, has no unit"
+                raise QuestionError(Problem(what, "inertias are in kg m2", f"write for example '{torque} N m'"))
+    return InertialLoads(
+        {each.link: each.value for each in inertias},
+        loads_with_drive({link: torque.si for link, torque in load.items()}, train, case, speeds),
+        {link: torque.si for link, torque in friction.items()},
+        {link: part.drag.si for link, part in turning.items() if part.drag is not None},
+        {link: tree.parent[link][0] for link in turning},
+        train.crank if _is_cranked(train, case) and speeds[train.crank or ""] else None,
+    )
+
+
+def loads_with_drive(
+    loads: dict[str, float], train: Train, case: StateCase, speeds: Mapping[str, Fraction]
+) -> dict[str, float]:
+    """Loads, and at the crank what drives with a steady torque, where the crank is not the input that stays."""
+    torque = None if case.drive is None else case.drive.steady_torque
+    if torque is None or train.crank is None or train.crank in case.inputs:
+        return loads
+    way = -1 if speeds[train.crank] < 0 else 1
+    return {**loads, train.crank: loads.get(train.crank, 0.0) + way * torque}
+
+
+def _is_cranked(train: Train, case: StateCase) -> bool:
+    """True if a link that is no input keeps the input turning: one that drives with a torque of its own does not."""
+    steady = case.drive is not None and case.drive.steady_torque is not None
+    return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
+
+
+def torques_have_units(train: Train, case: StateCase) -> bool:
+    """True if every torque that acts in one state has a unit."""
+    return not any(_is_plain(torque) for torques in _torques(train, case) for torque in torques.values())
+
+
+def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
+    """Loads and friction of bearings, by link; loads on inputs do no work when pairs give way, unless a crank does."""
+    still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}
+    loads = {link: torque for link, torque in case.loads.items() if link not in still}
+    bearings = ((link, part.bearing) for link, part in train.links.items() if link != train.frame)
+    return loads, {link: bearing.sliding for link, bearing in bearings if bearing is not None}
+
+
+def _is_plain(torque: Quantity) -> bool:
+    return torque.unit is None and bool(torque.value)

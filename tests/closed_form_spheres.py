@@ -8,21 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from itertools import product
-from math import acos, asin, atan, cos, inf, pi, sin, sqrt
-from typing import TYPE_CHECKING
+from math import acos, asin, atan, atan2, cos, pi, sin, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
 
-from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.spherical import Configuration
-from geartrain.spherical.configuration import mesh_kinds
-from geartrain.spherical.pitch_cones import pitch_cone, separations
 
-if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
-
-
+Floats = NDArray[np.float64]
 PHI = (1 + sqrt(5)) / 2
+
+
+def root(value: Callable[[float], float], low: float, high: float) -> float:
+    return float(brentq(value, low, high, xtol=1e-16, rtol=1e-15))
+
+
+def separations(axes: Floats) -> Floats:
+    """Angles between all axes (rad)."""
+    across = np.linalg.norm(np.cross(axes[:, None], axes[None]), axis=2)
+    return np.arctan2(across, axes @ axes.T)
 
 
 def zigzag_angle(latitude: float, n: int) -> float:
@@ -34,36 +39,29 @@ def antiprism_latitude(n: int, cap: int, side: int) -> float:
     """Latitude of the side axes (rad) at which caps and sides of an n-antiprism share one pitch.
 
     rho_cap + rho_side = pi/2 - lat with sin rho proportional to the teeth, and 2 rho_side = `zigzag_angle`.
-    Equal teeth: sin lat = k/(1 + k), k = cos(pi/n). `RangeError` where the caps leave no latitude above 0.
+    Equal teeth: sin lat = k/(1 + k), k = cos(pi/n).
     """
     if cap == side:
         k = cos(pi / n)
         return asin(k / (1 + k))
 
     def gap(latitude: float) -> float:
-        return 2 * float(pitch_cone(pi / 2 - latitude, side, cap)) - zigzag_angle(latitude, n)
+        between = pi / 2 - latitude
+        return 2 * atan2(sin(between), cos(between) + cap / side) - zigzag_angle(latitude, n)
 
-    if gap(0.0) <= 0:
-        raise RangeError(
-            Problem(
-                f"{cap} teeth on the caps are too many for {side} on the sides of a {n}-antiprism",
-                f"at latitude 0 the sides touch when cap/side is cot(90/{n} deg) = {1 / float(np.tan(pi / 2 / n)):.6g}",
-                "take fewer teeth on the caps, or more on the sides",
-            )
-        )
-    return _root(gap, 0.0, pi / 2 - 1e-9)
+    return root(gap, 0.0, pi / 2 - 1e-9)
 
 
 def idler_pitch(S: float, z_a: int, z_b: int, z_e: int) -> float:
     """Pitch lambda at which one idler fits between gears S apart (rad): asin(l z_a) + asin(l z_b) + 2 asin(l z_e) = S.
 
-    In radii of the sphere. `RangeError` where even the largest pitch leaves a gap.
+    In radii of the sphere.
     """
 
     def excess(pitch: float) -> float:
         return sum(asin(min(pitch * z, 1)) for z in (z_a, z_b, z_e, z_e)) - S
 
-    return _largest_pitch_root(excess, max(z_a, z_b, z_e))
+    return root(excess, 0.0, 1 / max(z_a, z_b, z_e))
 
 
 def icosahedral_pitch(z_1: int, z_2: int, z_3: int) -> tuple[float, float]:
@@ -82,40 +80,10 @@ def icosahedral_pitch(z_1: int, z_2: int, z_3: int) -> tuple[float, float]:
         d = acos(cos(P) * cos(t) + sin(P) * sin(t) * cos(pi / 5))
         return asin(min(pitch * z_2, 1)) + asin(min(pitch * z_3, 1)) - d
 
-    # past the middle of the edge its two gears would change places
-    bound = _largest_pitch_root(lambda pitch: place(pitch) - atan(2) / 2, max(z_1, z_3), needed=False)
-    bound = min(bound, 1 / z_2)
-    if excess(bound) < 0:
-        raise RangeError(
-            Problem(
-                f"teeth {z_1}/{z_2}/{z_3} leave the faces short of the edges",
-                "the edge gears meet in the middle of the edge before the face gears reach them",
-                "take more teeth on the faces, or fewer on the vertices",
-            )
-        )
-    pitch = _root(excess, 0.0, bound)
+    # the largest gear is at most a crown gear, and past the middle of the edge its two gears would change places
+    middle = root(lambda pitch: place(pitch) - atan(2) / 2, 0.0, 1 / max(z_1, z_3))
+    pitch = root(excess, 0.0, min(middle, 1 / z_2))
     return pitch, place(pitch)
-
-
-def _largest_pitch_root(excess: Callable[[float], float], largest: int, needed: bool = True) -> float:
-    """The root between 0 and the pitch that makes the largest gear a crown gear."""
-    if excess(1 / largest) < 0:
-        if not needed:
-            return inf
-        raise RangeError(
-            Problem(
-                "the gears cannot fill the angle between the axes",
-                f"the gear of {largest} teeth would have to be an internal gear",
-                "take tooth numbers that differ less",
-            )
-        )
-    return _root(excess, 0.0, 1 / largest)
-
-
-def _root(value: Callable[[float], float], low: float, high: float) -> float:
-    from geartrain.numerics.roots import root
-
-    return root(value, low, high, value(low), value(high))
 
 
 def icosahedron_vertices() -> Floats:
@@ -186,8 +154,6 @@ def moved_antiprism(n: int, cap: int, side: int) -> Configuration:
     Loops close exactly only with equal teeth and n dividing 3z, or where the moved antiprism is the uniform one
     (6: 18/6); else ask for their residue. Kinds "cap" and "side".
     """
-    if n < 3:
-        raise QuestionError(Problem(f"a {n}-antiprism", "a cap needs three sides or more", "n = 3 or more"))
     latitude = antiprism_latitude(n, cap, side)
     longitudes = np.arange(2 * n) * pi / n
     heights = np.where(np.arange(2 * n) % 2, -latitude, latitude)
@@ -208,18 +174,12 @@ def with_idlers(configuration: Configuration, idler: int) -> Configuration:
 
     The idlers take a pitch of their own making (`idler_pitch`); their two contacts stand half a turn apart.
     """
-    found = mesh_kinds(configuration)
-    if len(found) != 1:
-        raise QuestionError(
-            Problem(
-                f"{len(found)} kinds of mesh",
-                "one pitch suits idlers on all edges only where all edges are alike",
-                "start from a set with one kind of mesh, or pack the graph with its idlers: from_graph()",
-            )
-        )
-    mesh, teeth = found[0], configuration.teeth
-    pitch = idler_pitch(mesh.angle, teeth[mesh.a], teeth[mesh.b], idler)
-    lead = {kind: asin(pitch * teeth[kind]) + asin(pitch * idler) for kind in (mesh.a, mesh.b)}
+    i, j = configuration.meshes[0]
+    a, b = configuration.kinds[i], configuration.kinds[j]
+    apart = float(separations(configuration.axes)[i, j])
+    teeth = configuration.teeth
+    pitch = idler_pitch(apart, teeth[a], teeth[b], idler)
+    lead = {kind: asin(pitch * teeth[kind]) + asin(pitch * idler) for kind in (a, b)}
     axes, gears = list(configuration.axes), len(configuration.axes)
     meshes: list[tuple[int, int]] = []
     for at, (i, j) in enumerate(configuration.meshes):

@@ -15,7 +15,7 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem, printab
 from geartrain.numerics.files import csv_text
 from geartrain.scene.solids.bearing_plates import CUT, ENGRAVE, LAYERS, PITCH, EngravedText, FlatDrawing, wheel_drawing
 from geartrain.teeth.outlines.contour import Contour, arc_radius
-from geartrain.teeth.outlines.cut_wheel import WheelOutline
+from geartrain.teeth.outlines.wheel_outline import WheelOutline
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -151,7 +151,7 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
     Examples
     --------
     >>> import geartrain
-    >>> from geartrain.teeth.outlines.cut_wheel import BlankSizes
+    >>> from geartrain.teeth.outlines.wheel_outline import BlankSizes
     >>> mesh = geartrain.load("planetary-24-18-60-involute").meshes[0]
     >>> outline_text(mesh.wheel_outline(1, BlankSizes(module=1.0)), ".csv").splitlines()[0]
     'contour,x_mm,y_mm'

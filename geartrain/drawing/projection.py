@@ -35,7 +35,7 @@ from geartrain.scene import Scene, SceneCoupling, SceneWave, SceneWheel
 from geartrain.scene.layout.wheel_reach import CROWN, height_on_cone, taper
 from geartrain.scene.palette import series_colour
 from geartrain.scene.pose import ScenePose, scene_pose
-from geartrain.teeth.outlines.wave_tooth import bent_line
+from geartrain.teeth.outlines.fixed_teeth import bent_line
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

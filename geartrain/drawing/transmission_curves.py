@@ -37,8 +37,7 @@ from geartrain.drawing.tooth_contact import PHASES, pair_text, require_contact
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import Dash, series_colour, series_dash
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
-from geartrain.teeth.triangular.real_path import STANDSTILL
-from geartrain.teeth.triangular.speed_jump import SpeedJump
+from geartrain.teeth.triangular.real_path import STANDSTILL, SpeedJump
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

@@ -19,10 +19,8 @@ from geartrain.numerics.containers import FrozenDict
 from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT, WORDS, escape_tooth
+from geartrain.teeth.outlines.fixed_teeth import ESCAPE_WORDS, ESCAPEMENT, WAVE, WAVE_WORDS, escape_tooth, wave_tooth
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
-from geartrain.teeth.outlines.wave_tooth import WAVE, wave_tooth
-from geartrain.teeth.outlines.wave_tooth import WORDS as WAVE_WORDS
 from geartrain.teeth.outlines.wheel_requirement import PairRequirement, disagreement
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
 
@@ -221,7 +219,7 @@ class _Toothing:
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
         if not self.pairs[name] and (turning := self._let_through(name)):
-            return [PairRequirement("", ESCAPEMENT, WORDS, escape_tooth(wheel.count or 1, turning))]
+            return [PairRequirement("", ESCAPEMENT, ESCAPE_WORDS, escape_tooth(wheel.count or 1, turning))]
         if waved := self._waved(name):
             tooth = wave_tooth(wheel.count or 1, self._standard_play(name), wheel.internal)
             return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]

@@ -13,7 +13,7 @@ from geartrain.report.document import Document, Section, Table, figure
 from geartrain.teeth.conjugate.path_costs import FREE, LOADED, ONE_PAIR, SHARED
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.pair_design import DesignCosts, PairDesign
+    from geartrain.teeth.conjugate.conjugate_mesh import DesignCosts, PairDesign
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.form_comparison import FormComparison, MeasuredForm
 
@@ -169,7 +169,7 @@ def describe_form_comparison(found: FormComparison) -> Document:
 
     Examples
     --------
-    >>> from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    >>> from geartrain.teeth.conjugate import WheelPair
     >>> from geartrain.teeth.form_comparison import compare_forms
     >>> page = describe_form_comparison(compare_forms(WheelPair(24, 36), ["involute", "cycloidal"]))
     >>> [row[:4] for row in page.sections[0].tables[0].rows]

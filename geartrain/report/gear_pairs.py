@@ -12,8 +12,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Section, Table
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures
-from geartrain.teeth.pin_figures import PinFigures, pin_figures
+from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PinFigures, pin_figures
 
 if TYPE_CHECKING:
     from geartrain.errors import Problem

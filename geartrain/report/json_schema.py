@@ -113,9 +113,9 @@ def _of_any_form(kind: type) -> Schema:
 
 def _of_pairs() -> dict[str, Schema]:
     from geartrain.report.pair_page import FormedPair, TriangularPair
-    from geartrain.teeth.conjugate.pair_design import PairDesign
+    from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
     from geartrain.teeth.form_comparison import FormComparison
-    from geartrain.teeth.pin_figures import PinFigures
+    from geartrain.teeth.pair_results import PinFigures
 
     return {
         "mesh triangular": shape_of(TriangularPair),

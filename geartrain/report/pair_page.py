@@ -15,23 +15,21 @@ from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import fault_text, joined_table
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
-from geartrain.teeth.pair_verdict import friction_lock_at_speed
+from geartrain.teeth.pair_results import friction_lock_at_speed
 from geartrain.teeth.rubbed_transmission import pair_friction
-from geartrain.teeth.triangular.contact_course import contact_course
-from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
-from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh, explain_clearance, explain_friction_lock
+from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairImpacts, PairOperation
-    from geartrain.teeth.conjugate.pair_design import PairDesign
+    from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.outlines.cut_wheel import WheelOutline
-    from geartrain.teeth.pair_account import PairFigures
+    from geartrain.teeth.outlines.wheel_outline import WheelOutline
+    from geartrain.teeth.pair_results import PairFigures
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
-    from geartrain.teeth.triangular.contact_course import ContactCourse
     from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+    from geartrain.teeth.triangular.triangular_transmission import ContactCourse, TriangularTransmission
 
 
 @dataclass(frozen=True)
@@ -141,8 +139,8 @@ def _triangular_pair(
 ) -> TriangularPair:
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
     from geartrain.teeth.rubbed_transmission import pair_friction
-    from geartrain.teeth.triangular.contact_course import contact_course
     from geartrain.teeth.triangular.triangular_mesh import triangular_figures
+    from geartrain.teeth.triangular.triangular_transmission import contact_course
 
     impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
     figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
@@ -164,7 +162,7 @@ def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | No
     """The design of conjugate teeth; None for others, and at a distance at which they are conjugate no more."""
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
-    from geartrain.teeth.conjugate.pair_design import PairDesign
+    from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
 
     return PairDesign(mesh, tuple(outlines))
 
@@ -215,7 +213,7 @@ def describe_pin(law: PinTransmission) -> Document:
     Returns
     -------
     Document
-        One section; its data are those of `geartrain.teeth.pin_figures.pin_figures`.
+        One section; its data are those of `geartrain.teeth.pair_results.pin_figures`.
 
     Examples
     --------
@@ -223,7 +221,7 @@ def describe_pin(law: PinTransmission) -> Document:
     >>> describe_pin(PinToSlotTransmission(2, 1)).sections[0].tables[0].rows[0]
     ('amplitude', '0.523598776 rad', '30 deg')
     """
-    from geartrain.teeth.pin_figures import pin_figures
+    from geartrain.teeth.pair_results import pin_figures
 
     found = pin_figures(law)
     ratio, rms, efficiency = found.speed_ratio, found.transmission_error.rms, found.efficiency

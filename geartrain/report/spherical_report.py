@@ -78,7 +78,7 @@ def _meshes(found: GearSphere) -> Table:
 
 def _pitch(found: GearSphere) -> Iterator[str]:
     from geartrain.spherical import ratio_windows
-    from geartrain.spherical.pitch_theorems import impossibility_theorem
+    from geartrain.spherical.gear_sizes import impossibility_theorem
 
     sizing = found.sizing
     if sizing is not None:

@@ -21,7 +21,7 @@ from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector, across, minus, size, unit_or_z
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.elements import SceneBody, SceneWave, SceneWheel, ToothProfile
-from geartrain.teeth.outlines.wave_tooth import wall
+from geartrain.teeth.outlines.fixed_teeth import wall
 from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
 if TYPE_CHECKING:

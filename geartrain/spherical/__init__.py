@@ -7,14 +7,14 @@ sizes, tooth numbers that nearly share one pitch, and the train that it is.
 Pitch cones obey rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i (docs/sphere.md, equation
 1), and speeds about outward axes z_i w_i = -z_j w_j. Teeth meet where the phases of every loop close (docs/closure.md).
 
-polyhedra, named_solids                      solids from vertices and by name, with their symmetries
-gear_places, polyhedron_gears                where gears may be on a solid; sets of gears on it, and a survey of solids
+polyhedra                                    solids from vertices and by name, with their symmetries
+polyhedron_gears                             sets of gears on a solid: places, kinds, names; a survey of solids
 circle_packing, graph_set                    sets of gears from any planar graph
-configuration                                a set: axes, meshes, kinds of gear
-gear_sphere, gear_sizes, assembly_loops      whether it turns and can be put together, and how large its gears are
-pitch_cones, pitch_theorems                  cones of a pair; sets of which one pitch is proved impossible
-tooth_count_search                           tooth numbers that nearly share one pitch
-axis_adjustment, symmetric_displacement      axes moved until all meshes have one pitch, or loops close
+configuration                                a set: axes, meshes, kinds of gear, loops that its teeth must close
+gear_sphere, gear_sizes                      whether a set turns and can be assembled; sizes of its gears
+pitch_cones                                  cones of one pair
+tooth_count_search                           tooth numbers that nearly share one pitch (exhaustive search)
+axis_adjustment, symmetric_displacement      axes moved until all meshes have one pitch, or loops close (Newton)
 """
 
 from __future__ import annotations
@@ -28,8 +28,7 @@ if TYPE_CHECKING:
     from geartrain.spherical.gear_sizes import SphereSizing, one_pitch, size_gears
     from geartrain.spherical.gear_sphere import GearSphere
     from geartrain.spherical.graph_set import GraphSet, from_graph
-    from geartrain.spherical.named_solids import solid, solid_names
-    from geartrain.spherical.polyhedra import Polyhedron, polyhedron
+    from geartrain.spherical.polyhedra import Polyhedron, polyhedron, solid, solid_names
     from geartrain.spherical.polyhedron_gears import SurveyRow, from_polyhedron, survey
     from geartrain.spherical.tooth_count_search import (
         NeighbourRatioWindow,
@@ -78,8 +77,8 @@ _PLACES = {
     "polyhedron": "polyhedra",
     "ratio_windows": "tooth_count_search",
     "size_gears": "gear_sizes",
-    "solid": "named_solids",
-    "solid_names": "named_solids",
+    "solid": "polyhedra",
+    "solid_names": "polyhedra",
     "suggest_tooth_counts": "tooth_count_search",
     "survey": "polyhedron_gears",
     "to_train": "configuration",

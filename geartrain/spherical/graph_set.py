@@ -16,7 +16,6 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
-from geartrain.spherical.assembly_loops import fundamental_loops
 from geartrain.spherical.axis_adjustment import (
     AxisAdjustment,
     LoopCorners,
@@ -27,7 +26,7 @@ from geartrain.spherical.axis_adjustment import (
     loop_sums,
 )
 from geartrain.spherical.circle_packing import SpherePacking, pack_circles
-from geartrain.spherical.configuration import Configuration
+from geartrain.spherical.configuration import Configuration, fundamental_loops
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
 
 if TYPE_CHECKING:

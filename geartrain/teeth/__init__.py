@@ -1,12 +1,37 @@
-"""Teeth of gear pairs: forms, what a pair with real teeth does, the outlines of its wheels, pins in slots.
+"""Teeth of gear pairs: tooth forms, pairs with real teeth, outlines of wheels, pins in slots.
 
-In: two tooth numbers, a form as a pair declares it (`tooth_form`), friction, sizes. Out: a `GearMesh`, whatever the
-form: verdict and play, transmission function on drive and coast flanks, efficiency, the outline to cut. Each form is
-one file, and each has a method `law` for a pair without a train.
+In: two tooth counts, a form as a pair declares it, friction, sizes. Out: a `GearMesh`, whatever the form: verdict and
+backlash, transmission function on drive and coast flanks, efficiency, the outline to cut. Each form is one file, and
+each has a method `law` that gives the transmission function of a pair without a train.
 
-Conjugate forms keep the ratio of tooth numbers by the law of gearing: the common normal passes the pitch point
-(docs/shapes.md). Triangular teeth follow F. Sorge's equations (docs/teeth.md, with its errata), teeth that are given by
-outlines alone the contact of these (`geartrain.teeth.contact`), pins plane geometry.
+tooth_form, any_tooth_form    base class of all forms; their union, from which a declaration selects by `form`
+ideal                         the ratio of tooth counts at every instant
+involute, cycloidal, lantern  conjugate forms of practice
+uniform_stress, uniform_temperature, least_friction
+                              conjugate forms that are optimal (calculus of variations)
+circular_arc, pin_ring        clock teeth of BS 978; cycloidal reducers
+triangular                    triangular teeth of antiquity
+standard_teeth                involutes where no form is declared
+
+meshing_wheels, gear_mesh     two wheels as declared; a pair with real teeth, as a train uses it
+transmission                  transmission function: driven angle, speed ratio and efficiency by the driver's angle
+transmission_table            the same as tables of polynomials, and the compiled kernel that reads them
+pair_results                  figures, verdict and rows of tables of one pair
+form_comparison               conjugate forms compared with the 20 degree involute
+contact_coefficients          Coulomb friction and restitution as declared
+friction_law                  friction that depends on speed (Stribeck, Buckingham, Dokos, a table)
+rubbed_transmission           losses of a pair under such friction
+pin_coupling                  pins in slots and holes as declared
+pin_transmission              their transmission functions
+cycloidal_disc                disc of lobes in a ring of pins (shortened epitrochoid)
+
+conjugate                     teeth from their path of contact, for spur and bevel wheels
+contact                       contact of two outlines of any shape
+outlines                      closed outlines of wheels to cut
+
+Conjugate forms keep the ratio of tooth counts by the law of gearing: the common normal passes the pitch point
+(docs/shapes.md). Triangular teeth follow F. Sorge's equations (docs/teeth.md, with its errata), teeth given only by
+outlines the contact of these, pins plane geometry.
 """
 
 from __future__ import annotations
@@ -19,6 +44,7 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.teeth import any_tooth_form
     from geartrain.teeth.any_tooth_form import *  # noqa: F403
+    from geartrain.teeth.form_comparison import compare_forms as compare_forms
     from geartrain.teeth.friction_law import BuckinghamFriction as BuckinghamFriction
     from geartrain.teeth.friction_law import DokosFriction as DokosFriction
     from geartrain.teeth.friction_law import FrictionLaw as FrictionLaw
@@ -26,16 +52,16 @@ if TYPE_CHECKING:
     from geartrain.teeth.friction_law import StribeckFriction as StribeckFriction
     from geartrain.teeth.friction_law import TabulatedFriction as TabulatedFriction
     from geartrain.teeth.gear_mesh import GearMesh as GearMesh
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes as BlankSizes
-    from geartrain.teeth.outlines.cut_wheel import WheelOutline as WheelOutline
-    from geartrain.teeth.pair_verdict import PairVerdict as PairVerdict
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes as BlankSizes
+    from geartrain.teeth.outlines.wheel_outline import WheelOutline as WheelOutline
+    from geartrain.teeth.pair_results import PairVerdict as PairVerdict
+    from geartrain.teeth.pair_results import SlidingEfficiency as SlidingEfficiency
+    from geartrain.teeth.pair_results import SpeedRatio as SpeedRatio
+    from geartrain.teeth.pair_results import TransmissionError as TransmissionError
     from geartrain.teeth.pin_transmission import PinToSlotTransmission as PinToSlotTransmission
     from geartrain.teeth.pin_transmission import SlotToPinTransmission as SlotToPinTransmission
     from geartrain.teeth.rubbed_transmission import RubbedTransmission as RubbedTransmission
     from geartrain.teeth.transmission import TransmissionFunction as TransmissionFunction
-    from geartrain.teeth.transmission_figures import SlidingEfficiency as SlidingEfficiency
-    from geartrain.teeth.transmission_figures import SpeedRatio as SpeedRatio
-    from geartrain.teeth.transmission_figures import TransmissionError as TransmissionError
 
     __all__ = [
         "BlankSizes",
@@ -55,27 +81,29 @@ if TYPE_CHECKING:
         "TransmissionError",
         "TransmissionFunction",
         "WheelOutline",
+        "compare_forms",
     ]
     __all__ += any_tooth_form.__all__
 
 _PLACES = {
-    "BlankSizes": "outlines.cut_wheel",
+    "BlankSizes": "outlines.wheel_outline",
     "BuckinghamFriction": "friction_law",
     "DokosFriction": "friction_law",
     "FrictionLaw": "friction_law",
     "GearMesh": "gear_mesh",
     "PairFriction": "friction_law",
-    "PairVerdict": "pair_verdict",
+    "PairVerdict": "pair_results",
     "PinToSlotTransmission": "pin_transmission",
     "RubbedTransmission": "rubbed_transmission",
-    "SlidingEfficiency": "transmission_figures",
+    "SlidingEfficiency": "pair_results",
     "SlotToPinTransmission": "pin_transmission",
-    "SpeedRatio": "transmission_figures",
+    "SpeedRatio": "pair_results",
     "StribeckFriction": "friction_law",
     "TabulatedFriction": "friction_law",
-    "TransmissionError": "transmission_figures",
+    "TransmissionError": "pair_results",
     "TransmissionFunction": "transmission",
-    "WheelOutline": "outlines.cut_wheel",
+    "WheelOutline": "outlines.wheel_outline",
+    "compare_forms": "form_comparison",
 }
 
 _find = lazy_names(__name__, _PLACES)

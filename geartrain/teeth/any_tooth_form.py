@@ -1,4 +1,4 @@
-"""Every tooth form: the union of which a declaration chooses one by its `form`."""
+"""The union of all tooth forms, from which a declaration selects one by `form`."""
 
 from __future__ import annotations
 

@@ -10,8 +10,7 @@ from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import Figure
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.conjugate.form_checks import arcs_of, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, refused
 

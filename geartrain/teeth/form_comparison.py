@@ -1,7 +1,7 @@
-"""Conjugate tooth forms beside the 20 degree involute of the same pair of wheels and the same arcs of contact.
+"""Comparison of conjugate tooth forms with the 20 degree involute of the same wheels and the same arcs of contact.
 
 Forms are comparable where they are in contact equally long: arcs of approach and recess are given, in pitches, and each
-form makes the pair that has them. What it costs is told as a ratio to the involute's.
+form makes the pair that has them. Costs are ratios to those of the involute.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Key, Result
 from geartrain.teeth.any_tooth_form import Involute, tooth_forms
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.pair_verdict import ToothFault
+from geartrain.teeth.pair_results import ToothFault
 
 if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
@@ -146,7 +146,7 @@ def compare_forms(
 
     Examples
     --------
-    >>> from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    >>> from geartrain.teeth.conjugate import WheelPair
     >>> (form,) = compare_forms(WheelPair(24, 36), ["least_friction"]).forms
     >>> form.runs, form.ratios.one_pair["loss"] < 1
     (True, True)

@@ -1,7 +1,8 @@
-"""Friction that depends on speed: laws that may stand in place of a coefficient, and a pair that runs under one.
+"""Friction that depends on speed: laws that may replace a coefficient, and a pair under one.
 
 The measured values are those that W. D. Smith prints in "Optimal shapes for gears" (1993): Buckingham's for lubricated
-cast iron, Dokos's for dry steel. Smith gives their ends, not their tables; what is put between them is said below.
+cast iron, Dokos's for dry steel. Smith gives their ends, not their tables; how values between them are found is said at
+each law.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A gear pair with real teeth: what a train asks of it, whatever their form."""
+"""A gear pair with real teeth, as a train uses it, whatever the tooth form."""
 
 from __future__ import annotations
 
@@ -15,12 +15,10 @@ from geartrain.teeth.transmission import ExactRatio
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
-    from geartrain.teeth.pair_account import PairAccount
-    from geartrain.teeth.pair_verdict import PairVerdict
+    from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
     from geartrain.teeth.transmission import TransmissionFunction
-    from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 
 @dataclass(frozen=True)
@@ -148,7 +146,7 @@ class GearMesh(ABC):
 
     def friction_faults(self) -> Iterator[Problem]:
         """That friction locks these teeth, if it does."""
-        from geartrain.teeth.pair_verdict import friction_lock, friction_lock_at_speed
+        from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
             if self.law.locks:
@@ -234,9 +232,8 @@ class GearMesh(ABC):
         import numpy as np
 
         from geartrain.teeth.outlines.contour import Contour
-        from geartrain.teeth.outlines.cut_wheel import WheelOutline
         from geartrain.teeth.outlines.tooth_outline import repeated
-        from geartrain.teeth.outlines.wheel_outline import bore
+        from geartrain.teeth.outlines.wheel_outline import WheelOutline, bore
 
         size = self.own_size
         scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
@@ -369,7 +366,7 @@ class GearMesh(ABC):
         SlidingEfficiency
             At constant torque of either side.
         """
-        from geartrain.teeth.transmission_figures import SlidingEfficiency
+        from geartrain.teeth.pair_results import SlidingEfficiency
 
         return SlidingEfficiency(self.losses if driver == self.driver else self._rubbed(self.reversed))
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.conjugate.form_checks import check_angle
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
@@ -240,9 +239,9 @@ class Involute(ConjugateToothForm):
 
     def _spur(self, wheels: WheelPair) -> ConjugatePair:
         from geartrain.teeth.conjugate import optimal_sides as forms
+        from geartrain.teeth.conjugate.admissibility import involute_faults
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-        from geartrain.teeth.conjugate.tip_interference import involute_faults
 
         found = self.involutes(wheels)
         approach, recess = (forms.involute(max(X, 0.0), found.psi) for X in found.arcs)

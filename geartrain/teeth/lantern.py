@@ -9,8 +9,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Figure, Length
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, conjugate_pair_of
-from geartrain.teeth.conjugate.form_checks import arcs_of, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs, conjugate_pair_of
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
-    from geartrain.teeth.pair_verdict import ToothFault
+    from geartrain.teeth.pair_results import ToothFault
 
 _BEYOND = 1 + 1e-8  # times what the pins cut off: without it rounding may leave a hair less than a pitch of contact
 
@@ -108,10 +107,9 @@ class Lantern(ConjugateToothForm):
         GearTrainError
             Where pins do not reach the pitch circle or touch each other; `RangeError` for bevels and rings of pins.
         """
-        from geartrain.teeth.conjugate.closed_form_sides import lantern, pin_angle
+        from geartrain.teeth.conjugate.closed_form_sides import flank_start, lantern, pin_angle
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-        from geartrain.teeth.conjugate.pin_undercut import flank_start
 
         wheels.check()
         if wheels.bevel:
@@ -151,7 +149,7 @@ class Lantern(ConjugateToothForm):
 
     def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
         """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""
-        from geartrain.teeth.pair_verdict import ToothFault
+        from geartrain.teeth.pair_results import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
         # a pitch of contact but for rounding is enough where no arc on the dedendum is asked for

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle, Figure, Quantity
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.conjugate.form_checks import arcs_of, check_angle, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.friction_law import FrictionLawOfText, PairFriction, PositiveVelocity
 from geartrain.teeth.tooth_form import TwoFigures, bad
@@ -120,8 +119,7 @@ class LeastFriction(ConjugateToothForm):
 
     def _usual(self, pitch: PitchSurfaces) -> PathOfContact:
         from geartrain.teeth.conjugate.optimal_sides import least_friction
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-        from geartrain.teeth.conjugate.path_side import none
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
         psi, u = (self.pressure_angle or _CEILING).si, float((self.margin or _MARGIN).value)
         approach, recess = (
@@ -145,8 +143,7 @@ class LeastFriction(ConjugateToothForm):
 
     def _literal(self, pitch: PitchSurfaces) -> PathOfContact:
         from geartrain.teeth.conjugate.closed_form_sides import extremal
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-        from geartrain.teeth.conjugate.path_side import none
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
         first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
         approach, recess = (

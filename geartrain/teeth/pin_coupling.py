@@ -16,7 +16,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Length, Quantity
-from geartrain.teeth.coulomb_friction import DeclaredCoulombFriction, DeclaredRestitution
+from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.cycloidal_disc import CycloidalDisc, DiscTransmission
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.pair_account import PairFigures
+    from geartrain.teeth.pair_results import PairFigures
 
 _SHORTENING = 0.7  # pitch radius of the ring over that of the pins' circle, unless it is declared
 _CROWDED = 1.7  # distance of two pins over the diameter of one, unless that is declared
@@ -73,7 +73,7 @@ class PinRing(ToothForm):
     @classmethod
     def figures(cls) -> type[PairFigures]:
         """With the loads of its pins."""
-        from geartrain.teeth.disc_mesh import DiscFigures
+        from geartrain.teeth.cycloidal_disc import DiscFigures
 
         return DiscFigures
 
@@ -185,7 +185,7 @@ class PinRing(ToothForm):
         GearMesh
             What a train asks of the pair.
         """
-        from geartrain.teeth.disc_mesh import DiscMesh
+        from geartrain.teeth.cycloidal_disc import DiscMesh
 
         del shaft_angle
         if set(wheels.kinds) != {"spur"} or sum(wheels.internal) != 1:

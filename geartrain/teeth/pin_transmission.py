@@ -1,4 +1,4 @@
-"""Laws of a pin in a slot. Only angles at the two axes count: a pin at radius r, the axes e apart.
+"""Transmission functions of a pin in a slot. Only angles at the two axes count: a pin at radius r, the axes e apart.
 
 The driver's angle S is counted from the direction that points from the pin's axis to the slot's.
 """

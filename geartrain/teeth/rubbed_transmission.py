@@ -1,4 +1,4 @@
-"""The losses of a pair whose friction depends on the speed at which its teeth slide, whatever their form."""
+"""Losses of a pair whose friction depends on the sliding speed of its teeth, whatever their form."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.teeth.derived_transmission import DerivedTransmission
 from geartrain.teeth.friction_law import PairFriction
-from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
+from geartrain.teeth.transmission import ContactRubbing, DerivedTransmission, TransmissionFunction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

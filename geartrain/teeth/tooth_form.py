@@ -1,4 +1,4 @@
-"""What all tooth forms share: a declaration that makes a gear mesh of two wheels, and the field types they declare."""
+"""The base class of tooth forms, which makes a gear mesh of two wheels; and the field types that forms declare."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffne
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.pair_account import PairFigures
+    from geartrain.teeth.pair_results import PairFigures
 
 IDEAL = "give this pair `tooth_form: {form: ideal}`"
 
@@ -136,7 +136,7 @@ class ToothForm(BaseModel, ABC):
     @classmethod
     def figures(cls) -> type[PairFigures]:
         """The class of what a mesh of this form tells of itself, from which the schema of answers is read."""
-        from geartrain.teeth.pair_account import PairFigures
+        from geartrain.teeth.pair_results import PairFigures
 
         return PairFigures
 

@@ -1,8 +1,8 @@
-"""The transmission law of a pair: what every tooth form and every pin answers, so that the rest need not know which.
+"""Transmission functions of pairs: the interface of every tooth form and pin, the exact ratio, and derived functions.
 
 Angles are forward angles: S of the driver and q of the driven side both grow as the pair turns forward, and S = 0 has a
-driver's tooth on the line of centres (a pin: pointing at the other axis). The sign an external mesh gives to the driven
-speed is the train's business, not the law's.
+driver's tooth on the line of centres (a pin: pointing at the other axis). The sign that an external mesh gives to the
+driven speed belongs to the train, not to these functions.
 """
 
 from __future__ import annotations
@@ -331,3 +331,64 @@ class ExactRatio(TransmissionFunction):
         import numpy as np
 
         return np.full(np.shape(S), value)
+
+
+class DerivedTransmission(TransmissionFunction):
+    """A law that moves as `law` does, and differs in how it is worked out or in what it loses."""
+
+    def __init__(self, law: TransmissionFunction) -> None:
+        self.law, self.ratio, self.period = law, law.ratio, law.period
+
+    def speed_range(self) -> tuple[float, float]:
+        """The law's own."""
+        return self.law.speed_range()
+
+    def error_range(self) -> tuple[float, float]:
+        """The law's own."""
+        return self.law.error_range()
+
+    def error_moments(self) -> tuple[float, float]:
+        """The law's own."""
+        return self.law.error_moments()
+
+    def corners(self) -> list[float]:
+        """The law's own."""
+        return self.law.corners()
+
+    def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
+        """The law's own."""
+        return self.law.speed_leaps()
+
+    def steepest_fall(self) -> float | None:
+        """The law's own."""
+        return self.law.steepest_fall()
+
+    @property
+    def locking_friction(self) -> float:
+        """The law's own."""
+        return self.law.locking_friction
+
+
+class ConstantLag(ExactRatio):
+    """A law that keeps its ratio, its driven side always by `mean` (rad) ahead of uniform motion."""
+
+    def __init__(self, ratio: Fraction, period: float, mean: float) -> None:
+        super().__init__(ratio, period)
+        self.mean = mean
+
+    @classmethod
+    def at(cls, law: TransmissionFunction, S: float) -> ConstantLag:
+        """What another law does where its driver stands at S (rad), whatever S is."""
+        return cls(law.ratio, law.period, float(law.error(S)))
+
+    def error(self, S: ArrayLike) -> Floats:
+        """The same everywhere."""
+        return self._constant(S, self.mean)
+
+    def error_range(self) -> tuple[float, float]:
+        """The same twice."""
+        return self.mean, self.mean
+
+    def error_moments(self) -> tuple[float, float]:
+        """The mean, and 0."""
+        return self.mean, 0.0

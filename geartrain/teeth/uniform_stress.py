@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.conjugate.form_checks import arcs_of, check_angle, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures
 
@@ -27,7 +26,7 @@ class UniformStress(ConjugateToothForm):
 
     Examples
     --------
-    >>> from geartrain.teeth.conjugate.path_costs import measure
+    >>> from geartrain.teeth.conjugate import measure
     >>> stress = measure(UniformStress(form="uniform_stress").path(24, 36)).one_pair
     >>> round(stress.stress / stress.off_pitch, 6)
     1.0
@@ -54,8 +53,7 @@ class UniformStress(ConjugateToothForm):
             Where these wheels cannot have such teeth, with what would let them.
         """
         from geartrain.teeth.conjugate.optimal_sides import uniform_stress
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-        from geartrain.teeth.conjugate.path_side import none
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
         pitch, psi = wheels.pitch, self.pressure_angle.si
         A, B = pitch.A, pitch.B

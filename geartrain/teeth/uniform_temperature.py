@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle, Figure, Quantity
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
-from geartrain.teeth.conjugate.form_checks import arcs_of, check_angle, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-    from geartrain.teeth.conjugate.path_side import PathSide
+    from geartrain.teeth.conjugate.path_of_contact import PathSide
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _USUAL = Quantity.parse("12 deg", "angle", False)
@@ -89,7 +88,7 @@ class UniformTemperature(ConjugateToothForm):
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
         """Approach and recess with gamma = (A + B) / heat."""
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
-        from geartrain.teeth.conjugate.path_side import none
+        from geartrain.teeth.conjugate.path_of_contact import none
 
         psi = (self.least_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
@@ -108,16 +107,17 @@ class UniformTemperature(ConjugateToothForm):
     def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
         """The sides with the wanted working depth, which grows with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
-        from geartrain.teeth.conjugate.working_depth import to_depth, working_depth
+        from geartrain.teeth.conjugate.path_costs import depth, to_depth
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         arcs = arcs_of(self.arcs, pitch)
         if self.depth is not None:
             wanted = float(self.depth.value) * pitch.p / pi
         else:
-            wanted = working_depth(pitch, [involute(X, _INVOLUTE) for X in arcs])
+            wanted = depth(PathOfContact(pitch, involute(arcs[0], _INVOLUTE), involute(arcs[1], _INVOLUTE)))
         # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
         start = max(2 * wanted / (arcs[0] ** 2 + arcs[1] ** 2) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2)
-        gamma = to_depth(lambda g: working_depth(pitch, self._sides(pitch, g)), wanted, start, sum(arcs))
+        gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)
 
 

@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import Figure, PairDamping, PairStiffness, Quantity, Speed, Torque, in_unit, same_kind
-from geartrain.teeth.coulomb_friction import CoulombFriction, DeclaredRestitution
+from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train.fields import (
     ByName,

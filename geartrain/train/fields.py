@@ -21,7 +21,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
-from geartrain.teeth.coulomb_friction import CoulombFriction, DeclaredCoulombFriction
+from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
 
 MOST_TEETH = 10**12
 

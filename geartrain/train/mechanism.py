@@ -42,7 +42,7 @@ from geartrain.numerics.quantity import (
     not_below_zero,
 )
 from geartrain.numerics.vectors import Vector, unit
-from geartrain.teeth.coulomb_friction import DeclaredRestitution
+from geartrain.teeth.contact_coefficients import DeclaredRestitution
 from geartrain.train.fields import (
     AlsoShort,
     Boolean,

@@ -26,7 +26,7 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
-from geartrain.teeth.coulomb_friction import CoulombFriction
+from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems

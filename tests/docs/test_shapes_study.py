@@ -16,8 +16,8 @@ from studies.shape_study import ShapeRecords, WorkRecord, quickest, shapes
 from geartrain.errors import RangeError
 from geartrain.numerics.chebyshev import ChebyshevSeries
 from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.optimal_sides import solved
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-from geartrain.teeth.conjugate.singular_collocation import solved
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 

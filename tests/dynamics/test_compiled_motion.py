@@ -12,7 +12,7 @@ from commands import call, ended, without
 from geartrain import GearTrainError, load
 from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition
 from geartrain.errors import MissingExtraError
-from geartrain.teeth.transmission_kernel import join_transmission_tables, law_along, make_transmission_table
+from geartrain.teeth.transmission_table import join_transmission_tables, law_along, make_transmission_table
 
 TOOTHED = ("moon-triangular", "sorge-pairs", "longcase-clock-bs978", "freeth-2021", "freeth-2021-teeth",
            "freeth-2021-cut", "freeth-2006", "voulgaris-2022")  # fmt: skip

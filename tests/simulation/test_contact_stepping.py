@@ -39,8 +39,7 @@ from geartrain.simulation.steps.contact_solution import (
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, empty_equations, simulate, start_state
 from geartrain.simulation.steps.time_steps import run_steps
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
-from geartrain.teeth.constant_lag import ConstantLag
-from geartrain.teeth.transmission import ExactRatio
+from geartrain.teeth.transmission import ConstantLag, ExactRatio
 
 TURN = 2 * pi
 EVEN = tabled_angle(ExactRatio(Fraction(1), TURN))

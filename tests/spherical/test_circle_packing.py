@@ -16,11 +16,11 @@ from scipy.spatial import ConvexHull
 
 from geartrain import GearTrainError
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron
-from geartrain.spherical.assembly_loops import regions
 from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows, tangency
-from geartrain.spherical.circle_packing import SpherePacking, angle_excess, boost, pack_circles, stiffness
+from geartrain.spherical.circle_packing import SpherePacking, pack_circles
+from geartrain.spherical.configuration import regions
 from geartrain.spherical.graph_set import separating_pair
-from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, moved
+from geartrain.spherical.pitch_cones import angle_rows, moved
 
 Floats = NDArray[np.float64]
 Edge = tuple[str, str]
@@ -183,24 +183,6 @@ def test_a_thousand_gears_pack_and_close() -> None:
     assert found.exact == ("phases",)
 
 
-def test_a_boost_keeps_circles_tangent() -> None:
-    made = boost(np.array([0.3, -0.7, 0.2]))
-    metric = np.diag([1.0, 1, 1, -1])
-    assert np.allclose(made.T @ metric @ made, metric, atol=1e-14)
-
-
-def test_the_stiffness_is_the_derivative_of_the_angles() -> None:
-    i, j = np.array([0, 1, 1, 2]), np.array([1, 0, 2, 1])
-    u, h = np.array([0.3, -0.2, 0.9]), 1e-6
-    for k in range(3):
-        e = np.zeros(3)
-        e[k] = h
-        slope = (angle_excess(u + e, i, j, np.zeros(3)) - angle_excess(u - e, i, j, np.zeros(3))) / (2 * h)
-        w = stiffness(u, i, j)
-        expected = np.array([sum(w[(i == row) & (j == k)]) - sum(w[i == row]) * (row == k) for row in range(3)])
-        assert slope == pytest.approx(expected, abs=1e-9)
-
-
 # derivatives and rank ------------------------------------------------------------------------------------------------
 
 
@@ -221,17 +203,6 @@ def test_all_derivatives_are_those_of_differences() -> None:
             step[k] = h
             there, back = (function(moved(packing.axes, s * step.reshape(-1, 2)))[0] for s in (1, -1))
             assert np.allclose((there - back) / (2 * h), slopes[:, k], atol=3e-8)
-
-
-def test_an_axis_that_turns_with_all_others_changes_no_angle_between_azimuths() -> None:
-    axes = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
-    at, to = np.array([0, 0]), np.array([1, 2])
-    spin = np.cross(np.array([0.1, 0.5, -0.3]), axes)
-    from geartrain.spherical.pitch_cones import frames
-
-    steps = np.einsum("gx,gkx->gk", spin, frames(axes)).ravel()
-    rows = azimuth_rows(axes, at, to) @ steps
-    assert rows[0] - rows[1] == pytest.approx(0, abs=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -505,12 +476,3 @@ def test_the_room_opens_without_scipy_and_networkx() -> None:
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert "scipy" not in loaded
     assert "networkx" not in loaded
-
-
-def test_a_full_turn_of_angles_is_shared_by_the_regions() -> None:
-    """Round every gear the corners of the regions add up to one turn, so one loop follows from the others."""
-    found = from_graph(faces_and_vertices(ASYM), aim="phases")
-    z = np.ones(len(found.configuration.axes))
-    corners = corners_of(found.packing.regions, np.ones(len(z), dtype=np.int64))
-    total, _ = loop_sums(found.configuration.axes, corners, z)
-    assert total.sum() == pytest.approx(len(z))

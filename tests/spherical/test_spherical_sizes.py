@@ -18,13 +18,12 @@ from closed_form_spheres import (
     idler_sphere,
     moved_antiprism,
     quasiregular,
-    with_idlers,
 )
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from geartrain import GearTrainError
-from geartrain.numerics.arrays import Floats
 from geartrain.spherical import (
     Configuration,
     from_polyhedron,
@@ -33,8 +32,7 @@ from geartrain.spherical import (
     size_gears,
     suggest_tooth_counts,
 )
-from geartrain.spherical.assembly_loops import fundamental_loops, loop_rules, regions, residue
-from geartrain.spherical.configuration import mesh_kinds
+from geartrain.spherical.configuration import fundamental_loops, loop_rules, mesh_kinds, regions, residue
 from geartrain.spherical.pitch_cones import (
     base_pitch,
     operating_pitch,
@@ -46,11 +44,8 @@ from geartrain.spherical.pitch_cones import (
     virtual_teeth,
     wheel_radius,
 )
-from geartrain.spherical.pitch_theorems import impossibility_theorem
 
-PHI = (1 + sqrt(5)) / 2
-
-
+Floats = NDArray[np.float64]
 S53 = atan(3 - sqrt(5))
 ratios = st.tuples(st.floats(0.2, 2.8), st.integers(5, 200), st.integers(5, 200))
 
@@ -60,7 +55,6 @@ def line_of_action(n_1: Floats, n_2: Floats, g_1: float, g_2: float) -> Floats:
 
     A point X on it has the normal speed (n_1 x X).(q x X) = n_1.q = sin g_1 per turn speed of gear 1, wherever X
     is: spherical involutes turn in the ratio of their teeth at every angle between the axes.
-    `ValueError` where the base cones overlap.
     """
     C = float(n_1 @ n_2)
     across = np.cross(n_1, n_2)
@@ -68,8 +62,6 @@ def line_of_action(n_1: Floats, n_2: Floats, g_1: float, g_2: float) -> Floats:
     s_1, s_2 = sin(g_1), -sin(g_2)
     a, b = (s_1 - C * s_2) / square, (s_2 - C * s_1) / square
     rest = 1 - (a * s_1 + b * s_2)
-    if rest < 0:
-        raise ValueError("the base cones overlap")
     return np.asarray(a * n_1 + b * n_2 + sqrt(rest / square) * across, dtype=float)
 
 
@@ -154,13 +146,6 @@ def test_the_pressure_angle_is_that_between_the_line_of_action_and_the_pitch_cir
     assert float(q @ P) == pytest.approx(0, abs=1e-9)  # the line of action passes the pitch point
     along, tangent = np.cross(q, P), np.array([0, 1.0, 0])
     assert acos(min(abs(float(along @ tangent)), 1)) == pytest.approx(float(pressure_angle(c, pitch)), abs=1e-7)
-
-
-def test_base_cones_that_overlap_have_no_line_of_action_and_no_pressure_angle() -> None:
-    n_1, n_2 = np.array([0, 0, 1.0]), np.array([1.0, 0, 0])
-    with pytest.raises(ValueError, match="overlap"):
-        line_of_action(n_1, n_2, 1.0, 1.0)
-    assert np.isnan(pressure_angle(1.1, 1.0))
 
 
 def test_two_pitches_have_cosines_about_that_of_the_mean() -> None:
@@ -267,17 +252,13 @@ def test_one_pitch_is_refused_with_the_theorem(solid: str, teeth: dict[str, int]
     assert "mismatch" in str(refused.value)
 
 
-@pytest.mark.parametrize("solid", ["octahedron", "cuboctahedron", "icosidodecahedron", "6-antiprism"])
-def test_no_theorem_stands_against_other_solids(solid: str) -> None:
-    assert impossibility_theorem(from_polyhedron(solid)) == ""
-
-
 def test_one_pitch_is_given_where_the_teeth_allow_it() -> None:
     assert one_pitch(from_polyhedron("6-antiprism", teeth={"6": 18, "3": 6})) == pytest.approx(
         sin(radians(63.711516786140)) / 18, abs=1e-13
     )
-    with pytest.raises(GearTrainError, match=r"6-1-3-\d+ asks for .* mismatch"):
+    with pytest.raises(GearTrainError, match=r"6-1-3-\d+ asks for .* mismatch") as refused:
         one_pitch(from_polyhedron("6-antiprism", teeth={"6": 18, "3": 7}))
+    assert "each kind of mesh fixes the pitch" in str(refused.value), "no theorem is against it"
 
 
 # compromises ---------------------------------------------------------------------------------------------------------
@@ -511,24 +492,6 @@ def test_moved_antiprisms(
         assert degrees(antiprism_latitude(n, cap, side)) == pytest.approx(latitude, abs=6e-13)
 
 
-def test_equal_gears_have_the_latitude_in_closed_form_and_by_the_root() -> None:
-    """sin lat = k / (1 + k): the neighbouring tooth numbers enclose it."""
-    for n in (4, 5, 7):
-        k = cos(pi / n)
-        between = antiprism_latitude(n, 999, 1000), antiprism_latitude(n, 1000, 1000), antiprism_latitude(n, 1000, 999)
-        assert sin(between[1]) == pytest.approx(k / (1 + k), abs=1e-15)
-        assert between[0] > between[1] > between[2]
-    assert worst_residue(moved_antiprism(4, 16, 16)) == 0
-    assert worst_residue(moved_antiprism(4, 15, 15)) == pytest.approx(0.25)
-
-
-def test_caps_that_are_too_large_are_refused() -> None:
-    with pytest.raises(GearTrainError, match="too many for 10 on the sides"):
-        moved_antiprism(4, 30, 10)
-    with pytest.raises(GearTrainError, match="no place with one pitch"):
-        moved_solid(4, 30, 10)
-
-
 @pytest.mark.parametrize(("make", "off"), [(idler_sphere, 1e-14), (solid_with_idlers, 4e-13)])
 @pytest.mark.parametrize(
     ("solid", "teeth", "gears", "meshes", "cones"),
@@ -562,11 +525,6 @@ def test_idlers_are_free_and_faces_are_not(
 ) -> None:
     assert worst_residue(make("icosidodecahedron", {"5": 25, "3": 15}, idler)) == 0
     assert worst_residue(make("icosidodecahedron", {"5": 20, "3": 13}, idler)) > 0.3
-
-
-def test_idlers_need_one_kind_of_mesh() -> None:
-    with pytest.raises(GearTrainError, match="2 kinds of mesh"):
-        with_idlers(from_polyhedron("rhombicuboctahedron", teeth={"4a": 10, "4b": 9, "3": 6}), 8)
 
 
 @pytest.mark.parametrize(("make", "off"), [(icosahedral, 1e-14), (icosahedron_with_pairs, 4e-13)])
@@ -608,8 +566,3 @@ def test_not_all_printed_teeth_of_the_92_leave_room_for_tips() -> None:
     assert size_gears(icosahedral(35, 36, 16)).collisions == ()
     assert size_gears(icosahedral(45, 57, 27)).collisions == ()
     assert len(size_gears(icosahedral(20, 42, 11)).collisions) == 30
-
-
-def test_icosahedral_teeth_that_cannot_reach_are_refused() -> None:
-    with pytest.raises(GearTrainError, match="short of the edges"):
-        icosahedral(60, 10, 40)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 from math import acos, atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt, tan
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,15 +15,10 @@ from shapely import Polygon
 from shapely.affinity import rotate, translate
 
 from geartrain.errors import GearTrainError, QuestionError, RangeError
-from geartrain.teeth.conjugate import optimal_sides as forms
-from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
-from geartrain.teeth.contact.outline_contact import KINDS, contact, solve
-from geartrain.teeth.contact.outline_curve import OutlineCurve, polyline
-from geartrain.teeth.contact.transmission_fit import tabulate
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.teeth import Cycloidal, Involute, UniformStress, UniformTemperature
+from geartrain.teeth.conjugate import PathOfContact, WheelPair
+from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, contact, polyline, solve, tabulate
+from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth
 
 TWENTY = radians(20)
 Z1, Z2 = 24, 36
@@ -60,7 +56,7 @@ def wheels(
     return tables[0], tables[1]
 
 
-def in_body(pitch: PitchSurfaces, gear: int) -> Callable[[np.ndarray], np.ndarray]:
+def in_body(pitch: Any, gear: int) -> Callable[[np.ndarray], np.ndarray]:
     """Points counted from the pitch point, as an outline counts them: from the axle, x forward, y outward."""
     R = -pitch.R1 if gear == 1 else pitch.R2
     if pitch.bevel:
@@ -386,30 +382,30 @@ def test_triangular_teeth_of_any_number_and_aperture_have_their_law(
 # ------------------------------------------------------------------------------------------------------ conjugate teeth
 
 
-def stress(pitch: PitchSurfaces, psi: float = TWENTY, share: float = 0.5) -> PathOfContact:
-    ends = ((pitch.B, pitch.A), (pitch.A, pitch.B))
-    return PathOfContact(pitch, *(forms.uniform_stress(pitch, a, b, share * pitch.p, psi) for a, b in ends))
+def stress(z1: int, z2: int, **wheels: Any) -> PathOfContact:
+    return UniformStress(form="uniform_stress").path(z1, z2, **wheels)
 
 
-def same(pitch: PitchSurfaces, side: Callable[[float], object], share: float = 0.5) -> PathOfContact:
-    return PathOfContact(pitch, side(share * pitch.p), side(share * pitch.p))  # type: ignore[arg-type]
+def drawn_involute(z1: int, z2: int, psi: float = 20, share: float = 0.5, **wheels: Any) -> PathOfContact:
+    """Pressure angle in degrees; equal arcs of approach and recess, in pitches."""
+    given = {"pressure_angle": f"{psi!r} deg"}
+    return Involute.pair_of_arcs(WheelPair(z1, z2, **wheels), (share, share), given).path
 
 
-def heat(pitch: PitchSurfaces) -> PathOfContact:
-    return PathOfContact(pitch, *(forms.uniform_heat(pitch, b, 0.3, pitch.p / 2) for b in (pitch.A, pitch.B)))
+def cycloid(z1: int, z2: int, rolling: float) -> PathOfContact:
+    return Cycloidal.declared({"rolling": repr(rolling), "arcs": "1/2"}).path(z1, z2)
 
 
-SPUR, RING = PitchSurfaces.spur(24, 36), PitchSurfaces.spur(24, 72, True)
 SHAPES = {
-    "uniform stress": lambda: stress(SPUR),
-    "uniform stress, many teeth": lambda: stress(PitchSurfaces.spur(1000, 3000)),
-    "uniform stress in a ring": lambda: stress(RING),
-    "uniform stress, bevel": lambda: stress(PitchSurfaces.cones(24, 36)),
-    "uniform heat": lambda: heat(SPUR),
-    "cycloid": lambda: same(SPUR, lambda X: forms.cycloid(X, 4.5)),
-    "involute in a ring": lambda: same(RING, lambda X: forms.involute(X, TWENTY)),
-    "involute, bevel, two pairs": lambda: same(PitchSurfaces.cones(15, 45), lambda X: forms.involute(X, TWENTY), 0.7),
-    "involute, obtuse shaft angle": lambda: same(PitchSurfaces.cones(20, 40, 2.1), lambda X: forms.involute(X, TWENTY)),
+    "uniform stress": lambda: stress(24, 36),
+    "uniform stress, many teeth": lambda: stress(1000, 3000),
+    "uniform stress in a ring": lambda: stress(24, 72, internal=True),
+    "uniform stress, bevel": lambda: stress(24, 36, shaft_angle=pi / 2),
+    "uniform heat": lambda: UniformTemperature.declared({"heat": repr((1 / 12 + 1 / 18) / 0.3)}).path(24, 36),
+    "cycloid": lambda: cycloid(24, 36, 4.5),
+    "involute in a ring": lambda: drawn_involute(24, 72, internal=True),
+    "involute, bevel, two pairs": lambda: drawn_involute(15, 45, share=0.7, shaft_angle=pi / 2),
+    "involute, obtuse shaft angle": lambda: drawn_involute(20, 40, shaft_angle=2.1),
 }
 
 
@@ -428,7 +424,7 @@ def test_conjugate_teeth_have_no_error_and_no_play_at_their_distance(shape: str)
 
 def test_a_wrong_pressure_angle_of_one_gear_shows() -> None:
     """1e-6 rad: the base pitches differ by tan psi of it, over half a pitch either way."""
-    right, wrong = (same(SPUR, lambda X, psi=psi: forms.involute(X, psi)) for psi in (TWENTY, TWENTY + 1e-6))
+    right, wrong = (drawn_involute(24, 36, psi) for psi in (20, 20 + degrees(1e-6)))
     phi1 = np.linspace(0, 2 * pi / 24, 2001)
     first, second, distance = conjugate(right, wrong)
     error = contact(first, second, distance, phi1).angle - phi1 * 2 / 3
@@ -447,7 +443,7 @@ def test_cycloids_at_a_wrong_distance_are_what_a_scan_of_dense_points_says() -> 
 
 
 def test_an_eccentric_cycloid_repeats_itself_after_the_turns_that_bring_the_same_teeth_together() -> None:
-    first, second, distance = conjugate(same(PitchSurfaces.spur(6, 8), lambda X: forms.cycloid(X, 1.2)))
+    first, second, distance = conjugate(cycloid(6, 8, 1.2))
     one, two = first.displaced(0.01, 0.0), second.displaced(0.0, 0.02)
     period = 4 * 2 * pi  # 24 pitches
     phi1 = np.linspace(0, 2, 7)
@@ -593,4 +589,4 @@ def test_answers_keep_the_shape_of_the_question() -> None:
     assert found.front.curves.shape == (2, 2, 3)
     assert solve(first, second, 30.0, np.empty(0)).front.angle.shape == (0,)
     assert float(solve(first, second, 30.0, 0.0).front.angle) == pytest.approx(0, abs=1e-15)
-    assert KINDS[int(contact(first, second, 30.0, 0.0).kind)] == "flank"
+    assert contact(first, second, 30.0, 0.0).to_dict()["kind"] == "flank"

@@ -12,9 +12,8 @@ from shapely.affinity import rotate
 from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
-from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.escape_tooth import escape_tooth
-from geartrain.teeth.outlines.tooth_outline import repeated
+from geartrain.teeth.outlines import Contour, repeated
+from geartrain.teeth.outlines.fixed_teeth import escape_tooth
 
 Points = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from finite_elements import plane_stress, root_stress_factor, triangles
 
 from geartrain.simulation.strength.iso_6336 import RackWheel, ToothSide, outer_single_contact
 from geartrain.teeth import Involute
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 
 TWENTY = radians(20)

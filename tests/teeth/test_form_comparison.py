@@ -10,10 +10,8 @@ from places import DATA
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Quantity
-from geartrain.teeth import Involute, Lantern
-from geartrain.teeth.conjugate.path_costs import measure
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.form_comparison import USUAL, comparable_forms, compare_forms, reference_involute
+from geartrain.teeth import Involute, Lantern, compare_forms
+from geartrain.teeth.conjugate import WheelPair, measure
 
 PAIR = WheelPair(24, 36)
 ROWS = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))["performance"]
@@ -21,7 +19,7 @@ ROWS = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))["per
 
 @pytest.mark.parametrize("arcs", [(0.5, 0.5), (0.3, 0.9), (0.0, 1.0), (-0.1, 1.1)])
 def test_the_reference_involute_has_the_arcs_asked_for_and_the_loss_of_buckingham(arcs: tuple[float, float]) -> None:
-    found = reference_involute(PAIR, arcs)
+    found = Involute.pair_of_arcs(PAIR, arcs, {})
     first, last = (arc * pi for arc in arcs)  # a pitch is pi modules
     assert found.path.contact_ratio == pytest.approx(sum(arcs), rel=1e-15)
     assert found.path.arcs == pytest.approx((first, last))
@@ -30,8 +28,15 @@ def test_the_reference_involute_has_the_arcs_asked_for_and_the_loss_of_buckingha
     assert measure(found.path).one_pair.loss == pytest.approx((1 / 12 + 1 / 18) * area / (first + last), rel=1e-12)
 
 
+@pytest.mark.parametrize(("mu", "percent"), [(0.0112, 0.122), (0.0385, 0.420), (0.0517, 0.564)])
+def test_an_involute_of_24_and_36_teeth_loses_the_percentage_printed(mu: float, percent: float) -> None:
+    """W. D. Smith (1993), at Buckingham's coefficients."""
+    loss = measure(Involute.pair_of_arcs(PAIR, (0.5, 0.5), {}).path).one_pair.loss
+    assert 100 * mu * loss == pytest.approx(percent, abs=5e-4)
+
+
 def test_the_reference_involute_touches_on_a_line_at_20_degrees_and_has_no_play() -> None:
-    found = reference_involute(PAIR, (0.5, 0.5))
+    found = Involute.pair_of_arcs(PAIR, (0.5, 0.5), {})
     reach = pi / 2 * cos(radians(20))
     for gear, (R, low, high) in enumerate(((12, -reach, reach), (18, -reach, reach)), 1):
         ends = [((R * sin(radians(20)) + d) ** 2 + (R * cos(radians(20))) ** 2) ** 0.5 for d in (low, high)]
@@ -60,7 +65,7 @@ def test_usual_forms_cost_what_is_printed() -> None:
         "uniform_temperature_b": "UT-b",
         "least_friction": "MF psi_hi=25 u=0.15",
     }
-    found = {form.name: form for form in compare_forms(PAIR, USUAL).forms}
+    found = {form.name: form for form in compare_forms(PAIR).forms}
     for name, short in names.items():
         measures = found[name].measures
         assert measures is not None
@@ -86,11 +91,14 @@ def test_a_lantern_of_arcs_is_the_one_that_declares_them() -> None:
 
 
 def test_every_conjugate_form_and_every_reading_can_be_compared() -> None:
-    assert set(USUAL) <= set(comparable_forms())
-    assert [name for name in comparable_forms() if name.startswith("uniform_temperature")] == [
+    with pytest.raises(GearTrainError) as refused:
+        compare_forms(PAIR, ["rubber"])
+    known = refused.value.problems[0].fix.partition(": ")[2].split(", ")
+    assert {form.name for form in compare_forms(PAIR).forms} <= {*known, "involute, recess only"}
+    assert [name for name in known if name.startswith("uniform_temperature")] == [
         f"uniform_temperature{reading}" for reading in ("", "_a", "_b", "_c")
     ]
-    assert not {"circular_arc", "triangular", "ideal"} & set(comparable_forms())
+    assert not {"circular_arc", "triangular", "ideal"} & set(known)
 
 
 REFUSED = [

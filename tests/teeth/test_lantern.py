@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import acos, asin, cos, hypot, log, pi, sin, sqrt, tan
+from math import acos, asin, cos, hypot, log, pi, sin, tan
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 
 from geartrain.errors import GearTrainError
 from geartrain.teeth import Lantern
-from geartrain.teeth.conjugate.admissibility import faults
-from geartrain.teeth.conjugate.path_costs import measure
-from geartrain.teeth.conjugate.pin_undercut import flank_start
+from geartrain.teeth.conjugate import ConjugatePair, measure
+from geartrain.teeth.conjugate.closed_form_sides import flank_start
 
 # X, d, psi (deg), point of the mate; R1 = 12, R2 = A = 18, B = 0.8, X counted from the pin on the line of centres
 TABLE = """
@@ -121,8 +120,8 @@ def test_undercut_begins_in_approach_where_the_closed_form_says(z1: int, z2: int
     arc = 2 * R2 * (first - limit) / pi
     for part, cut in ((0.999, False), (1.001, True)):
         path = lantern(pin_diameter=repr(diameter), arcs=[repr(arc * part), 1]).path(z1, z2)
-        path = replace(path, real=None)  # as if no pin cut its mate
-        found = [fault for fault in faults(path) if fault.kind == "undercut"]
+        whole = ConjugatePair(replace(path, real=None), (0.1, 0.1))  # as if no pin cut its mate
+        found = [fault for fault in whole.faults if fault.kind == "undercut"]
         assert bool(found) == cut
     assert found[0].gear == 1
     assert found[0].X / pi == pytest.approx(-arc, rel=1e-8)
@@ -222,15 +221,3 @@ def test_lanterns_that_do_not_fit_are_refused_with_a_reason(given: dict[str, Any
     (problem,) = caught.value.problems
     assert words in f"{problem.what} {problem.why}"
     assert problem.fix
-
-
-def test_pins_off_the_pitch_circle_take_their_place_from_the_law_of_cosines() -> None:
-    path = lantern(pin_diameter="1.6", pin_radius="17.7").path(24, 36)
-    A, R, B = 17.7, 18.0, 0.8
-    for part in (0.2, 0.6, 1.0):
-        X = part * path.arcs[1]
-        beta = acos((A * A + R * R - B * B) / (2 * A * R)) + X / R
-        L = sqrt(A * A + R * R - 2 * A * R * cos(beta))
-        c = path.at(np.array(X))
-        assert float(c.d) == pytest.approx(L - B, rel=1e-11)
-        assert float(c.psi) == pytest.approx(asin((R - A * cos(beta)) / L), rel=1e-11)

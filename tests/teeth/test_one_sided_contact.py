@@ -18,8 +18,9 @@ from shapely import Polygon
 import geartrain
 from geartrain.errors import GearTrainError
 from geartrain.teeth import BlankSizes, Involute
+from geartrain.teeth.conjugate import measure
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, solve
-from geartrain.teeth.outlines.wheel_outline import outline
+from geartrain.teeth.outlines import outline
 
 ALPHA = pi / 9
 BACKLASH = 0.05
@@ -198,8 +199,6 @@ def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair
     first, last = (end / cos(pair.angle) for end in pair.ends)
     assert law.pair.arcs == pytest.approx((-first, last), abs=1e-9)
     assert law.path.contact_ratio == pytest.approx(pair.ratio, rel=1e-9)
-    from geartrain.teeth.conjugate.path_costs import measure
-
     found = measure(law.path)
     assert found.one_pair.loss == pytest.approx(pair.loss(False), rel=1e-4)
     assert found.shared.loss == pytest.approx(pair.loss(True), rel=1e-3)
@@ -214,24 +213,6 @@ def test_both_sides_of_the_pitch_point_are_met_by_the_examples() -> None:
     assert BEFORE.ends[1] < 0
     assert all(pair.runs and pair.whole() for pair in (ISSUE, AFTER, BEFORE))
     assert ISSUE.ratio == pytest.approx(1.546, abs=5e-4)
-
-
-def test_losses_under_either_load_are_those_of_the_textbook() -> None:
-    """Buckingham's mean along the path, and Ohlendorf's over a pitch with equal shares."""
-    data = json.loads(call("mesh", "involute", "--teeth", 24, 36, "--friction", 1e-6, "--json").output)
-    base, tip = [z / 2 * cos(ALPHA) for z in (24, 36)], [z / 2 + 1 for z in (24, 36)]
-    parts = [(sqrt(tip[at] ** 2 - base[at] ** 2) - base[at] * tan(ALPHA)) / (pi * cos(ALPHA)) for at in (0, 1)]
-    square, whole = sum(part**2 for part in parts), sum(parts)
-    slide = pi * (1 / 24 + 1 / 36)
-    one_pair, shared = slide * square / whole, slide * (1 - whole + square)
-    assert (round(one_pair, 4), round(shared, 4)) == (0.1798, 0.1550)
-    costs = data["costs"]
-    assert costs["one_pair"]["loss"] == pytest.approx(one_pair, rel=1e-12)
-    assert costs["shared"]["loss"] == pytest.approx(shared, rel=1e-12)
-    assert (1 - data["efficiency"]["mean"]) / 1e-6 == pytest.approx(shared, rel=1e-5)
-    assert "whole load" in costs["one_pair"]["assumption"]
-    assert "share the load equally" in costs["shared"]["assumption"]
-    assert data["efficiency"]["assumption"] == costs["shared"]["assumption"]
 
 
 def test_pressure_under_a_shared_load_is_that_of_half_the_force_where_two_touch() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from dataclasses import replace
 from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
 from pathlib import Path as File
 
@@ -14,13 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError
-from geartrain.teeth import BlankSizes, WheelOutline
-from geartrain.teeth.conjugate import optimal_sides as forms
-from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.wheel_outline import outline
+from geartrain.teeth import Involute
+from geartrain.teeth.conjugate import ConjugatePair, WheelPair
+from geartrain.teeth.outlines import BlankSizes, Contour, WheelOutline, outline
 
 shapely = pytest.importorskip("shapely")
 Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]
@@ -249,11 +246,11 @@ def test_two_wheels_turn_through_a_pitch_untouched_with_the_backlash_between_the
         assert play * R2 == pytest.approx(BACKLASH, rel=0.02)
 
 
-def involute(pitch: PitchSurfaces, approach: float, recess: float, psi: float, backlash: float) -> ConjugatePair:
+def involute(z1: int, z2: int, approach: float, recess: float, psi: float, backlash: float) -> ConjugatePair:
     """Arcs in pitches, psi in deg, backlash in modules."""
-    sides = (forms.involute(arc * pitch.p, radians(psi)) for arc in (approach, recess))
-    half = (pitch.p - backlash) / 4
-    return ConjugatePair(PathOfContact(pitch, *sides), (half, half))
+    pair = Involute.pair_of_arcs(WheelPair(z1, z2), (approach, recess), {"pressure_angle": f"{psi!r} deg"})
+    half = (pi - backlash) / 4
+    return replace(pair, halves=(half, half))
 
 
 def points_of(wheel: WheelOutline) -> list[Points]:
@@ -266,8 +263,8 @@ def test_involute_wheels_of_any_arcs_have_textbook_tips_and_stand_clear(
     z1: int, z2: int, psi: float, approach: float, phase: float
 ) -> None:
     recess = 1.1 - approach
-    pitch = PitchSurfaces.spur(z1, z2)
-    pair = involute(pitch, approach, recess, psi, 0.08)
+    pair = involute(z1, z2, approach, recess, psi, 0.08)
+    pitch = pair.path.pitch
     limits = (z1 / 2 * tan(radians(psi)), z2 / 2 * tan(radians(psi)))
     if approach * pi > 0.98 * limits[0] or recess * pi > 0.98 * limits[1] or pair.faults:
         return
@@ -297,7 +294,7 @@ def test_the_root_is_rounded_by_the_fillet_asked_for(tmp_path: File) -> None:
 
 
 def test_a_fillet_that_does_not_fit_is_refused_with_the_largest_that_does() -> None:
-    pair = involute(PitchSurfaces.spur(24, 36), 0.6, 0.6, 20, 0.0)
+    pair = involute(24, 36, 0.6, 0.6, 20, 0.0)
     with pytest.raises(QuestionError) as caught:
         outline(pair, 1, BlankSizes(fillet=1.5))
     (problem,) = caught.value.problems
@@ -333,7 +330,7 @@ def test_a_lantern_is_a_disc_with_a_hole_for_each_pin(tmp_path: File) -> None:
 
 
 def test_chords_leave_a_flank_by_no_more_than_the_tolerance() -> None:
-    pair = involute(PitchSurfaces.spur(24, 36), 0.8, 0.8, 20, 0.0)
+    pair = involute(24, 36, 0.8, 0.8, 20, 0.0)
     for tolerance in (0.01, 0.001, 0.0001):
         (teeth,) = outline(pair, 1, BlankSizes(tolerance=tolerance)).contours
         flank = teeth.points[np.abs(np.arctan2(teeth.points[:, 1], teeth.points[:, 0])) < pi / 24]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import cos, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,16 +18,14 @@ import geartrain
 from geartrain.errors import DeclarationError, GearTrainError
 from geartrain.teeth import PinRing
 from geartrain.teeth.cycloidal_disc import CycloidalDisc
-from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.tooth_outline import repeated
-from geartrain.teeth.outlines.wheel_requirement import FixedTooth
+from geartrain.teeth.outlines import Contour, repeated
 
 FORM = PinRing(form="pin_ring")
 lobes = st.integers(3, 60)
 shortening = st.floats(0.3, 0.85)
 
 
-def polygon(tooth: FixedTooth, z: int) -> Polygon:
+def polygon(tooth: Any, z: int) -> Polygon:
     return Polygon(Contour.of(repeated(tooth.tooth, z)).flattened(1e-5))
 
 

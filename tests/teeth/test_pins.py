@@ -17,7 +17,6 @@ from geartrain import load
 from geartrain.errors import GearTrainError
 from geartrain.teeth import PinToSlotTransmission, SlidingEfficiency, SlotToPinTransmission
 from geartrain.teeth.pin_coupling import pin_transmission
-from geartrain.teeth.pin_transmission import PinTransmission
 
 TURN = np.linspace(0, 2 * pi, 721)
 distances = st.tuples(st.floats(0.1, 10), st.floats(0.1, 10)).filter(lambda pair: abs(pair[0] / pair[1] - 1) > 0.01)
@@ -164,7 +163,7 @@ def test_the_law_of_a_slot_that_drives_is_good_to_rounding_however_near_the_pin_
 
 @pytest.mark.parametrize("kind", [PinToSlotTransmission, SlotToPinTransmission])
 @pytest.mark.parametrize(("r", "e", "f"), [(9.6, 1.1, 0.2), (10, 5, 0.4), (3, 0, 0.3)])
-def test_the_least_efficiency_is_the_least_of_a_scan(kind: type[PinTransmission], r: float, e: float, f: float) -> None:
+def test_the_least_efficiency_is_the_least_of_a_scan(kind: Any, r: float, e: float, f: float) -> None:
     law = kind(r, e, f)
     assert law.efficiency_least() == pytest.approx(law.efficiency(np.linspace(0, 2 * pi, 100_001)).min(), rel=1e-8)
 

@@ -29,7 +29,7 @@ from geartrain.simulation.strength.iso_6336 import (
     root_stress,
 )
 from geartrain.teeth import Cycloidal, Involute
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.conjugate import WheelPair
 from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
 
 TWENTY = radians(20)

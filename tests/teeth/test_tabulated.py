@@ -10,12 +10,9 @@ import numpy as np
 import pytest
 from studies.reference_solutions import reference
 
-from geartrain.teeth import TransmissionFunction
-from geartrain.teeth.transmission import ExactRatio
+from geartrain.teeth import Ideal, TransmissionFunction
 from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
-from geartrain.teeth.triangular.clearance_window import find_window
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, find_window
 
 
 def law_of(
@@ -141,7 +138,7 @@ def test_any_shape_a_number_nothing_and_what_is_no_number() -> None:
 
 
 def test_a_law_without_corners_and_what_a_table_leaves_to_its_law() -> None:
-    rigid = TabulatedTransmission(ExactRatio(Fraction(1, 3), 0.2))
+    rigid = TabulatedTransmission(Ideal(form="ideal").law(20, 60))
     assert np.array_equal(rigid.angle([0.0, 3.0]), [0.0, 1.0])
     assert np.allclose(rigid.efficiency([0.0, 7.0]), 1, rtol=0, atol=1e-15)
     law = law_of(48, 96, 30, 0.01)

@@ -10,9 +10,8 @@ from commands import call
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.teeth import Cycloidal, Involute
-from geartrain.teeth.conjugate.off_design import outlines
-from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.contact.outline_contact import solve
+from geartrain.teeth.conjugate import WheelPair, pair_outlines
+from geartrain.teeth.contact import solve
 
 
 @pytest.mark.parametrize("wheels", [(60, 8), (8, 60)])
@@ -23,7 +22,7 @@ def test_clock_teeth_leave_the_play_of_the_standard(wheels: tuple[int, int]) -> 
     law = form.law(*wheels)
     assert law.verdict.play * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05)
     pair = form.pair(WheelPair(*wheels))
-    found = solve(*outlines(pair), sum(wheels) / 2, np.linspace(0, 2 * pi / wheels[0], 7))
+    found = solve(*pair_outlines(pair), sum(wheels) / 2, np.linspace(0, 2 * pi / wheels[0], 7))
     assert found.play * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05, abs=1e-6)
 
 

@@ -12,8 +12,9 @@ import pytest
 from mechanics import contact, power_ratio
 from sorge import APPROACH, RECESS, Pair, drawn, mp
 
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
+from geartrain.teeth.triangular import Triangular, TriangularSizes, equal_depth, pitch_true
 from geartrain.teeth.triangular.tooth_couple import ToothCouple
+from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.long)]
 STEEP = radians(84)
@@ -238,9 +239,6 @@ def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the
 
 
 def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_standstill() -> None:
-    from geartrain.teeth import Triangular
-    from geartrain.teeth.triangular.contact_course import contact_course
-
     law = Triangular.declared({"half_angle": "30 deg", "clearance": "1.032"}).law(15, 60, 0.2)
     course = contact_course(law, 3)
     assert course.phases == ("recess",) * 3 + ("standstill",) * 3

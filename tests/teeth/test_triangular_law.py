@@ -12,8 +12,7 @@ import pytest
 from sorge import RECESS, Pair, drawn, first_of_all, integral, mp
 
 from geartrain.dynamics.motion.pair_impacts import collision_energies
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth
 
 THIRTY = radians(30)
 

@@ -23,11 +23,8 @@ from sorge import (
     verdict,
 )
 
-from geartrain.teeth.triangular.clearance_window import TriangularContact, find_window
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
-from geartrain.teeth.triangular.real_path import DriveInterval, RealPath
+from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, find_window, pitch_true
 from geartrain.teeth.triangular.tooth_couple import ToothCouple
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 THIRTY = radians(30)
 TABLE = [
@@ -46,6 +43,11 @@ TABLE = [
 
 def equally_deep(z1: int, z2: int, beta: float = THIRTY, excess: float = 0.0) -> TriangularSizes:
     return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+
+
+def kind_of(sizes: TriangularSizes) -> str:
+    """The kind of the verdict."""
+    return TriangularTransmission(sizes).verdict.kind
 
 
 def leans(sizes: TriangularSizes) -> bool:
@@ -68,7 +70,7 @@ def few_teeth(random: Random, most: int = 12) -> TriangularSizes:
 # ------------------------------------------------------------------------------------------------------- at 50 digits
 
 
-def aligned(path: list[Segment], intervals: tuple[DriveInterval, ...]) -> list[Segment]:
+def aligned(path: list[Segment], intervals: tuple[Any, ...]) -> list[Segment]:
     """The reference's segments in the order of the intervals: both begin anywhere in the pitch."""
     assert len(path) == len(intervals), (path, intervals)
     for at in range(len(path)):
@@ -130,7 +132,7 @@ def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None
     random = Random(12)
     for _ in range(number):
         sizes = few_teeth(random) if teeth == "few" else TriangularSizes(*drawn(random, 300))
-        pair, path = Pair.of(sizes, np), RealPath(sizes)
+        pair, path = Pair.of(sizes, np), TriangularTransmission(sizes).contact.path
         t = (np.arange(24) + 0.37) / 24 * pair.p1
         true = first_of_all(pair, t)
         lowest = np.array([path.lowest(float(at)) for at in t]) + pair.ratio * t
@@ -192,7 +194,7 @@ def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
         if leans(sizes):
             continue
         number -= 1
-        pair, path, kind = Pair.of(sizes, np), RealPath(sizes), TriangularContact(sizes).verdict.kind
+        pair, path, kind = Pair.of(sizes, np), TriangularTransmission(sizes).contact.path, kind_of(sizes)
         t = positions.uniform(0, pair.p1, 150)
         upper = np.array([path.lowest(float(at)) for at in t]) + pair.ratio * t
         lower = -np.array([path.lowest(float(-at)) for at in t]) + pair.ratio * t - pair.p2
@@ -223,10 +225,10 @@ def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
     random, positions = Random(14), np.random.default_rng(14)
     while number:
         sizes = few_teeth(random, 30)
-        if not leans(sizes) or TriangularContact(sizes).verdict.kind != "runs":
+        if not leans(sizes) or kind_of(sizes) != "runs":
             continue
         number -= 1
-        path = RealPath(sizes)
+        path = TriangularTransmission(sizes).contact.path
         t = positions.uniform(0, sizes.p1, 100)
         upper = np.array([path.lowest(float(at)) for at in t]) + sizes.ratio * t
         lower = -np.array([path.lowest(float(-at)) for at in t]) + sizes.ratio * t - sizes.p2
@@ -251,7 +253,7 @@ def test_verdicts_are_those_of_a_scan(number: int) -> None:
         number -= 1
         true = verdict(Pair.of(sizes, np))
         if true:
-            assert TriangularContact(sizes).verdict.kind == true, sizes
+            assert kind_of(sizes) == true, sizes
             kinds[true] = kinds.get(true, 0) + 1
     assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 5, kinds
 
@@ -261,7 +263,7 @@ def test_the_play_is_that_of_a_scan(number: int) -> None:
     random = Random(16)
     while number:
         sizes = TriangularSizes(*drawn(random, 200, "near"))
-        contact = TriangularContact(sizes)
+        contact = TriangularTransmission(sizes).contact
         if leans(sizes) or contact.verdict.kind not in ("runs", "jam") or contact.dragged.clash:
             continue
         number -= 1
@@ -272,7 +274,7 @@ def test_the_angle_lost_is_the_step_up_of_the_first_couple() -> None:
     random, number = Random(17), 30
     while number:
         sizes = TriangularSizes(*drawn(random, 200, "near"))
-        contact = TriangularContact(sizes)
+        contact = TriangularTransmission(sizes).contact
         if leans(sizes) or contact.verdict.kind != "standstill" or contact.dragged.arrested:
             continue
         number -= 1
@@ -301,7 +303,7 @@ def test_overhang_is_a_path_that_uses_a_leaning_flank_at_its_end() -> None:
             or (over2 and abs(s.end - pair.exit) < 1e-6 * pair.p1)
             for s in used
         )
-        kind = TriangularContact(sizes).verdict.kind
+        kind = kind_of(sizes)
         assert (kind == "overhang") == true, sizes
         kinds.add(kind)
     assert {"overhang", "runs"} <= kinds
@@ -311,9 +313,9 @@ def test_overhang_is_a_path_that_uses_a_leaning_flank_at_its_end() -> None:
 def test_teeth_without_a_valley_are_refused(z: int) -> None:
     most = pi / 2 - pi / z
     for beta, kind in ((most * (1 + 1e-12), "no valley"), (min(most * 1.1, 1.57), "no valley")):
-        assert TriangularContact(TriangularSizes(z, 3 * z, 1.0, 3.0, beta, 0.5, 1e-6)).verdict.kind == kind
-        assert TriangularContact(TriangularSizes(3 * z, z, 3.0, 1.0, 0.5, beta, 1e-6)).verdict.kind == kind
-    assert TriangularContact(TriangularSizes(z, 3 * z, 1.0, 3.0, most * 0.98, 0.5, 1e-6)).verdict.kind != "no valley"
+        assert kind_of(TriangularSizes(z, 3 * z, 1.0, 3.0, beta, 0.5, 1e-6)) == kind
+        assert kind_of(TriangularSizes(3 * z, z, 3.0, 1.0, 0.5, beta, 1e-6)) == kind
+    assert kind_of(TriangularSizes(z, 3 * z, 1.0, 3.0, most * 0.98, 0.5, 1e-6)) != "no valley"
 
 
 def test_beyond_the_reach_the_wheels_are_apart() -> None:
@@ -322,7 +324,7 @@ def test_beyond_the_reach_the_wheels_are_apart() -> None:
         sizes = TriangularSizes(*drawn(random, 1e4))
         beyond = sizes.at(sizes.greatest_excess * (1 + 1e-9))
         assert not Pair.of(beyond).touches
-        assert TriangularContact(beyond).verdict.kind == "apart"
+        assert kind_of(beyond) == "apart"
         assert Pair.of(sizes).touches
 
 
@@ -363,7 +365,7 @@ def test_no_clearance_works_for_8_and_64() -> None:
     assert not window
     assert (round(window.jam, 4), round(window.run, 4)) == (0.0278, 0.0009)
     for share in np.linspace(0.001, 0.999, 200):
-        assert TriangularContact(equally_deep(8, 64, THIRTY, window.reach * float(share))).verdict.kind != "runs"
+        assert kind_of(equally_deep(8, 64, THIRTY, window.reach * float(share))) != "runs"
 
 
 def test_15_to_53_and_45_to_225_share_hardly_any_clearance() -> None:
@@ -375,7 +377,7 @@ def test_15_to_53_and_45_to_225_share_hardly_any_clearance() -> None:
 def kinds_over_the_reach(sizes: TriangularSizes, steps: int = 40) -> list[tuple[float, str]]:
     reach = sizes.greatest_excess
     shares = (np.arange(steps) + 0.5) / steps
-    return [(float(share * reach), TriangularContact(sizes.at(float(share * reach))).verdict.kind) for share in shares]
+    return [(float(share * reach), kind_of(sizes.at(float(share * reach)))) for share in shares]
 
 
 def agree(sizes: TriangularSizes, steps: int = 40) -> bool:

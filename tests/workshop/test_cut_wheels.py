@@ -19,7 +19,7 @@ from shapely.affinity import affine_transform
 import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
-from geartrain.teeth.outline_mesh import OutlineMesh
+from geartrain.teeth.contact.outline_mesh import OutlineMesh
 from geartrain.workshop import export_files, notices, wheel_file
 
 TRAINS = sorted(geartrain.shipped())

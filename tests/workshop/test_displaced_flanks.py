@@ -15,11 +15,10 @@ import geartrain
 from geartrain import GearTrainError
 from geartrain.dynamics import MotionRun
 from geartrain.teeth import CircularArc, Cycloidal, Involute, Lantern
-from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact
-from geartrain.teeth.conjugate.off_design import outlines
+from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, displaced_contact, pair_outlines
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, TwoFlankContact, solve
-from geartrain.teeth.displaced_outlines import displaced_outlines
+from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair, DisplacedWheel
@@ -65,7 +64,7 @@ def contact_of(name: str, driver: int) -> tuple[DisplacedContact, tuple[GearOutl
         gears = ARC.law(*ARCS[name], driver=driver).gears
         return displaced_outlines(gears, driver), gears.of(driver), gears.distance
     design = PAIRS[name]
-    first, second = outlines(design) if driver == 1 else outlines(design)[::-1]
+    first, second = pair_outlines(design) if driver == 1 else pair_outlines(design)[::-1]
     distance = abs(design.path.pitch.R1 + design.path.pitch.R2)
     return displaced_contact(design, driver), (first, second), distance
 

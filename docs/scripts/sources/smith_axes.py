@@ -6,12 +6,12 @@ from math import cos, pi, radians
 
 import numpy as np
 
+from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE, screw_efficiency
 from geartrain.errors import GearTrainError
 from geartrain.simulation.strength.contact_pressure import contact_ellipse
 from geartrain.teeth import Cycloidal, LeastFriction, UniformStress, UniformTemperature
 from geartrain.teeth.any_tooth_form import tooth_forms
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency
 from sources.row import Finding
 from sources.ways import answer
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geartrain.kinematics.phasing.phase_system import judge_residue
 from geartrain.spherical import from_polyhedron
-from geartrain.spherical.assembly_loops import closes, loop_rules, residue
+from geartrain.spherical.configuration import closes, loop_rules, residue
 from studies.measurement import timed
 from studies.residue_errors import PhaseAccuracy, measure_phase_accuracy
 from studies.sphere_records import TOLERANCE, ClosureRecord

@@ -10,7 +10,7 @@ import numpy as np
 
 from geartrain.numerics.chebyshev import ChebyshevSeries
 from geartrain.teeth.conjugate import optimal_sides as forms
-from geartrain.teeth.conjugate.singular_collocation import ValueAndSlope, fitted, solved
+from geartrain.teeth.conjugate.optimal_sides import ValueAndSlope, fitted, solved
 from studies.shape_cases import ShapeCase
 
 if TYPE_CHECKING:

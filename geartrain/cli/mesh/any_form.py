@@ -163,8 +163,8 @@ def pin(
 ) -> None:
     """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
     from geartrain.report.pair_page import describe_pin
+    from geartrain.teeth.pair_results import pin_figures
     from geartrain.teeth.pin_coupling import pin_transmission
-    from geartrain.teeth.pin_figures import pin_figures
 
     to = sink(out, force, (".md", ".html", ".json"))
     rub = read_friction(friction)

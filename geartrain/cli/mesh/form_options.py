@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.friction_law import FrictionLaw
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.tooth_form import ToothForm
 
     Mesh = TypeVar("Mesh", bound=GearMesh)
@@ -261,7 +261,7 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], t
 
 def _blank_sizes(module: float | None, sizes: Mapping[str, str | None]) -> BlankSizes:
     """Sizes in mm, the module in m."""
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
         why = "an outline is to scale, and nothing gives these wheels a size"

@@ -22,12 +22,12 @@ from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_cou
 from geartrain.numerics.kernels import is_fast, kernel
 from geartrain.numerics.rounding_bounds import SPLITTER, split
 from geartrain.teeth.transmission import TransmissionFunction
-from geartrain.teeth.transmission_kernel import join_transmission_tables, law_along, make_transmission_table
+from geartrain.teeth.transmission_table import join_transmission_tables, law_along, make_transmission_table
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep, ErrorComposition
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.teeth.transmission_kernel import TransmissionTable, TransmissionTables
+    from geartrain.teeth.transmission_table import TransmissionTable, TransmissionTables
 
 
 BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache

@@ -10,14 +10,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
+from math import cos, radians, tan
 
 from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.kinematics.circuits import Circuit
-from geartrain.teeth.screw_efficiency import NORMAL_ANGLE, screw_efficiency
-from geartrain.teeth.transmission_figures import SlidingEfficiency
+from geartrain.teeth.pair_results import SlidingEfficiency
 
+NORMAL_ANGLE = radians(20)
+"""Pressure angle (rad) across the teeth where no form says it."""
 _ROUNDING = 1e-9  # by so much the quadrature of a mean may pass 1
 
 
@@ -123,3 +125,34 @@ def _given(balance: TorqueBalance) -> dict[str, int]:
 
 def _side(mesh: LoadedPair, link: str) -> int:
     return {mesh.links[0]: 1, mesh.links[1]: -1}.get(link, 0)
+
+
+# ------------------------------------------------------------------------------------------------------------ skew axes
+
+
+def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
+    """Share of the power that arrives, equation (12c) of docs/theory.md; 0 or less locks.
+
+    Only sliding along the teeth counts, at the pitch point; what they slide up and down each other is small beside it.
+
+    Parameters
+    ----------
+    driving, driven : float
+        Helix angles of the driver and of the driven wheel (rad), of right hands above 0; their sum is the shaft angle.
+    friction : float
+        Coefficient of friction, 0 or more.
+    pressure_angle : float
+        Across the teeth (rad).
+
+    Examples
+    --------
+    A worm with a lead angle of 5 degrees and friction of 0.1: tan(lead) / tan(lead + angle of friction), and backwards.
+
+    >>> round(screw_efficiency(radians(85), radians(5), 0.1 * cos(NORMAL_ANGLE)), 6)
+    0.462552
+    >>> screw_efficiency(radians(5), radians(85), 0.1 * cos(NORMAL_ANGLE)) < 0
+    True
+    """
+    slide = tan(driving) + tan(driven)
+    rough = friction / cos(pressure_angle) * (1 if slide >= 0 else -1)
+    return (1 - rough * tan(driven)) / (1 + rough * tan(driving))

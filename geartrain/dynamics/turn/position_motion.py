@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.corner_positions import CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, common_period
-from geartrain.teeth.derived_transmission import DerivedTransmission
+from geartrain.teeth.transmission import DerivedTransmission
 
 if TYPE_CHECKING:
     from collections.abc import Collection

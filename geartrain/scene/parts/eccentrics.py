@@ -23,7 +23,7 @@ from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.wave_tooth import bent_line
+from geartrain.teeth.outlines.fixed_teeth import bent_line
 
 # ----------------------------------------------------------------------------------------------------------------- cups
 

@@ -36,7 +36,7 @@ from geartrain.scene.parts.eccentrics import (
 )
 from geartrain.scene.parts.stack_discs import Passage, Point, StackDisc, slabs
 from geartrain.scene.solids.bearing_plates import basis
-from geartrain.teeth.outlines.wave_tooth import CUP, wall
+from geartrain.teeth.outlines.fixed_teeth import CUP, wall
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 from geartrain.teeth.standard_teeth import DEDENDUM
 

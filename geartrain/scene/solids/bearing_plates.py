@@ -15,7 +15,7 @@ import numpy as np
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.cut_wheel import WheelOutline
+from geartrain.teeth.outlines.wheel_outline import WheelOutline
 from geartrain.teeth.pin_coupling import Parallel, PinsInHoles
 
 if TYPE_CHECKING:

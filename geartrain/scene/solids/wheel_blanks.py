@@ -18,7 +18,7 @@ from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.teeth.outlines.contour import Contour, bulge_about
-from geartrain.teeth.outlines.escape_tooth import ESCAPEMENT
+from geartrain.teeth.outlines.fixed_teeth import ESCAPEMENT
 from geartrain.teeth.outlines.wheel_outline import pin_seats
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ at `law.corners()`, and each side of a corner follows that side alone. Angle and
 and its derivative: what holds the gap of two flanks closed is then the gradient of that gap to the last digit.
 
 Motion, which asks one law at many angles at once, reads error and speed from a table each
-(`teeth.transmission_kernel`); here one angle is asked of many laws in turn.
+(`teeth.transmission_table`); here one angle is asked of many laws in turn.
 """
 
 from __future__ import annotations

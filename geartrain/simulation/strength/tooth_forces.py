@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from math import atan, copysign, cos, sin, tan
 from typing import TYPE_CHECKING, NamedTuple
 
+from geartrain.dynamics.torques.mean_efficiencies import NORMAL_ANGLE
 from geartrain.errors import RangeError
 from geartrain.kinematics.circuits.fundamental import shaft_angle
 from geartrain.simulation.strength.contact_pressure import CrossedWheels
@@ -17,7 +18,6 @@ from geartrain.simulation.strength.strength_results import WheelForce
 from geartrain.simulation.strength.virtual_spurs import ConeMiddle
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.involute import Involute
-from geartrain.teeth.screw_efficiency import NORMAL_ANGLE
 from geartrain.train.wheel_stock import face_width
 
 if TYPE_CHECKING:

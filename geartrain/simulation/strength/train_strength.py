@@ -27,7 +27,7 @@ from geartrain.simulation.strength.strength_results import (
 )
 from geartrain.simulation.strength.tooth_forces import ToothForces
 from geartrain.simulation.strength.virtual_spurs import SkewPair, VirtualSpurs
-from geartrain.teeth.disc_mesh import DiscMesh
+from geartrain.teeth.cycloidal_disc import DiscMesh
 from geartrain.teeth.pin_coupling import PinsInHoles
 from geartrain.train import Train
 from geartrain.train.wheel_stock import face_width, material_named

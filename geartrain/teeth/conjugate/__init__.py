@@ -1,6 +1,65 @@
 """Conjugate teeth from their path of contact, spur and bevel at once: profiles, sliding, stress, heat, loss.
 
 The path is where contact happens in the fixed frame: at the signed distance d from the pitch point along a normal that
-makes the pressure angle psi with the pitch line. One function, psi(d), gives both profiles and all that is asked of
-them; a tooth form is a choice of it.
+makes the pressure angle psi with the pitch line. One function, psi(d), gives both profiles and every result; a tooth
+form is a choice of it.
+
+wheel_pair                tooth counts of a pair, how its axes stand, and whether there is such a pair
+pitch_surfaces            cylinders, cones and rings that roll on each other
+path_of_contact           pieces psi(d), the sides made of them, and contact at every instant (velocities, curvatures)
+closed_form_sides         cycloids, round pins, the source's extremal
+optimal_sides             uniform stress, uniform temperature, least friction (Chebyshev collocation, Newton's method)
+involute_geometry         involute wheels cut by a rack: thickness, working pressure angle, arcs
+admissibility             undercut, pointed tips, contact ratio, interference
+path_costs                loss, stress, heat, flash temperature, depth; efficiency exact in friction
+conjugate_form            base class of the forms, and checks of a declaration
+conjugate_transmission    the pair as designed, and its transmission function
+displaced_contact         displaced flanks, and axles at another centre distance
+conjugate_mesh            a pair of a train: figures, and its design
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
+    from geartrain.teeth.conjugate.displaced_contact import OffDesignTransmission, pair_outlines
+    from geartrain.teeth.conjugate.path_costs import PathCosts, PathMeasures, efficiency, measure
+    from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+
+__all__ = [
+    "ConjugatePair",
+    "ConjugateToothForm",
+    "ConjugateTransmission",
+    "OffDesignTransmission",
+    "PathContact",
+    "PathCosts",
+    "PathMeasures",
+    "PathOfContact",
+    "WheelPair",
+    "efficiency",
+    "measure",
+    "pair_outlines",
+]
+
+_PLACES = {
+    "ConjugatePair": "conjugate_transmission",
+    "ConjugateToothForm": "conjugate_form",
+    "ConjugateTransmission": "conjugate_transmission",
+    "OffDesignTransmission": "displaced_contact",
+    "PathContact": "path_of_contact",
+    "PathCosts": "path_costs",
+    "PathMeasures": "path_costs",
+    "PathOfContact": "path_of_contact",
+    "WheelPair": "wheel_pair",
+    "efficiency": "path_costs",
+    "measure": "path_costs",
+    "pair_outlines": "displaced_contact",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

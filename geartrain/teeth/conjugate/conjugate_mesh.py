@@ -1,6 +1,7 @@
-"""Conjugate teeth of a gear pair, spur, ring or bevel: which wheel is the form's first, and why they do not turn.
+"""Conjugate teeth of a gear pair of a train, spur, ring or bevel.
 
-With the figures of the pair: arcs and contact ratio of the design, error, play, efficiency.
+Which wheel is gear 1 of the form, why the pair does not turn, its figures (arcs and contact ratio of the design, error,
+backlash, efficiency), and its design: sizes, path of contact, costs, outlines of the wheels.
 """
 
 from __future__ import annotations
@@ -14,22 +15,35 @@ from typing import TYPE_CHECKING, ClassVar, Protocol
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.results import Key, Result, finite
+from geartrain.teeth.conjugate.admissibility import tip_thickness
+from geartrain.teeth.conjugate.path_costs import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import NamedForm, PairSize
-from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
+from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
-    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
-    from geartrain.teeth.conjugate.off_design import OffDesignTransmission
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
-    from geartrain.teeth.pair_account import PairAccount
-    from geartrain.teeth.pair_verdict import PairVerdict
+    from geartrain.teeth.pair_results import PairVerdict
+
+_WORDS = (
+    "Conjugate teeth keep the ratio of tooth counts at every instant where their axes are as far apart as they are "
+    "made for, involutes at any distance; others have an error there. Arcs of the driver's approach and recess, "
+    "and contact ratio, in pitches, as designed; error and play in degrees of the driven wheel; mean efficiency "
+    "at constant driver torque, exact in friction, as the pair is driven and driven back, teeth in contact sharing "
+    "the load equally."
+)
+_HEADER = (
+    *("pair", "drives", "teeth", "arcs", "contact ratio"),
+    *("error p-p (deg)", "play (deg)", "efficiency", "driven back", "verdict"),
+)
 
 
 class ConjugateDetails(NamedForm, Protocol):
@@ -145,8 +159,8 @@ class ConjugateMesh(GearMesh):
 
     def account(self) -> PairAccount:
         """Arcs and contact ratio of its design, error, play and efficiency."""
-
-        return conjugate_account(self)
+        figures = _figures(self)
+        return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
 
 
 def _shallow(gear: int, overlap: float) -> Problem:
@@ -159,19 +173,7 @@ def _shallow(gear: int, overlap: float) -> Problem:
     )
 
 
-# ---------------------------------------------------------------------------------------------------- conjugate account
-
-_WORDS = (
-    "Conjugate teeth keep the ratio of tooth counts at every instant where their axes are as far apart as they are "
-    "made for, involutes at any distance; others have an error there. Arcs of the driver's approach and recess, "
-    "and contact ratio, in pitches, as designed; error and play in degrees of the driven wheel; mean efficiency "
-    "at constant driver torque, exact in friction, as the pair is driven and driven back, teeth in contact sharing "
-    "the load equally."
-)
-_HEADER = (
-    *("pair", "drives", "teeth", "arcs", "contact ratio"),
-    *("error p-p (deg)", "play (deg)", "efficiency", "driven back", "verdict"),
-)
+# -------------------------------------------------------------------------------------------------------------- figures
 
 
 @dataclass(frozen=True)
@@ -203,17 +205,11 @@ class ConjugateFigures(PairFigures):
     overlap_ratio: float | None = None
 
 
-def conjugate_account(mesh: ConjugateMesh) -> PairAccount:
-    """One row, and the figures."""
-    figures = conjugate_figures(mesh)
-    return PairAccount(_WORDS, (AccountTable(_HEADER, _row(mesh, figures), wide=True),), figures)
-
-
-def conjugate_figures(mesh: ConjugateMesh) -> ConjugateFigures:
+def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
     """Of a pair as it is driven; involutes keep their motion where they cannot run."""
     law, path = mesh.law, mesh.law.path
     pitch, runs = path.pitch, bool(mesh.verdict)
-    approach, recess = driver_arcs(law)
+    approach, recess = _driver_arcs(law)
     return ConjugateFigures(
         mesh.counts,
         mesh.verdict,
@@ -249,7 +245,126 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
     )
 
 
-def driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
+def _driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
     """The driver's approach and recess (X)."""
     approach, recess = law.path.arcs
     return (approach, recess) if law.driver == 1 else (recess, approach)
+
+
+# ----------------------------------------------------------------------------------------------------- design of a pair
+
+
+@dataclass(frozen=True)
+class DesignCosts(Result):
+    """What a path of contact costs.
+
+    measures           loss, stress, heat, flash, depth
+    sliding            greatest sliding over the pitch-line speed
+    specific_sliding   greatest sliding over the slower of the contact's speeds along the flanks; infinite where it
+                       stands still
+    """
+
+    KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
+
+    measures: PathMeasures
+    sliding: float
+    specific_sliding: float
+
+
+@dataclass(frozen=True)
+class SharedEfficiency(Result):
+    """Efficiency of sliding where pairs of teeth in contact share the load.
+
+    assumption   the same in words
+    sliding      exact in friction
+    """
+
+    KEYS = ("assumption", Key("", "sliding"))
+
+    sliding: SlidingEfficiency
+    assumption: str = SHARED
+
+
+@dataclass(frozen=True)
+class PairDesign(Result):
+    """A pair with conjugate teeth as designed; gear 1 first, lengths in modules (bevel: rad), angles in rad.
+
+    mesh       the pair, as it is driven
+    outlines   wheels that were cut
+    """
+
+    KEYS = (
+        *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
+        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "costs", "efficiency", "outlines"),
+    )
+
+    mesh: ConjugateMesh
+    outlines: tuple[WheelOutline, ...] = ()
+
+    @property
+    def path(self) -> PathOfContact:
+        """The path of contact."""
+        return self.mesh.path
+
+    @property
+    def runs(self) -> bool:
+        """True if the teeth can run, be it that friction locks them."""
+        return bool(self.mesh.verdict)
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Teeth of gear 1 and of gear 2."""
+        return int(self.path.pitch.z1), int(self.path.pitch.z2)
+
+    @property
+    def pitch_radii(self) -> tuple[float, float]:
+        """Of both gears; negative for a ring."""
+        return self.path.pitch.R1, self.path.pitch.R2
+
+    @cached_property
+    def flanks(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Radii between which the flanks of each gear work, root end first."""
+        return self.path.radii(1), self.path.radii(2)
+
+    @property
+    def thickness(self) -> tuple[float, float]:
+        """Of a tooth, or pin, on the pitch circle (pitches)."""
+        first, second = self.mesh.law.pair.halves
+        return 2 * first / self.path.pitch.p, 2 * second / self.path.pitch.p
+
+    @cached_property
+    def top_lands(self) -> tuple[float | None, float | None]:
+        """Angle of the land at the tip of a tooth (rad); None for round pins."""
+        pair = self.mesh.law.pair
+        first, second = (
+            tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
+        )
+        return first, second
+
+    @property
+    def arcs(self) -> tuple[float, float]:
+        """Arcs of approach and recess, gear 1 driving (pitches); one may be negative."""
+        approach, recess = self.path.arcs
+        return approach / self.path.pitch.p, recess / self.path.pitch.p
+
+    @property
+    def pressure_angles(self) -> tuple[float, float, float]:
+        """At the first contact, the pitch point and the last contact."""
+        approach, recess = self.path.arcs
+        first, middle, last = (float(self.path.at(X).psi) for X in (-approach, 0.0, recess))
+        return first, middle, last
+
+    @cached_property
+    def costs(self) -> DesignCosts | None:
+        """What the path costs; None for teeth that cannot run."""
+        return DesignCosts(measure(self.path), *sliding(self.path)) if self.runs else None
+
+    @property
+    def efficiency(self) -> SharedEfficiency | None:
+        """Exact in friction; None for teeth that cannot run."""
+        return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
+
+    @property
+    def locks(self) -> bool:
+        """True if friction locks the teeth."""
+        return self.mesh.losses.locks

@@ -1,4 +1,4 @@
-"""Conjugate teeth in mesh: whether they can run, and their law, the exact ratio at every instant less friction."""
+"""Pairs of conjugate teeth and their transmission function: the exact ratio at every instant, with friction losses."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.conjugate.admissibility import faults
+from geartrain.teeth.conjugate.admissibility import faults, ring_tips
 from geartrain.teeth.conjugate.path_costs import efficiency, locking_friction, powers
-from geartrain.teeth.conjugate.tip_interference import ring_tips
-from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
+from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:
@@ -32,12 +31,24 @@ _TOUCH = 1e-12  # of a pitch: a gap between two contacts that is rounding
 
 @dataclass(frozen=True, eq=False)
 class ConjugatePair:
-    """Two wheels at their design distance: path of contact, thickness of their teeth, and what is wrong with them.
+    """Two wheels at their design distance: path of contact, thickness of their teeth, and why they cannot run.
 
-    halves   half the thickness of a tooth of each gear on its pitch surface, as X
-    given    faults, where the path and the thickness alone do not tell them
-    extra    faults that they do not tell, besides those that they do
-    solid    False for a gear whose teeth are round pins
+    Attributes
+    ----------
+    path : PathOfContact
+        Where they touch.
+    halves : tuple of float
+        Half the thickness of a tooth of each gear on its pitch surface, as X.
+    given : tuple of ToothFault or None
+        All faults, where they do not follow from path and thickness.
+    extra : tuple of ToothFault
+        Faults besides those that follow from path and thickness.
+    solid : tuple of bool
+        False for a gear whose teeth are round pins.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : every conjugate form has methods `pair` and `pair_of_arcs` that give it.
     """
 
     path: PathOfContact
@@ -68,12 +79,27 @@ class ConjugatePair:
 
 
 class ConjugateTransmission(ExactRatio):
-    """The law of a pair of conjugate teeth at its design distance; `driver` 2 lets the second wheel drive.
+    """The transmission function of a pair of conjugate teeth at its design distance.
 
     The ratio is exact at every instant. Pairs of teeth in contact at once take equal shares of the driver's torque, so
-    that the efficiency is the mean of theirs, each exact in friction. `direction` -1 turns backwards: the other flanks
-    drive, mirror images of the first, and the driven wheel is ahead by the play. The law of a pair that cannot run is
-    what its flanks alone would do, NaN where none touch.
+    that the efficiency is the mean of theirs, each exact in friction. The function of a pair that cannot run is what
+    its flanks alone would do, NaN where none touch.
+
+    Parameters
+    ----------
+    pair : ConjugatePair
+        The two wheels.
+    friction : float
+        Coefficient of friction, 0 or more.
+    driver : {1, 2}
+        The gear that drives.
+    direction : {1, -1}
+        -1 turns backwards: the other flanks drive, mirror images of the first, and the driven wheel is ahead by the
+        backlash.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : every conjugate form has a method `law` that gives it.
     """
 
     def __init__(self, pair: ConjugatePair, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -129,7 +155,15 @@ class ConjugateTransmission(ExactRatio):
     def contacts(self, S: ArrayLike) -> Floats:
         """Displacements X from the pitch point of all pairs of teeth in contact, negative in the driver's approach.
 
-        One row for each pair that can be in contact at once, S's shape after it; NaN where there is none.
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            One row for each pair that can be in contact at once, S's shape after it; NaN where there is none.
         """
         p, (approach, recess) = self.path.pitch.p, self._arcs
         ahead = self._lead + approach + self.direction * self._reach * np.asarray(S, dtype=float)

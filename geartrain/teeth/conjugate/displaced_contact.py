@@ -1,10 +1,13 @@
-"""What displaced flanks of conjugate teeth do to the driven wheel, along the path of contact.
+"""Conjugate teeth away from their design: displaced flanks, and axles at another centre distance.
 
 A flank that stands out by n along its normal where it touches turns the driven wheel ahead by n over the moment arm of
 the normal, docs/cut-by-hand.md (1). The normal passes the pitch point under the pressure angle psi, so that the arm is
 R2 cos psi on cylinders and sin R2 cos psi on cones: of an involute, the radius of its base circle. Beyond the ends of
 the path a tip still touches, its corner against the mate's flank: the driven wheel then falls behind, and how far
 follows from the law of cosines.
+
+At a centre distance they were not made for, the transmission function follows from the contact of both outlines: the
+flanks of the design, each continued straight beneath its last designed contact.
 """
 
 from __future__ import annotations
@@ -12,21 +15,25 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from math import cos, inf, pi, radians
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
+from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTransmission
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
+_STRAIGHT = 0.5  # modules of root beneath a flank, and not beyond a third of the way to the axle
 _NODES = 257  # of the tables along the path and beyond its ends; linear between them
 _SMALL = 1e-12  # of a radian of contact beyond an end: none
 _END_STEP = 1e-4  # of the arc of contact: over which it is told how a tip's radius changes
@@ -282,3 +289,118 @@ def _sizes(pair: ConjugatePair, gear: int) -> DisplacedWheelSizes:
     lean = float(np.arctan2(width[0] - width[1], depth))
     z = int(pitch.teeth_of(gear))
     return DisplacedWheelSizes(z, depth, max(lean, _BLUNT), z / (2 * reach))
+
+
+# ---------------------------------------------------------------------------------------------- another centre distance
+
+
+class OffDesignTransmission(OutlineTransmission):
+    """The transmission function of a pair of conjugate teeth at another centre distance than they are made for.
+
+    Parameters
+    ----------
+    pair : ConjugatePair
+        As designed.
+    distance : float
+        Of the axles [module].
+    friction, driver, direction
+        As of `ConjugateTransmission`.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : every conjugate form has a method `law` that gives it.
+    """
+
+    def __init__(
+        self, pair: ConjugatePair, distance: float, friction: float = 0.0, driver: int = 1, direction: int = 1
+    ) -> None:
+        self.pair, self.path = pair, pair.path
+        super().__init__(_gears(pair, distance), friction, driver, direction)
+
+    @property
+    def reversed(self) -> OffDesignTransmission:
+        """The law with the other wheel driving."""
+        return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
+
+    def turned_back(self) -> OffDesignTransmission:
+        """The law of the other flanks; angles keep their sense and decrease."""
+        return OffDesignTransmission(self.pair, self.distance, self.friction, self.driver, -self.direction)
+
+
+@lru_cache(maxsize=64)
+def _gears(pair: ConjugatePair, distance: float) -> OutlineGears:
+    """Made once, so that what is found of it is."""
+    return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.play, pair.faults)
+
+
+@lru_cache(maxsize=64)
+def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
+    """Outlines of both wheels of a spur pair, for `geartrain.teeth.contact`.
+
+    Parameters
+    ----------
+    pair : ConjugatePair
+        As designed.
+
+    Returns
+    -------
+    tuple of GearOutline
+        Of gear 1 and gear 2, lengths in modules; the roots are straight beneath the last designed contact.
+
+    Examples
+    --------
+    Two involute wheels touch without error at a greater distance than the design's 30 modules.
+
+    >>> import numpy as np
+    >>> from geartrain.teeth import Involute
+    >>> from geartrain.teeth.conjugate import WheelPair
+    >>> from geartrain.teeth.contact import solve
+    >>> wheels = pair_outlines(Involute(form="involute").pair(WheelPair(24, 36)))
+    >>> found = solve(*wheels, 30.2, np.linspace(0.0, 0.2, 5))
+    >>> bool(np.ptp(found.front.speed) < 1e-9)
+    True
+    """
+    pitch = pair.path.pitch
+    return _outline(pair, 1, int(pitch.z1), pitch.R1), _outline(pair, 2, int(pitch.z2), pitch.R2)
+
+
+def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
+    """One wheel: the side that its driver, or its driven wheel, touches, and its mirror image."""
+    half = pair.halves[gear - 1] / abs(R)
+    turn = np.exp(-1j * half)
+
+    def flank(X: Floats) -> Floats:
+        points = _body(pair.path, gear, X)
+        place = (points[:, 0] + 1j * points[:, 1]) * turn
+        return np.stack([place.real, place.imag], axis=1)
+
+    foot, tip = pair.path.ends(gear)
+    cuts = sorted({0.0, foot, tip, *_joints(pair.path)}, reverse=foot > tip)
+    curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
+    return GearOutline((ToothFlanks.symmetric((_straight(flank, foot, tip), *curves)),), z, ring=R < 0)
+
+
+def _body(path: PathOfContact, gear: int, X: Floats) -> Floats:
+    """Points of a flank from the wheel's axle: x towards the space that the tooth leads into, y outwards."""
+    points = path.flank(gear, X)
+    if gear == 1:
+        return np.asarray(points + np.array([0.0, path.pitch.R1]))
+    R = path.pitch.R2
+    return np.stack([-points[:, 0], abs(R) - points[:, 1] * np.sign(R)], axis=1)
+
+
+def _joints(path: PathOfContact) -> list[float]:
+    """X at the ends of the pieces of a path."""
+    ends = ((-1.0, path.approach), (1.0, path.recess))
+    return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
+
+
+def _straight(flank: object, foot: float, tip: float) -> OutlineCurve:
+    """The root: straight on from the foot of a flank."""
+    assert callable(flank)
+    # near enough for the tangent, far enough that the difference is not rounding
+    start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
+    way = start - near
+    length = min(_STRAIGHT, float(np.hypot(*start)) / 3)
+    end = start + way / np.hypot(*way) * length
+    return OutlineCurve(lambda t: end + t[:, None] * (start - end))

@@ -1,11 +1,17 @@
-"""The sides of each optimal shape: uniform stress, uniform temperature, least friction; and involute and cycloid.
+"""Sides of the optimal shapes: uniform stress, uniform temperature and least friction; and the involute.
 
 A side is described with the coefficient `a` of the gear whose addendum works and `b` of the one whose dedendum does:
 a = A, b = B in recess, exchanged in approach.
+
+Uniform stress and temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. Chebyshev
+collocation finds the only solution that is bounded there (for pressure angles below 45 deg): a polynomial cannot be
+anything else. Least friction is a ray and one slow piece; docs/shapes.md, section 15, gives the conditions under which
+they are optimal.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from math import atan, cos, degrees, inf, sin, sqrt
 from typing import TYPE_CHECKING
@@ -13,9 +19,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.chebyshev import ChebyshevSeries, differentiation, points
 from geartrain.numerics.roots import root
-from geartrain.teeth.conjugate.path_side import (
-    CirclePiece,
+from geartrain.teeth.conjugate.path_of_contact import (
     PathPiece,
     PathSide,
     RayPiece,
@@ -24,19 +30,22 @@ from geartrain.teeth.conjugate.path_side import (
     circle_end,
     ray_end,
 )
-from geartrain.teeth.conjugate.piece_conditions import check_pieces, other_shape, pull
-from geartrain.teeth.conjugate.singular_collocation import FALLEN, ValueAndSlope, lost, solved
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geartrain.numerics.arrays import Floats
-    from geartrain.numerics.chebyshev import ChebyshevSeries
-    from geartrain.teeth.conjugate.piece_conditions import Weight
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-    Made = Callable[[PitchSurfaces, ValueAndSlope, ChebyshevSeries, float], PathPiece]
+    Weight = Callable[[Floats], Floats]
+    Made = Callable[[PitchSurfaces, "ValueAndSlope", ChebyshevSeries, float], PathPiece]
 
+ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
+
+_NODES = (24, 48, 96, 192)  # doubled until the last coefficients have fallen
+FALLEN = 1e-14  # of the greatest coefficient: less is rounding
+_UNFINISHED = 1e-5  # coefficients that have not fallen so far with the most nodes: beyond 84 deg or so
+_STEPS = 25  # of Newton's method
+_ROUGH = 1e-9  # residuals below this are left to rounding
+_CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are looked at, and their rounding
 _NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the series
 # 16 nodes leave rounding on usual sides: far more for those near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
@@ -50,11 +59,6 @@ _GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot b
 def involute(X: float, psi: float) -> PathSide:
     """A constant pressure angle."""
     return PathSide((RayPiece(psi, ray_end(psi, X)),))
-
-
-def cycloid(X: float, rho: float) -> PathSide:
-    """The epicycloid and hypocycloid of a rolling circle of radius `rho`; spur only."""
-    return PathSide((CirclePiece(rho, circle_end(rho, X)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
@@ -319,3 +323,138 @@ def _variation(
     x, weights = _GAUSS
     d = first + (end - first) * (x + 1) / 2
     return float(weights @ pull(pitch, sine_of, d, end, loss))
+
+
+# ------------------------------------------------------------------------------------------------ Chebyshev collocation
+
+
+def solved(
+    pitch: PitchSurfaces,
+    f: ValueAndSlope,
+    first: float,
+    end: float,
+    start: float = 0.0,
+    near: ChebyshevSeries | None = None,
+) -> ChebyshevSeries:
+    """v on [start, end] with S v' + f = 0 and v = `first` at `start`.
+
+    f      d, v -> f and its derivative by v; at the pitch point f(0, first) = 0 is what makes the solution bounded
+    near   the solution up to another end, to begin with
+    Nodes are doubled until the last coefficients have fallen to 1e-14 of the greatest. Raises `RangeError` where the
+    solution leaves what f is defined for, or comes so near that the coefficients do not fall.
+    """
+    series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
+    for nodes in _NODES:
+        if near and nodes < len(near.coefficients):
+            continue
+        series = fitted(pitch, f, first, end, start, nodes, series)
+        if series.tail < FALLEN:
+            break
+    if series.tail > _UNFINISHED:
+        raise lost(end)
+    return series
+
+
+def fitted(
+    pitch: PitchSurfaces,
+    f: ValueAndSlope,
+    first: float,
+    end: float,
+    start: float,
+    nodes: int,
+    near: ChebyshevSeries | None = None,
+) -> ChebyshevSeries:
+    """As `solved`, with so many nodes and no more."""
+    x, _ = points(nodes)
+    d = start + (end - start) * (x + 1) / 2
+    # held at its last value beyond its end, where a series soon grows without bound
+    guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
+    return ChebyshevSeries.through(_Collocated(pitch, f, first, d).newton(guess), start, end)
+
+
+class _Collocated:
+    """The equation at the nodes d; the first of them holds what v starts with."""
+
+    def __init__(self, pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats) -> None:
+        self.f, self.first, self.d = f, first, d
+        self.matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
+        # the first row gives way to the condition v = first: at the pitch point S is 0, and the equation says no more
+        self.matrix[0] = 0.0
+
+    def residual(self, v: Floats) -> tuple[Floats, Floats]:
+        """What is left over at each node, and the diagonal that f adds to the Jacobian."""
+        off, slope = self.f(self.d, v)
+        off[0], slope[0] = v[0] - self.first, 1.0
+        return self.matrix @ v + off, slope
+
+    def newton(self, v: Floats) -> Floats:
+        """Damped steps until rounding stops them."""
+        left, slope = self.residual(v)
+        for _ in range(_STEPS):
+            step = np.linalg.solve(self.matrix + np.diag(slope), left)
+            part, size = 1.0, np.abs(left).max()
+            trial, (left, slope) = v - step, self.residual(v - step)
+            # halve a step that leaves what f is defined for, or, within a thousandth, that makes the residual grow
+            while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
+                part /= 2
+                if part < 1e-9:
+                    raise lost(float(self.d[-1]))
+                trial, (left, slope) = v - part * step, self.residual(v - part * step)
+            # at rounding, or where the residual no longer shrinks
+            done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
+            v = trial
+            if done:
+                break
+        if not np.abs(left).max() < _ROUGH:
+            raise lost(float(self.d[-1]))
+        return v
+
+
+def lost(end: float) -> RangeError:
+    """What to say of an end that cannot be reached."""
+    return RangeError(
+        Problem(
+            f"the path of contact does not reach {end:.6g} from the pitch point",
+            "its pressure angle would come to a right angle before",
+            "ask for shorter arcs, more teeth, or a smaller pressure angle",
+        )
+    )
+
+
+# --------------------------------------------------------------------------------------------- conditions of least loss
+
+
+def pull(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight) -> Floats:
+    """The integrand: what a higher path would lose at d less what it would win there in arc."""
+    S, sine = pitch.S(d), sine_of(d)
+    cosine = np.sqrt(1 - sine**2)
+    last = np.array(end)
+    won = float(loss(last)) / sqrt(1 - float(sine_of(last)) ** 2)
+    found: Floats = sine / (S * cosine) * (2 * loss(d) / cosine**3 - won / cosine**2)
+    return found
+
+
+def check_pieces(
+    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], end: float, first: float, weight: Weight
+) -> None:
+    """Raise `RangeError` where a ray and one slow piece are not the best, by the conditions of docs/shapes.md, 15."""
+    d = np.linspace(0.0, end, _CHECKED)
+    if (np.diff(weight(d)) < 0).any():
+        raise other_shape("there its contacts lose less the faster they slide")
+    d = np.linspace(first, end, _CHECKED)
+    each = pull(pitch, sine_of, d, end, weight)
+    below = np.cumsum((each[1:] + each[:-1]) / 2)
+    if below.max() > _SLACK * np.abs(each).sum():
+        raise other_shape("a path that rises again before its end would lose less")
+
+
+def other_shape(why: str) -> RangeError:
+    """What is said of a law under which two pieces are not the side of least loss."""
+    return RangeError(
+        Problem(
+            "under this law of friction teeth of least loss have other pieces than a constant pressure angle and a "
+            "slowest contact",
+            why,
+            "ask for another pitch_line_speed, a law that falls less steeply, or a smaller pressure angle",
+        )
+    )

@@ -1,11 +1,11 @@
-"""What a path of contact costs: loss, greatest stress, heat and flash, depth; and how it compares with another.
+"""Costs of a path of contact: loss, maximum stress, heat, flash temperature and depth; their ratios to another path.
 
 A force is known only with an assumption on how pairs of teeth that touch at once share the load. Two are made here:
-one pair bears all of it along its whole path, as if it were alone, and those in contact bear equal parts at every
-instant. They are the same where the contact ratio is 1.
+one pair bears all of it along its whole path, or those in contact bear equal parts at every instant. They are the same
+where the contact ratio is 1.
 
-Friction of one contact, exact in its coefficient, spur and bevel, rings too: docs/shapes.md (6) for spur pairs.
-
+Friction of one contact is exact in its coefficient, for spur and bevel wheels and rings (docs/shapes.md (6)
+for spur pairs).
 The contact pushes with N along the normal n and rubs with mu N across it, against the sliding, whose sense turns at the
 pitch point. Over N and the pitch-line speed, the power that enters at gear i, or leaves there, is the force times the
 speed of that gear's body at the contact:
@@ -21,19 +21,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import floor, inf
+from math import floor, inf, nan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.results import Key, Result, finite
-from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
-from geartrain.teeth.conjugate.path_side import PathSide
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact, PathSide
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-
 
 # 12 nodes leave 1e-12 on usual paths and 24 rounding: twice that for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(48)
@@ -48,19 +48,32 @@ LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
 """Costs that depend on how the load is shared, in the order of tables."""
 FREE = ("depth", "contact_ratio", "slowest")
 """Measures that do not."""
+_STEP, _STEPS = 1.25, 40  # growth of the bracket, and how often it may grow: by 1.25^40 = 7500
 
 
 @dataclass(frozen=True, slots=True)
 class PathCosts(Result):
-    """What a path costs under one assumption on the load, friction and load taken out; lengths in modules or radians.
+    """Costs of a path under one assumption on the load, friction and load taken out; lengths in modules or radians.
 
-    assumption  on how pairs of teeth share the load, in words
-    loss        mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its
-                path (Buckingham); shared: the mean over a pitch (Ohlendorf)
-    stress      greatest Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0
-    off_pitch   the same where |X| is more than a tenth of a pitch
-    heat        greatest heat per area of either profile, over friction times tangential force: max Q
-    flash       greatest flash proxy
+    Attributes
+    ----------
+    assumption : str
+        How pairs of teeth share the load.
+    loss : float
+        Mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path
+        (Buckingham); shared: the mean over a pitch (Ohlendorf).
+    stress : float
+        Maximum Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0.
+    off_pitch : float
+        The same where |X| is more than a tenth of a pitch.
+    heat : float
+        Maximum heat per area of either profile, over friction times tangential force: max Q.
+    flash : float
+        Maximum of what the flash temperature is proportional to.
+
+    See Also
+    --------
+    measure : gives it.
     """
 
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
@@ -73,18 +86,34 @@ class PathCosts(Result):
     flash: float
 
     def over(self, other: PathCosts) -> dict[str, float]:
-        """Each of the quantities as a ratio to another path's."""
+        """Each of the quantities as a ratio to another path's.
+
+        Parameters
+        ----------
+        other : PathCosts
+            Under the same assumption.
+        """
         return {name: getattr(self, name) / getattr(other, name) for name in LOADED}
 
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures(Result):
-    """What one path costs, and its geometry; lengths in modules or radians.
+    """Costs of one path, and its geometry; lengths in modules or radians.
 
-    one_pair, shared   costs where one pair bears the load, and where pairs in contact share it equally
-    depth           working depth |eta_a| + eta_r
-    slowest         least speed of the contact along a dedendum, over the pitch-line speed
-    contact_ratio   pitches of displacement while one pair touches
+    Attributes
+    ----------
+    one_pair, shared : PathCosts
+        Where one pair bears the load, and where pairs in contact share it equally.
+    depth : float
+        Working depth |eta_a| + eta_r.
+    slowest : float
+        Minimum speed of the contact along a dedendum, over the pitch-line speed.
+    contact_ratio : float
+        Pitches of displacement while one pair touches.
+
+    See Also
+    --------
+    measure : gives it.
     """
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
@@ -96,7 +125,13 @@ class PathMeasures(Result):
     contact_ratio: float
 
     def over(self, other: PathMeasures) -> PathRatios:
-        """Each of the quantities as a ratio to another path's."""
+        """Each of the quantities as a ratio to another path's.
+
+        Parameters
+        ----------
+        other : PathMeasures
+            Such as those of an involute.
+        """
         free = {name: getattr(self, name) / getattr(other, name) for name in FREE}
         return PathRatios(self.one_pair.over(other.one_pair), self.shared.over(other.shared), free)
 
@@ -117,7 +152,24 @@ class PathRatios(Result):
 
 
 def measure(path: PathOfContact) -> PathMeasures:
-    """All measures of a path."""
+    """Loss, stress, heat, flash temperature and depth of a path of contact.
+
+    Parameters
+    ----------
+    path : PathOfContact
+        Of any conjugate form.
+
+    Returns
+    -------
+    PathMeasures
+        Under two assumptions on the load.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> round(measure(Involute(form="involute").path(24, 36)).shared.loss, 4)
+    0.155
+    """
     alone = [(-path.arcs[0], path.arcs[1], 1)]
     slowest = -greatest(path, lambda c: -np.minimum(c.U1, c.U2))
     if min(path.arcs) >= 0:
@@ -280,7 +332,31 @@ def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: 
 
 
 def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> Floats:
-    """Power out over power in; NaN where friction lets nothing out: the contact locks."""
+    """Efficiency of one contact of conjugate teeth, exact in friction.
+
+    Parameters
+    ----------
+    pitch : PitchSurfaces
+        Of the path.
+    contact : PathContact
+        One contact or many.
+    friction : float
+        Coefficient of friction, 0 or more.
+    driver : {1, 2}
+        The gear that drives.
+
+    Returns
+    -------
+    ndarray
+        Power out over power in, of the contact's shape; NaN where the contact locks.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> path = Involute(form="involute").path(24, 36)
+    >>> [round(float(value), 4) for value in efficiency(path.pitch, path.at([-1.0, 0.0, 1.0]), 0.1)]
+    [0.9857, 1.0, 0.9867]
+    """
     into, out = powers(pitch, contact, friction, driver)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(out > 0, out / into, np.nan)
@@ -301,3 +377,48 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
 
     steepest = greatest(path, lean)
     return 1 / steepest if steepest > 0 else inf
+
+
+# -------------------------------------------------------------------------------- uniform temperature of a wanted depth
+
+
+def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
+    """The gamma = (A + B) / heat whose `depth`, which grows with it, is as wanted; looked for around `start`.
+
+    most   a depth that no heat gives, such as the arcs summed: a contact rises by less than it travels
+
+    Raises `GearTrainError` where no heat gives that depth.
+    """
+
+    def off(gamma: float) -> float:
+        try:
+            return depth(gamma) - wanted
+        except GearTrainError:
+            return nan  # too steep to be reached, or too hot for the contact to move
+
+    low = high = start
+    at_low = at_high = off(start) if wanted < most else nan
+    for _ in range(_STEPS if wanted < most else 0):
+        if at_low < 0 < at_high or at_low == 0:
+            break
+        # upwards while even the hottest is too low; NaN, which cannot be reached, and too deep both lead downwards
+        if not at_high >= 0 and at_high == at_high:
+            low, at_low, high = high, at_high, high * _STEP
+            at_high = off(high)
+        else:
+            high, at_high, low = low, at_low, low / _STEP
+            at_low = off(low)
+    if not (at_low <= 0 <= at_high):
+        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
+        if at_low > 0:
+            raise GearTrainError(
+                Problem(what, "even the hottest are deeper", "ask for more depth or shorter arcs, or give the heat")
+            )
+        raise GearTrainError(
+            Problem(
+                what,
+                "their pressure angle would reach a right angle, or their contact stand still, before",
+                "ask for another depth, shorter arcs or more teeth, or give the heat",
+            )
+        )
+    return root(off, low, high, at_low, at_high)

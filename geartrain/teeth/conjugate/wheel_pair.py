@@ -1,4 +1,4 @@
-"""The two wheels that a conjugate tooth form is asked about, and whether there can be such a pair."""
+"""The two wheels of a pair with conjugate teeth, and whether there can be such a pair."""
 
 from __future__ import annotations
 
@@ -18,12 +18,31 @@ _LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, a
 
 @dataclass(frozen=True, slots=True)
 class WheelPair:
-    """The two wheels that a form is asked about.
+    """The two wheels of a pair with conjugate teeth.
 
-    z1, z2        tooth numbers, not whole of wheels that stand for bevels; `internal`: the second is a ring
-    shaft_angle   rad, for bevels; None for parallel axes
-    module        m, or None where no length says it; transverse, as all lengths of the pair are
-    helix         helix angle (rad) of helical wheels, 0 or more
+    Attributes
+    ----------
+    z1, z2 : float
+        Tooth counts, which are not whole for virtual wheels that represent bevels.
+    internal : bool
+        The second is a ring.
+    shaft_angle : float or None
+        Angle of the axes [rad], for bevels; None for parallel axes.
+    module : float or None
+        Transverse module [m], as all lengths of the pair are transverse; None where no length gives it.
+    helix : float
+        Helix angle of helical wheels [rad], 0 or more.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : its method `pair` takes them.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> pair = Involute(form="involute").pair(WheelPair(24, 36))
+    >>> round(pair.path.contact_ratio, 4), pair.faults
+    (1.6472, ())
     """
 
     z1: float
@@ -43,7 +62,21 @@ class WheelPair:
         pitch_distance: float | None,
         helix: float = 0.0,
     ) -> WheelPair:
-        """Wheels by half the module of each times its teeth, summed (m), for a ring too; None where nothing says it."""
+        """Wheels whose module follows from their pitch distance.
+
+        Parameters
+        ----------
+        z1, z2 : int
+            Tooth counts.
+        internal : bool
+            The second is a ring.
+        shaft_angle : float or None
+            Angle of the axes [rad]; None for parallel axes.
+        pitch_distance : float or None
+            Half the module of each wheel times its teeth, summed, for a ring too [m]; None where nothing gives it.
+        helix : float
+            Helix angle [rad].
+        """
         module = None if pitch_distance is None or z1 + z2 < 1 else 2 * pitch_distance / (z1 + z2)
         return cls(z1, z2, internal, shaft_angle, module, helix)
 
@@ -100,7 +133,17 @@ class WheelPair:
     def modules(self, length: Quantity, name: str) -> float:
         """A declared length in transverse modules, a plain number being in normal ones.
 
-        Raises `GearTrainError` where no module is known.
+        Parameters
+        ----------
+        length : Quantity
+            As declared.
+        name : str
+            Of the field, for the error.
+
+        Raises
+        ------
+        GearTrainError
+            Where no module is known.
         """
         if length.unit is None:
             return float(length.value) * cos(self.helix)

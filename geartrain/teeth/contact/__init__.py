@@ -1,13 +1,21 @@
-"""Contact of two given outlines of any shape: driven angle, play, which teeth touch where, the law of a whole period.
+"""Contact of two outlines of any shape: driven angle, backlash, teeth in contact, transmission function over a period.
 
-It knows neither normals nor paths of contact: the driven wheel stands where the last point of the driver's outline lets
-it. That makes it a judge of teeth that are derived in other ways, and gives a law to teeth that are worn, misplaced or
-displaced.
+No normals or paths of contact are used: the driven wheel stands where the last point of the driver's outline lets it.
+This gives an independent check of teeth that are derived in other ways, and a transmission function to teeth that are
+worn, misplaced or displaced.
+
+gear_outline              curves, teeth made of them, a wheel
+flank_table               flanks as polynomial pieces with rising radius
+first_touch               the furthest point of the driver's side (false position on each smooth segment)
+outline_contact           driven angle, backlash and teeth in contact at given angles: `contact`, `solve`
+transmission_fit          the periodic transmission function as polynomials (Chebyshev nodes): `tabulate`
+outline_transmission      the same with friction and verdict
+outline_mesh              a pair of a train with such teeth
+displaced_outlines        displaced flanks of such teeth
 """
 
-from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks, polyline
 from geartrain.teeth.contact.outline_contact import FlankContact, TwoFlankContact, contact, solve
-from geartrain.teeth.contact.outline_curve import OutlineCurve, polyline
 from geartrain.teeth.contact.transmission_fit import tabulate
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""The sides of the teeth of one wheel as pieces with rising radius: nodes to look from, and azimuth by radius."""
+"""The sides of the teeth of one wheel as polynomial pieces with rising radius: search nodes, and azimuth by radius."""
 
 from __future__ import annotations
 

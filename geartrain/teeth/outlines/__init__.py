@@ -1,1 +1,32 @@
-"""The closed outline of a toothed wheel, as a cutter would leave it: flanks, fillets, tips, rim."""
+"""The closed outline of a toothed wheel, as a cutter would leave it: flanks, fillets, tips, rim.
+
+contour                   closed curves of straight edges and arcs
+tooth_outline             one tooth from root to tip, with its flank from the path of contact
+wheel_requirement         what a pair requires of the teeth of one wheel; one tooth that fits all pairs of the wheel
+tooth_requirement         the same for conjugate teeth: whether a mate's teeth pass through the spaces
+wheel_outline             blank sizes and the outline of a whole wheel
+fixed_teeth               escape wheels and strain waves
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.teeth.outlines.contour import Contour
+    from geartrain.teeth.outlines.tooth_outline import repeated
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline, outline
+
+__all__ = ["BlankSizes", "Contour", "WheelOutline", "outline", "repeated"]
+
+_PLACES = {
+    "BlankSizes": "wheel_outline",
+    "Contour": "contour",
+    "WheelOutline": "wheel_outline",
+    "outline": "wheel_outline",
+    "repeated": "tooth_outline",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

@@ -1,6 +1,6 @@
-"""Whether a mate's teeth pass through a wheel's spaces: its teeth set against the outline in every position.
+"""Requirements of conjugate pairs on the teeth of a wheel: flanks, and spaces through which all mates pass.
 
-What a pair asks of the teeth of one of its wheels, and the one tooth that does for all pairs of a wheel.
+The mate's tooth is set against the outline in many positions of a pitch.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.teeth.outlines.flank_curve import FlankCurve, flank
-from geartrain.teeth.outlines.tooth_outline import ToothOutline, fillet, pin_span
+from geartrain.teeth.outlines.tooth_outline import FlankCurve, ToothOutline, fillet, flank, pin_span
 from geartrain.teeth.outlines.wheel_requirement import CutTooth, LanternPins, WheelRequirement
 
 if TYPE_CHECKING:

@@ -1,13 +1,17 @@
-"""A whole wheel, fit to be cut: teeth, roots that the mate's tips do not touch, bore or rim, as its maker says."""
+"""A whole wheel to be cut: sizes of its blank, and its outline with the sizes that result.
+
+Conjugate teeth get roots that the mate's tips do not touch, and a bore or a rim as the blank says.
+"""
 
 from __future__ import annotations
 
-from math import acos, atan2, cos, pi, sin, tan
+from dataclasses import dataclass
+from math import acos, atan2, cos, isfinite, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.results import Key, Result
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
 from geartrain.teeth.outlines.tooth_outline import ToothOutline, repeated
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
@@ -15,18 +19,170 @@ from geartrain.teeth.outlines.wheel_requirement import LanternPins
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
-
 _THIN = 0.1  # modules: least land of a wheel about its bore
+
+
+@dataclass(frozen=True, slots=True)
+class BlankSizes:
+    """What a maker says of a wheel besides its teeth. Lengths in mm.
+
+    Attributes
+    ----------
+    module : float
+        Pitch diameter over teeth [mm], above 0.
+    clearance : float, optional
+        Between a tip and the mate's root [mm], 0 or more; default a quarter of a module.
+    fillet : float, optional
+        Radius of the round at the root [mm], 0 or more; default 0.38 modules, or what fits.
+    bore : float, optional
+        Diameter of the hole in the middle [mm]; default no hole.
+    rim : float, optional
+        What stands round the roots of a ring, or the pins of a lantern [mm]; default two modules, or a pin.
+    tolerance : float
+        How far a chord may leave a flank [mm].
+
+    Raises
+    ------
+    QuestionError
+        For what is no size.
+
+    See Also
+    --------
+    geartrain.teeth.GearMesh.wheel_outline : takes them.
+
+    Examples
+    --------
+    >>> BlankSizes(module=2, bore=6).clearance is None
+    True
+    """
+
+    module: float = 1.0
+    clearance: float | None = None
+    fillet: float | None = None
+    bore: float | None = None
+    rim: float | None = None
+    tolerance: float = 0.001
+
+    def __post_init__(self) -> None:
+        """Raise `QuestionError` for what is no size."""
+        above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
+        least = {"fillet": self.fillet, "clearance": self.clearance}
+        problems = [
+            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} above 0", f"--{name}")
+            for name, value in above.items()
+            if value is not None and not (isfinite(value) and value > 0)
+        ]
+        problems += [
+            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} of 0 or more", f"--{name}")
+            for name, value in least.items()
+            if value is not None and not (isfinite(value) and value >= 0)
+        ]
+        if problems:
+            raise QuestionError(problems)
+
+
+def _twice(radius: float) -> float:
+    """The diameter."""
+    return 2 * radius
+
+
+@dataclass(frozen=True, slots=True)
+class WheelOutline(Result):
+    """A wheel's outline and sizes, to scale. Lengths in mm.
+
+    Attributes
+    ----------
+    gear : int
+        Which of the pair, 1 or 2.
+    z : int
+        Its teeth, or pins.
+    kind : {"external", "ring", "pins"}
+        Teeth outwards, teeth inwards, or holes for pins.
+    contours : tuple of Contour
+        The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis.
+    module, pitch_radius, tip_radius, root_radius : float
+        Of the wheel [mm].
+    thickness : float
+        Of a tooth along the pitch circle [mm].
+    fillet : float
+        Radius of the round at the root [mm]; 0 where there is none.
+    relief : float
+        How far the root is turned off the flank's tangent, so that the mate's tip passes [rad].
+    clearance, backlash, centre_distance : float
+        Of the pair [mm].
+    tolerance : float
+        How far a chord may leave a flank [mm].
+
+    See Also
+    --------
+    geartrain.teeth.GearMesh.wheel_outline : makes one.
+    """
+
+    KEYS = (
+        *("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash"),
+        *(Key(f"{name}_diameter", f"{name}_radius", _twice) for name in ("pitch", "tip", "root")),
+        *("centre_distance", "tolerance"),
+    )
+
+    gear: int
+    z: int
+    kind: str
+    contours: tuple[Contour, ...]
+    module: float
+    pitch_radius: float
+    tip_radius: float
+    root_radius: float
+    thickness: float
+    fillet: float
+    relief: float
+    clearance: float
+    backlash: float
+    centre_distance: float
+    tolerance: float
+
+
+# ------------------------------------------------------------------------------------------ wheels with conjugate teeth
+
 
 OutlineSizes = tuple[float, float, float, float, float]
 """Radii of pitch, tip and root circle, thickness, radius of the round; modules."""
 
 
 def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
-    """The outline of gear 1 or 2 of a pair; `pins` where one of them is a lantern.
+    """The outline of one wheel of a pair with conjugate teeth.
 
     Turned about by its own angle so that a space of gear 2 faces a tooth of gear 1, the two wheels mesh at
-    `centre_distance` with half the backlash on either side. Raises `QuestionError` where no such wheel can be cut.
+    `centre_distance` with half the backlash on either side.
+
+    Parameters
+    ----------
+    pair : ConjugatePair
+        As designed; spur.
+    gear : {1, 2}
+        Which gear.
+    cut : BlankSizes
+        Module, bore, tolerance, and sizes of the roots.
+    pins : LanternPins, optional
+        Where one of the gears is a lantern.
+
+    Returns
+    -------
+    WheelOutline
+        To scale.
+
+    Raises
+    ------
+    QuestionError
+        Where no such wheel can be cut.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> from geartrain.teeth.conjugate import WheelPair
+    >>> from geartrain.teeth.outlines import BlankSizes
+    >>> wheel = outline(Involute(form="involute").pair(WheelPair(24, 36)), 1, BlankSizes(module=2.0))
+    >>> wheel.tip_radius, wheel.centre_distance
+    (26.0, 60.0)
     """
     check_flat(pair)
     both = _Both(pair, cut, pins)

@@ -1,4 +1,4 @@
-"""What a gear pair asks of the teeth of one of its wheels, whatever its form: one tooth that does for all its pairs."""
+"""What a gear pair requires of the teeth of one of its wheels; one tooth that fits all pairs of the wheel."""
 
 from __future__ import annotations
 

@@ -1,5 +1,45 @@
-"""Triangular teeth of antiquity: form and sizes, contact of one couple, the real path of all, its window, its law."""
+"""Triangular teeth of antiquity, after F. Sorge: straight flanks that meet in a point.
 
-from geartrain.teeth.triangular.triangular_form import Triangular
+pair_geometry             depth, radii, centre distance, reach
+tooth_couple              contact of one pair of teeth: driven angle, speed ratio, friction
+real_path                 which pair of teeth drives where; collisions, dwells, clashes
+clearance_window          verdict, backlash of the coast flanks, window of clearance
+triangular_transmission   transmission function; a table of contact over one pitch
+triangular_form           the form as declared, and its sizes
+triangular_mesh           a pair of a train: figures and explanations
+parameter_sweep           a pair as one or two parameters vary
+"""
 
-__all__ = ["Triangular"]
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
+    from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
+    from geartrain.teeth.triangular.triangular_form import Triangular
+    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+__all__ = [
+    "ClearanceWindow",
+    "Triangular",
+    "TriangularSizes",
+    "TriangularTransmission",
+    "equal_depth",
+    "find_window",
+    "pitch_true",
+]
+
+_PLACES = {
+    "ClearanceWindow": "clearance_window",
+    "Triangular": "triangular_form",
+    "TriangularSizes": "pair_geometry",
+    "TriangularTransmission": "triangular_transmission",
+    "equal_depth": "pair_geometry",
+    "find_window": "clearance_window",
+    "pitch_true": "pair_geometry",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

@@ -1,4 +1,4 @@
-"""Can a pair of wheels turn? The verdict, the play of the back flanks, and the window of clearance."""
+"""Whether a pair of triangular wheels turns: verdict, backlash of the coast flanks, window of clearance."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from math import degrees, inf
 from typing import Literal
 
 from geartrain.numerics.roots import bracketed_root, root
-from geartrain.teeth.pair_verdict import PairVerdict
+from geartrain.teeth.pair_results import PairVerdict
 from geartrain.teeth.tooth_form import refused
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval, RealPath
-from geartrain.teeth.triangular.standstill import DraggedPath, drag
+from geartrain.teeth.triangular.real_path import STANDSTILL, DraggedPath, DriveInterval, RealPath, drag
 from geartrain.teeth.triangular.tooth_couple import APPROACH
 
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
@@ -206,11 +205,27 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow:
-    """Clearance factors between which a pair turns: above `jam`, up to `run`; beyond `reach` no tip touches.
+    """Clearances between which a pair of triangular teeth turns: above `jam`, up to `run`; each as excess.
 
-    Each as excess. `side` is 1 for an external pair, -1 for an internal one, whose factors are below 1. `jam_kind` says
-    what happens up to `jam`, `run_kind` beyond `run`. Empty where run is below jam: no clearance works. Where a pair
-    runs in several stretches of clearance this is the first.
+    False where `run` is below `jam`: no clearance works. Where a pair runs in several stretches of clearance this is
+    the first.
+
+    Attributes
+    ----------
+    jam, run : float
+        Ends of the window.
+    run_kind : {"clash", "standstill"}
+        What happens beyond `run`.
+    reach : float
+        Excess beyond which no tip touches.
+    jam_kind : {"jam", "overhang", "clash", "standstill"}
+        What happens up to `jam`.
+    side : {1, -1}
+        1 for an external pair, -1 for an internal one, whose clearance factors are below 1.
+
+    See Also
+    --------
+    find_window : gives it.
     """
 
     jam: float
@@ -221,7 +236,13 @@ class ClearanceWindow:
     side: int = 1
 
     def factor(self, excess: float) -> float:
-        """The clearance factor of an excess."""
+        """The clearance factor of an excess.
+
+        Parameters
+        ----------
+        excess : float
+            As of `TriangularSizes`.
+        """
         return 1 + self.side * excess
 
     @property
@@ -248,12 +269,39 @@ class ClearanceWindow:
         return bool(self.jam < self.run)
 
     def at(self, fraction: float) -> float:
-        """The excess at a fraction of the window, 0 at the jam and 1 where contact is lost."""
+        """The excess at a fraction of the window.
+
+        Parameters
+        ----------
+        fraction : float
+            0 at the jam, 1 where contact is lost.
+        """
         return self.jam + fraction * (self.run - self.jam)
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """The window of clearance of a pair, whatever its own clearance. Needs valleys."""
+    """The window of clearance of a pair, whatever its own clearance.
+
+    Bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
+
+    Parameters
+    ----------
+    sizes : TriangularSizes
+        The pair, whose teeth must have valleys (`sizes.has_valleys`).
+
+    Returns
+    -------
+    ClearanceWindow
+        The first stretch of clearance in which it turns; false if there is none.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.teeth.triangular import TriangularSizes, pitch_true
+    >>> window = find_window(TriangularSizes(48, 96, *pitch_true(48, 96), pi / 6, pi / 6, 0.0))
+    >>> bool(window), window.jam < window.at(0.5) < window.run < window.reach
+    (True, True)
+    """
     return _window(sizes.at(0.0))
 
 

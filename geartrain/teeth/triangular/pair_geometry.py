@@ -48,12 +48,42 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes:
-    """A pair whose first wheel drives: tooth numbers, tip radii, half apertures (rad) and centre distance.
+    """Geometry of a pair of wheels with triangular teeth, the first of which drives. Lengths are in any one unit.
 
-    At `deepest_distance` a tip touches the bottom between two teeth: the least distance R1 + R2 - (the smaller depth)
-    of an external pair, the maximum R_ring - R_pinion + (the smaller depth) of an internal one. `excess` is the part
-    of it by which the wheels are apart: D = (1 + excess) deepest_distance outside, (1 - excess) inside, where the
-    clearance factor is below 1. `ring` is 1 or 2 for the wheel whose teeth are inside, 0 for an external pair.
+    At `deepest_distance` a tip touches the bottom between two teeth: the minimum distance R1 + R2 - (the smaller depth)
+    of an external pair, the maximum R_ring - R_pinion + (the smaller depth) of an internal one.
+
+    Parameters
+    ----------
+    z1, z2 : int
+        Tooth counts.
+    R1, R2 : float
+        Tip radii.
+    beta1, beta2 : float
+        Half apertures of the teeth [rad].
+    excess : float
+        The part of `deepest_distance` by which the wheels are apart: D = (1 + excess) deepest_distance outside,
+        (1 - excess) inside, where the clearance factor is below 1.
+    ring : {0, 1, 2}
+        The wheel whose teeth are inside; 0 for an external pair.
+
+    Raises
+    ------
+    RangeError
+        For values that give no teeth.
+
+    See Also
+    --------
+    geartrain.teeth.Triangular : its method `sizes` gives them from a declaration.
+
+    Examples
+    --------
+    Equally deep teeth, 1 per cent farther apart than where tips touch bottoms:
+
+    >>> from math import pi
+    >>> sizes = TriangularSizes(48, 96, *equal_depth(48, 96, pi / 6, pi / 6), pi / 6, pi / 6, 0.01)
+    >>> round(sizes.R2, 6), round(sizes.D, 6), round(sizes.clearance_factor, 6)
+    (1.881845, 2.809639, 1.01)
     """
 
     z1: int
@@ -143,7 +173,13 @@ class TriangularSizes:
         return self.factor(self.excess)
 
     def factor(self, excess: float) -> float:
-        """The clearance factor of an excess."""
+        """The clearance factor of an excess.
+
+        Parameters
+        ----------
+        excess : float
+            See the class.
+        """
         return 1 + self.side * excess
 
     @cached_property
@@ -238,15 +274,58 @@ class TriangularSizes:
         return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess, ring)
 
     def at(self, excess: float) -> TriangularSizes:
-        """The same wheels at another clearance."""
+        """The same wheels at another clearance.
+
+        Parameters
+        ----------
+        excess : float
+            See the class.
+        """
         return replace(self, excess=excess)
 
 
 def equal_depth(z1: int, z2: int, beta1: float, beta2: float, ring: int = 0) -> tuple[float, float]:
-    """Tip radii of wheels with equally deep teeth, Eq. (3), with R1 = 1."""
+    """Tip radii of wheels with equally deep teeth, Eq. (3) of the source, with R1 = 1.
+
+    Parameters
+    ----------
+    z1, z2 : int
+        Tooth counts.
+    beta1, beta2 : float
+        Half apertures [rad].
+    ring : {0, 1, 2}
+        The wheel whose teeth are inside; 0 for an external pair.
+
+    Returns
+    -------
+    tuple of float
+        R1 and R2.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> [round(radius, 6) for radius in equal_depth(48, 96, pi / 6, pi / 6)]
+    [1.0, 1.881845]
+    """
     return 1.0, abs(depth(-z1 if ring == 1 else z1, beta1) / depth(-z2 if ring == 2 else z2, beta2))
 
 
 def pitch_true(z1: int, z2: int) -> tuple[float, float]:
-    """Outer radii in the ratio of tooth numbers, with R1 = 1."""
+    """Tip radii in the ratio of tooth counts, with R1 = 1.
+
+    Parameters
+    ----------
+    z1, z2 : int
+        Tooth counts.
+
+    Returns
+    -------
+    tuple of float
+        R1 and R2.
+
+    Examples
+    --------
+    >>> pitch_true(48, 96)
+    (1.0, 2.0)
+    """
     return 1.0, z2 / z1

@@ -1,4 +1,4 @@
-"""How a pair changes with one or two of its parameters."""
+"""Verdict and figures of a pair of triangular wheels as one or two parameters vary."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import GearTrainError
-from geartrain.teeth.triangular.speed_jump import matches
+from geartrain.teeth.triangular.real_path import matches
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TransmissionFactory = Callable[..., TriangularTransmission]

@@ -1,10 +1,14 @@
 """The real path of contact: which couple of teeth drives where, and whether it can.
 
-Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`contact`), so that it follows
+Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`tooth_couple`), so that it follows
 U(t) = min over k, docs/teeth.md (10), and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the
 least of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or
 concave and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
 drive: the cost does not grow with the number of couples in reach.
+
+The envelope of the couples falls with time, but may leap: up where a couple leaves before the next one can drive (the
+driven wheel dwells until one reaches it), down where a couple comes in tip against tip (a clash). A collision is where
+the speed ratio leaps as another couple takes over.
 """
 
 from __future__ import annotations
@@ -15,12 +19,14 @@ from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
 
+from geartrain.numerics.results import Result
 from geartrain.numerics.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, RETURN, SLIP, ToothCouple
 
 STANDSTILL = "standstill"
 _ROUNDING = 1e-11  # of a pitch: what is shorter is no interval
+_SMALL = 1e-10  # of a pitch: a lesser leap or gap is none
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,3 +280,127 @@ def _joined(cells: list[DriveInterval]) -> list[DriveInterval]:
         else:
             found.append(cell)
     return found
+
+
+# ----------------------------------------------------------------------------------------------------------- collisions
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedJump(Result):
+    """A collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
+
+    `kind` is the phase that begins, or "matching" where the flank of one couple falls on the other's.
+    """
+
+    KEYS = ("kind", "alpha1", "before", "after", "value")
+
+    kind: str
+    alpha1: float
+    before: float
+    after: float
+
+    @property
+    def value(self) -> float:
+        """Relative jump of the normal velocity."""
+        return 1 - self.before / self.after
+
+
+def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
+    """True if one couple goes on from flank to flank, through the position where they match."""
+    faces = last.held is None and new.held is None and last.phase != new.phase
+    # both are the same root, found from either side
+    return faces and abs(last.end - new.start) < 1e-9 * pitch
+
+
+# --------------------------------------------------------------------------------------------------- dwells and clashes
+
+
+@dataclass(frozen=True, slots=True)
+class DraggedPath:
+    """The real path with standstills, and how far the entering tips overlap in a clash (rad of the driven wheel)."""
+
+    intervals: tuple[DriveInterval, ...]
+    clash: float
+    lost: float  # the driven wheel's law leaps by this at standstills, per pitch (rad)
+    arrested: bool = False  # the driven wheel is left standing for good
+
+
+def drag(path: RealPath) -> DraggedPath:
+    """Let the driven wheel stand wherever no couple pushes it."""
+    envelope = path.envelope
+    if not envelope:
+        return DraggedPath((), 0.0, inf)
+    first = min(range(len(envelope)), key=lambda at: _least(path, envelope[at])) if len(envelope) > 1 else 0
+    order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
+    walk = _Walk(path, order[0])
+    for interval in (*order[1:], _next_pitch(order[0])):
+        walk.on_to(interval)
+    return walk.result()
+
+
+def _next_pitch(interval: DriveInterval) -> DriveInterval:
+    return DriveInterval(interval.phase, interval.start, interval.end, interval.couple + 1, interval.held)
+
+
+def _least(path: RealPath, interval: DriveInterval) -> float:
+    """The least of g over an interval, which the driven wheel reaches whatever came before."""
+    phase, low, high = interval.phase, interval.end, interval.start
+    return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
+
+
+class _Walk:
+    """One pitch from the lowest point of the envelope to the same point again."""
+
+    def __init__(self, path: RealPath, first: DriveInterval) -> None:
+        self.path, self.first = path, first
+        self.small, self.gap = _SMALL * path.sizes.p2, _SMALL * path.pitch
+        self.done: list[DriveInterval] = [first]
+        self.held: DriveInterval | None = None  # the couple that let go
+        self.clash = self.lost = 0.0
+        self.arrested = False
+
+    def on_to(self, interval: DriveInterval) -> None:
+        """The next interval of the envelope: join it, stand until it comes down, or meet its tip."""
+        last = self.held or self.done[-1]
+        y = self._standing(last, interval)
+        leap = self.path.couple.angle(interval.phase, interval.start) - y
+        gap = last.end - interval.start + (interval.couple - last.couple) * self.path.pitch
+        if leap < -self.small:
+            # a tooth that enters an empty reach ahead of its mate passes by, and nothing pushes the mate any more
+            self.arrested |= gap > self.gap
+            self.clash = self.clash if gap > self.gap else max(self.clash, -leap)
+        if self.held is None and (leap > self.small or gap > self.gap):
+            self.held = last
+            self.lost += max(leap, 0.0)
+        if self.held is not None and leap > self.small:
+            # an interval that ends above the driven wheel never comes down to it
+            if self.path.couple.angle(interval.phase, interval.end) >= y:
+                return
+            start = bracketed_root(
+                lambda x: self.path.couple.angle(interval.phase, x) - y,
+                lambda x: self.path.couple.speed(interval.phase, x),
+                interval.end,
+                interval.start,
+            )
+            interval = DriveInterval(interval.phase, start, interval.end, interval.couple)
+        if self.held is not None:
+            self._stand_until(interval)
+        self.done.append(interval)
+
+    def _standing(self, last: DriveInterval, interval: DriveInterval) -> float:
+        """Where `last` left the driven wheel, as the angle alpha_2 of the couple of `interval`."""
+        y = self.path.couple.angle(last.phase, last.end)
+        return float(y + (interval.couple - last.couple) * self.path.sizes.p2)
+
+    def _stand_until(self, interval: DriveInterval) -> None:
+        last, self.held = self.held, None
+        assert last is not None
+        end = interval.start + (last.couple - interval.couple) * self.path.pitch
+        held = self.path.couple.angle(last.phase, last.end)
+        self.done.append(DriveInterval(STANDSTILL, last.end, end, last.couple, float(held)))
+
+    def result(self) -> DraggedPath:
+        """The walk closed: what is left of the first interval after the last standstill."""
+        last = self.done.pop()
+        first = DriveInterval(last.phase, last.start, self.first.end, last.couple - 1)
+        return DraggedPath((first, *self.done[1:]), self.clash, self.lost, self.arrested)

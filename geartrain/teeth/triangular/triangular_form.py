@@ -11,12 +11,11 @@ from pydantic_core import PydanticCustomError
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
-from geartrain.teeth.triangular.triangular_explanations import OTHER_SHAPES
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.pair_account import PairFigures
+    from geartrain.teeth.pair_results import PairFigures
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -363,6 +362,7 @@ def refusal(kinds: tuple[str, str], internal: bool) -> str:
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
     """The window of a pair. Raises `GearTrainError` where no clearance works."""
     from geartrain.teeth.triangular.clearance_window import find_window
+    from geartrain.teeth.triangular.triangular_mesh import OTHER_SHAPES
 
     window = find_window(sizes)
     if not window:

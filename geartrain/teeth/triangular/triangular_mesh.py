@@ -15,20 +15,33 @@ from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.outlines.wheel_requirement import SAME_SIZE, CutTooth, WheelRequirement
-from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
-from geartrain.teeth.transmission_figures import SlidingEfficiency
+from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import DriveInterval
-from geartrain.teeth.triangular.speed_jump import SpeedJump
-from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
+from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump
 
 if TYPE_CHECKING:
-    from geartrain.teeth.pair_account import PairAccount
-    from geartrain.teeth.pair_verdict import PairVerdict
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
-    from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+    from geartrain.teeth.pair_results import PairVerdict
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+OTHER_SHAPES = (
+    "use more teeth, a ratio nearer to 1, or another half_angle",
+    "use `radii: pitch_true` (teeth of equal depth do not suit a ring), more teeth, or another half_angle",
+)
+_WORDS = (
+    "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
+    "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
+)
+_PLACE = ("pair", "drives", "clearance", "window", "verdict")
+_LAW = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+_WINDOW = (
+    *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
+    *(Key("reach", "reach_factor"), "works"),
+)
+_SIZES = (
+    *("radii", "half_angles", "depths", Key("centre_distance", "D")),
+    *(Key("reach", "reach1"), Key("matching", to=finite)),
+)
 
 
 @dataclass(frozen=True)
@@ -169,8 +182,9 @@ class TriangularMesh(GearMesh):
 
     def account(self) -> PairAccount:
         """Its clearance, its law and its collisions."""
-
-        return triangular_account(self)
+        figures = triangular_figures(self.law, self.window, losses=self.efficiency(self.driver))
+        tables = AccountTable(_PLACE, _place_row(self)), AccountTable(_LAW, _law_row(self, figures))
+        return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
         """Everything that is wrong, with what would mend it."""
@@ -181,24 +195,7 @@ class TriangularMesh(GearMesh):
             yield Problem(*explain_friction_lock(self.law))
 
 
-# --------------------------------------------------------------------------------------------------- triangular account
-
-_WORDS = (
-    "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
-    "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
-)
-_PLACE = ("pair", "drives", "clearance", "window", "verdict")
-_LAW = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
-
-
-_WINDOW = (
-    *(Key("jam", "jam_factor"), "jam_kind", Key("run", "run_factor"), "run_kind"),
-    *(Key("reach", "reach_factor"), "works"),
-)
-_SIZES = (
-    *("radii", "half_angles", "depths", Key("centre_distance", "D")),
-    *(Key("reach", "reach1"), Key("matching", to=finite)),
-)
+# -------------------------------------------------------------------------------------------------------------- figures
 
 
 @dataclass(frozen=True)
@@ -223,13 +220,6 @@ class TriangularFigures(PairFigures):
     intervals: tuple[DriveInterval, ...]
     jumps: tuple[SpeedJump, ...]
     impacts: Any = None
-
-
-def triangular_account(mesh: TriangularMesh) -> PairAccount:
-    """A row on its clearance and one on its law, and the figures."""
-    figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
-    tables = AccountTable(_PLACE, _place_row(mesh)), AccountTable(_LAW, _law_row(mesh, figures))
-    return PairAccount(_WORDS, tables, figures)
 
 
 def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
@@ -270,4 +260,37 @@ def triangular_figures(
         intervals=law.intervals,
         jumps=tuple(law.jumps) if moves else (),
         impacts=impacts,
+    )
+
+
+# --------------------------------------------------------------------------------------------------------- explanations
+
+
+def explain_clearance(law: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
+    """Why a pair does not turn, and what would let it: the window of clearance, and which end was passed."""
+    if window is None:
+        return "", "use more teeth or a smaller half_angle"
+    excess, jam, run = law.sizes.excess, window.jam_factor, window.run_factor
+    if not window:
+        return (
+            f"up to a clearance factor of {jam:.6g} there is {window.jam_kind}, and from "
+            f"{run:.6g} on {window.run_kind}: no clearance works",
+            OTHER_SHAPES[bool(law.sizes.ring)],
+        )
+    factor = window.factor(excess)
+    end = "below" if factor < min(jam, run) else "above"
+    return (
+        f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
+        f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
+        f"give a clearance between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
+    )
+
+
+def explain_friction_lock(law: TriangularTransmission) -> tuple[str, str, str]:
+    """What, why, and what to do, where friction locks."""
+    return (
+        f"a friction of {law.friction:g} locks these teeth",
+        "before the line of centres the driver pushes the driven apex against its own sliding: friction times the "
+        f"tangent of the flank's lean reaches 1 at {law.locking_friction:.6g}",
+        f"give a friction below {law.locking_friction:.4g}, or let the other wheel drive",
     )

@@ -1,8 +1,9 @@
-"""The transmission law of triangular teeth, vectorised over driver angles."""
+"""The transmission function of triangular teeth, vectorised over driver angles; a table of contact over one pitch."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from itertools import pairwise
@@ -12,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
 from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, behind, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import DriveInterval
-from geartrain.teeth.triangular.speed_jump import SpeedJump, matches
+from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
 from geartrain.teeth.triangular.tooth_couple import APPROACH
 
 if TYPE_CHECKING:
@@ -25,9 +26,9 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.friction_law import PairFriction
-    from geartrain.teeth.pair_verdict import PairVerdict
+    from geartrain.teeth.pair_results import PairVerdict
 
-
+_USUAL = 5  # rows for each interval of the real path
 _BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
 _GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
 _ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
@@ -41,11 +42,32 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
 
 
 class TriangularTransmission(TransmissionFunction):
-    """The law of a pair of wheels, the first of `sizes` driving.
+    """The transmission function of a pair of wheels with triangular teeth.
 
-    `direction` -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive. The law of
-    a pair that stands still at each pitch has those standstills; that of a pair that jams or clashes is what its front
-    flanks alone would do.
+    The function of a pair that dwells at each pitch has those dwells; that of a pair that jams or clashes is what its
+    front flanks alone would do.
+
+    Parameters
+    ----------
+    sizes : TriangularSizes
+        The pair, the first wheel driving.
+    friction : float
+        Coefficient of friction, 0 or more.
+    direction : {1, -1}
+        -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive.
+
+    See Also
+    --------
+    geartrain.teeth.Triangular : its method `law` gives it from a declaration.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.teeth.triangular import TriangularSizes, equal_depth
+    >>> radii = equal_depth(48, 96, pi / 6, pi / 6)
+    >>> law = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, 0.01), 0.2)
+    >>> law.verdict.kind, law.ratio, [round(jump.value, 4) for jump in law.jumps]
+    ('runs', Fraction(1, 2), [0.1582])
     """
 
     def __init__(self, sizes: TriangularSizes, friction: float = 0.0, direction: int = 1) -> None:
@@ -83,13 +105,29 @@ class TriangularTransmission(TransmissionFunction):
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._rubs, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Speed of sliding at alpha_1 = x (rad) over that of the pitch line."""
+        """Speed of sliding over that of the pitch line.
+
+        Parameters
+        ----------
+        phase : {"approach", "recess"}
+            Of the couple in contact.
+        x : ndarray
+            Its alpha_1 [rad].
+        """
         sizes = self.sizes
         found: Floats = self.contact.path.couple.sliding(phase, x, np) * sizes.pitch_sum / (sizes.D * sizes.z1)
         return found
 
     def coefficient(self, phase: str, x: Floats, by: PairFriction | None) -> float | Floats:
-        """Friction at alpha_1 = x (rad): the law's own, or `by` the speed of sliding."""
+        """Coefficient of friction.
+
+        Parameters
+        ----------
+        phase, x
+            As of `sliding`.
+        by : PairFriction or None
+            Friction by the speed of sliding; None for the coefficient of this function.
+        """
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _rubs(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
@@ -109,7 +147,13 @@ class TriangularTransmission(TransmissionFunction):
         return TriangularTransmission(self.sizes, self.friction, -self.direction)
 
     def alpha1(self, S: ArrayLike) -> Floats:
-        """alpha_1 (rad) of the couple that drives at driver angles S (rad)."""
+        """alpha_1 (rad) of the couple that drives.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+        """
         return self._map(S, lambda interval, x: x)
 
     def _map(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
@@ -343,3 +387,66 @@ class TriangularTransmission(TransmissionFunction):
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
         """Every collision of a pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
+
+
+# -------------------------------------------------------------------------------------------------- rows over one pitch
+
+
+@dataclass(frozen=True)
+class ContactCourse(Result):
+    """Contact over one pitch, in order of time, both ends of every interval among the rows.
+
+    phases           of each row
+    alpha1, alpha2   angles of the apices from the line of centres (rad)
+    speed_ratio      tau
+    instant_centre   O1C, from the driver's axis, in the unit of the law's lengths; NaN in a standstill, as what follows
+    driver_arm, driven_arm   of the force about either axis, b1 and b2
+    efficiency       tau b2/b1; NaN too where friction locks
+    """
+
+    KEYS = (
+        *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
+        *(Key(name, to=finite) for name in ("driver_arm", "driven_arm", "efficiency")),
+    )
+
+    phases: tuple[str, ...]
+    alpha1: Floats
+    alpha2: Floats
+    speed_ratio: Floats
+    instant_centre: Floats
+    driver_arm: Floats
+    driven_arm: Floats
+    efficiency: Floats
+
+
+def contact_course(
+    law: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
+) -> ContactCourse:
+    """The course of a pair, `samples` rows for each interval of its real path; none for teeth that never touch.
+
+    friction   in place of the law's own, where it depends on speed
+    """
+    at = [(each, np.linspace(each.start, each.end, samples)) for each in law.intervals]
+    couple = law.contact.path.couple
+
+    def column(what: Callable[[str, Floats], Floats], held: Callable[[DriveInterval], float]) -> Floats:
+        values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
+        return np.concatenate([np.empty(0), *values])
+
+    def arm(wheel: int) -> Floats:
+        return column(
+            lambda phase, x: couple.moment_arms(phase, x, law.coefficient(phase, x, friction), np)[wheel], lambda _: nan
+        )
+
+    eta = column(lambda phase, x: couple.efficiency(phase, x, law.coefficient(phase, x, friction), np), lambda _: nan)
+    first, second = arm(0), arm(1)
+    return ContactCourse(
+        tuple(each.phase for each, x in at for _ in x),
+        np.concatenate([np.empty(0), *(x for _, x in at)]),
+        column(lambda phase, x: couple.angle(phase, x, np), lambda each: each.held or 0.0),
+        column(lambda phase, x: couple.speed(phase, x, np), lambda _: 0.0),
+        column(lambda phase, x: couple.instant_centre(phase, x, np), lambda _: nan),
+        first,
+        second,
+        np.where((first > 0) & (second > 0), eta, nan),
+    )

@@ -26,7 +26,7 @@ from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
 from geartrain.report.document import Section, Table
-from geartrain.teeth.coulomb_friction import CoulombFriction
+from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
 from geartrain.workshop.monte_carlo.trial_run import check_trials

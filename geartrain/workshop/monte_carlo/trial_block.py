@@ -12,7 +12,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.superposition import Superposition
-from geartrain.teeth.constant_lag import ConstantLag
+from geartrain.teeth.transmission import ConstantLag
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel

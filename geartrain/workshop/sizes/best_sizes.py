@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Pictured, Result, Tabular
-from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
+from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTransmission
 from geartrain.workshop.sizes.size_design import (
     AIMS,
     SizeLimit,

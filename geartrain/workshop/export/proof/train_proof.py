@@ -21,7 +21,7 @@ from geartrain.errors import MissingExtraError, Problem
 from geartrain.kinematics.buildability import BuildFinding, build_errors
 from geartrain.numerics.results import Key, Result
 from geartrain.scene.pose import ScenePose, scene_pose
-from geartrain.teeth.outlines.wave_tooth import bent_line
+from geartrain.teeth.outlines.fixed_teeth import bent_line
 from geartrain.workshop.export.proof.link_freedom import LinkFreedom, prove_freedom
 from geartrain.workshop.export.proof.mesh_proof import MeshProof, paired_wheels, prove_mesh, read_wheels
 from geartrain.workshop.export.proof.turned_pair import NOTHING, plane_geometry

@@ -1,4 +1,4 @@
-"""A gear pair whose form gives the outline of both wheels and nothing else: its motion follows from their contact."""
+"""A gear pair of a train whose form gives only the outlines of both wheels; its motion follows from their contact."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from geartrain.teeth.meshing_wheels import PairSize
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
-    from geartrain.teeth.outline_transmission import OutlineTransmission
+    from geartrain.teeth.contact.outline_transmission import OutlineTransmission
     from geartrain.teeth.outlines.wheel_requirement import FixedTooth
-    from geartrain.teeth.pair_account import PairAccount
-    from geartrain.teeth.pair_verdict import PairVerdict
+    from geartrain.teeth.pair_results import PairAccount, PairVerdict
 
 _WORDS = (
     "Teeth whose motion is found by the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
@@ -65,13 +64,13 @@ class OutlineMesh(GearMesh):
     @property
     def displaced_contact(self) -> DisplacedContact:
         """From the contact of one couple of its outlines."""
-        from geartrain.teeth.displaced_outlines import displaced_outlines
+        from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.law.gears, self.law.driver)
 
     def account(self) -> PairAccount:
         """Speed, error, play and efficiency, as the pair is driven and driven back."""
-        from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
+        from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 
         runs = bool(self.verdict)
         motion, own = motion_figures(self.law, runs), self.efficiency(self.driver)

@@ -1,8 +1,7 @@
-"""Coulomb friction and restitution as a train declares them.
+"""Coefficients of Coulomb friction and of restitution as a train declares them.
 
-Friction has a coefficient of sliding, one at rest, and an uncertainty of the first. Restitution follows Newton's law of
-impact: sides that meet at a speed u part at e u, with e from 0 (they stay together) to 1 (nothing is lost); of the
-energy in u the part 1 - e^2 is lost.
+Restitution is Newton's law of impact: where two sides meet at a speed u they part at e u, with e from 0 (they stay
+together) to 1 (no energy is lost); of the energy in u the part 1 - e^2 is lost.
 """
 
 from __future__ import annotations
@@ -22,23 +21,6 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Friction, parse_friction
-
-
-def _from_nothing_to_all(figure: Figure) -> Figure:
-    if not 0 <= figure.value <= 1:
-        raise PydanticCustomError(
-            "restitution",
-            "a restitution of {text} is none",
-            {
-                "text": figure.text,
-                "fix": "it is from 0, where what meets stays together, to 1, where no energy is lost",
-            },
-        )
-    return figure
-
-
-DeclaredRestitution = Annotated[Figure, AfterValidator(_from_nothing_to_all)]
-"""A coefficient of restitution, 0 to 1."""
 
 
 class CoulombFriction(BaseModel):
@@ -86,3 +68,20 @@ def _sliding(raw: object) -> object:
 
 DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
 """The same, or a bare number."""
+
+
+def _from_nothing_to_all(figure: Figure) -> Figure:
+    if not 0 <= figure.value <= 1:
+        raise PydanticCustomError(
+            "restitution",
+            "a restitution of {text} is none",
+            {
+                "text": figure.text,
+                "fix": "it is from 0, where what meets stays together, to 1, where no energy is lost",
+            },
+        )
+    return figure
+
+
+DeclaredRestitution = Annotated[Figure, AfterValidator(_from_nothing_to_all)]
+"""A coefficient of restitution, 0 to 1."""

@@ -17,7 +17,7 @@ import numpy as np
 
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
-from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
+from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, check_friction
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.contact.gear_outline import GearOutline
-    from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission
+    from geartrain.teeth.contact.transmission_fit import PiecewiseTransmission
 
 _GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the law's polynomials have degree 30
 _NEAR_PITCH_POINT = 1e-7  # of the distance of the axles: roots of differences of their squares are this uncertain

@@ -1,4 +1,4 @@
-"""What displaced flanks of any two outlines do to the driven wheel, for teeth without a path of contact.
+"""Displaced flanks of any two outlines: how far they turn the driven wheel, for teeth without a path of contact.
 
 One couple of teeth alone is turned through its contact, and where it touches the common normal is found: it passes the
 point that parts the line of centres as the speeds do at that instant. A flank that stands out by n along it turns the
@@ -18,12 +18,12 @@ from geartrain.errors import Problem, RangeError
 from geartrain.numerics.polynomial_pieces import value
 from geartrain.teeth.conjugate.displaced_contact import CornerLag, DisplacedContact, DisplacedWheelSizes
 from geartrain.teeth.contact.first_touch import CandidatePairs
-from geartrain.teeth.contact.outline_pair import OutlinePair
+from geartrain.teeth.contact.outline_contact import OutlinePair
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
-    from geartrain.teeth.outline_transmission import OutlineGears
+    from geartrain.teeth.contact.outline_transmission import OutlineGears
 
 _NODES = 1025  # of the tables along the contact; linear between them
 _CORNER_NODES = 257  # beyond its ends

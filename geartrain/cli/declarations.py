@@ -109,6 +109,10 @@ def list_periods(
 
 
 def print_schema(
+    question: Annotated[
+        list[str] | None,
+        typer.Argument(help="A command, such as motion or mesh pin: the keys of its --json.", metavar="COMMAND"),
+    ] = None,
     form: Annotated[
         str, typer.Option("--as", help="json for editors, markdown for readers, answers: of --json.")
     ] = "json",
@@ -117,14 +121,20 @@ def print_schema(
 ) -> None:
     """Print the JSON Schema of the declaration; editors with a YAML plugin complete and check with it.
 
-    With --as answers, the JSON Schema of what commands print with --json, by command.
+    With --as answers, the JSON Schema of what commands print with --json, by command. With a command, the keys of its
+    JSON as a table.
     """
-    from geartrain.report.json_schema import answer_schema, declaration_reference, schema
+    from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
+    from geartrain.report.text import to_markdown, to_text
 
     if form not in ("json", "markdown", "answers"):
         what = f"'{form}' is not a form of schema; use json or markdown, or answers"
         raise typer.BadParameter(what, param_hint="--as")
     to = sink(out, force)
-    emit(
-        declaration_reference() if form == "markdown" else as_json(schema() if form == "json" else answer_schema()), to
-    )
+    if question:
+        keys = [describe_answer(" ".join(question))]
+        emit(to_markdown(keys) if form == "markdown" else to_text(keys), to)
+    elif form == "markdown":
+        emit(declaration_reference(), to)
+    else:
+        emit(as_json(schema() if form == "json" else answer_schema()), to)

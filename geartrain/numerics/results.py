@@ -8,13 +8,14 @@ is called."""
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from fractions import Fraction
 from functools import cache
 from html import escape
 from importlib import import_module
-from itertools import islice
+from inspect import get_annotations
+from itertools import islice, pairwise
 from math import isfinite
 from operator import attrgetter
 from typing import Any, ClassVar
@@ -128,18 +129,16 @@ class Pictured:
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A key of a result's plain data that is more than the attribute of that name.
-
-    name   in the data; "" puts the keys of a part in among those of the whole
-    of     the attribute, `part.attribute` for one of a part, "." the object itself; by default that called `name`
-    to     what is made of each number or object in it, at any depth; the kind of that is in its return annotation
-    keys   the keys of each object in it, where they are not those of its class
-    """
+    """A key of a result's plain data that is more than the attribute of that name."""
 
     name: str
+    """In the data; "" puts the keys of a part in among those of the whole."""
     of: str = ""
+    """The attribute, `part.attribute` for one of a part, "." the object itself; by default that called `name`."""
     to: Callable[[Any], Any] | None = None
+    """What is made of each number or object in it, at any depth; the kind of that is in its return annotation."""
     keys: tuple[str | Key, ...] = ()
+    """The keys of each object in it, where they are not those of its class."""
 
     @property
     def path(self) -> str:
@@ -228,3 +227,46 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
     """Keys, where a name stands for the attribute of that name."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
+
+
+# -------------------------------------------------------------------------------------------------- meanings of fields
+
+
+@cache
+def field_docs(kind: type) -> Mapping[str, str]:
+    """The docstrings below the fields of a class and of its bases, by field, on one line each.
+
+    Python discards these docstrings, so they are read from the source; a unit stands in brackets: `Angle [rad].`
+    """
+    found: dict[str, str] = {}
+    for base in reversed(kind.__mro__):
+        if get_annotations(base):
+            found |= _docs_of_classes(base.__module__).get(base.__qualname__, {})
+    return found
+
+
+@cache
+def _docs_of_classes(module: str) -> Mapping[str, Mapping[str, str]]:
+    """By qualified name of a class in a module, the docstrings of its fields."""
+    import ast
+    import inspect
+    import sys
+
+    found: dict[str, Mapping[str, str]] = {}
+    todo: list[tuple[str, ast.AST]] = [("", ast.parse(inspect.getsource(sys.modules[module])))]
+    while todo:
+        prefix, node = todo.pop()
+        for part in ast.iter_child_nodes(node):
+            if isinstance(part, ast.ClassDef):
+                found[prefix + part.name] = dict(_docs_in(part.body))
+                todo.append((f"{prefix}{part.name}.", part))
+    return found
+
+
+def _docs_in(body: Sequence[Any]) -> Iterator[tuple[str, str]]:
+    import ast
+
+    for field, doc in pairwise(body):
+        match field, doc:
+            case ast.AnnAssign(target=ast.Name(name)), ast.Expr(value=ast.Constant(str(text))):
+                yield name, " ".join(text.split())

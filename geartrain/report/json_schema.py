@@ -22,9 +22,11 @@ from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, U
 
 from pydantic.json_schema import GenerateJsonSchema
 
+from geartrain.errors import check_choice
 from geartrain.numerics.long_float import LongFloat
 from geartrain.numerics.quantity import Figure, Quantity
-from geartrain.numerics.results import Key, Result, keys_of, whole
+from geartrain.numerics.results import Key, Result, field_docs, keys_of, whole
+from geartrain.report.document import Document, Section, Table
 from geartrain.train import Train
 from geartrain.wings import WINGS, WingResult, has_wing, wing
 
@@ -132,8 +134,8 @@ def answer_schema() -> Schema:
     Returns
     -------
     dict
-        Keys and kinds of values are read off the results that are told, their descriptions off docstrings. Questions
-        are commands, or uses of a command whose answer has another shape; docs/json.md tells of them.
+        Keys and kinds of values follow from the classes of the results, descriptions from the docstrings of their
+        fields. Questions are commands, or uses of a command whose answer has another shape.
 
     Examples
     --------
@@ -149,6 +151,50 @@ def answer_schema() -> Schema:
     }
 
 
+def describe_answer(question: str) -> Document:
+    """The keys of one question's JSON answer as a table: key, kind of value, meaning.
+
+    `states[]` are the entries of a list, `outputs.*` the values of an object with any keys.
+
+    Parameters
+    ----------
+    question : str
+        A key of `answer_schema()["$defs"]`.
+
+    Raises
+    ------
+    QuestionError
+        For an unknown question.
+
+    Examples
+    --------
+    >>> describe_answer("solve").sections[0].tables[0].rows[0]
+    ('name', 'string', 'Of the train.')
+    """
+    known = answers()
+    check_choice("question", question, known)
+    rows = list(dict.fromkeys(_key_rows(known[question], "")))
+    return Document(f"{question} --json", (), [Section("Keys", (), [Table(("key", "kind", "meaning"), rows)])])
+
+
+def _key_rows(shape: Schema, path: str) -> Iterator[tuple[str, str, str]]:
+    for part in shape.get("anyOf", [shape]):
+        if isinstance(items := part.get("items"), dict):
+            yield from _key_rows(items, f"{path}[]")
+        if isinstance(values := part.get("additionalProperties"), dict):
+            yield from _key_rows(values, f"{path}.*")
+        for name, each in part.get("properties", {}).items():
+            key = f"{path}.{name}".removeprefix(".")
+            yield key, " or ".join(dict.fromkeys(_kinds(each))), each.get("description", "")
+            yield from _key_rows(each, key)
+
+
+def _kinds(shape: Schema) -> Iterator[str]:
+    for part in shape.get("anyOf", [shape]):
+        kind = part.get("type", "string" if "enum" in part else "any")
+        yield kind if kind != "array" else "list"
+
+
 # ---------------------------------------------------------------------------------------------------- shapes of results
 
 
@@ -157,10 +203,6 @@ _PLAIN: dict[Any, Schema] = {
     **{int: {"type": "integer"}, float: {"type": "number"}, math.degrees: {"type": "number"}},
     **{NoneType: {"type": "null"}, LongFloat: {"type": "null"}, Any: {}, object: {}},
 }
-_LINE = re.compile(r"^    (\w+(?:, \w+)*)   *(\S.*(?:\n      .*)*)", re.MULTILINE)
-"""A line of a class's docstring that tells of fields, with those that go on with it."""
-_ENTRY = re.compile(r"^    (\w+(?:, \w+)*) :.*((?:\n {8}.*)+)", re.MULTILINE)
-"""The same as an entry of numpydoc: names and kind, the meaning indented below."""
 
 
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
@@ -222,7 +264,6 @@ def _one_of(shapes: list[Schema]) -> Schema:
 
 def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
     """A result: its keys, and those of its parts that stand among them."""
-    words = _words(kind)
     properties: dict[str, Schema] = {}
     required = []
     for key in keys:
@@ -232,13 +273,32 @@ def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
             properties |= {name: each for part in parts for name, each in part["properties"].items()}
             required += shape.get("required", ())  # keys of a part that may be None are not needed
             continue
-        said = words.get(key.of) or words.get(key.name) or _summary(getattr(kind, key.path, None))
-        properties[key.name] = ({"description": said} if said else {}) | shape
+        properties[key.name] = _described(shape, meaning_of(kind, key.path) if key.path else "")
         required.append(key.name)
     return _object(properties, required, kind)
 
 
+def _described(shape: Schema, meaning: str) -> Schema:
+    return {"description": meaning} | shape if meaning and "description" not in shape else shape
+
+
+def meaning_of(kind: Any, path: str) -> str:
+    """The docstring of a field or property, `part.attribute` for one of a part; "" where there is none."""
+    first, _, rest = path.partition(".")
+    if rest:
+        parts = [part for part in _parts(attribute_kind(kind, first)) if hasattr(part, rest.partition(".")[0])]
+        return meaning_of(parts[0], rest) if parts else ""
+    return field_docs(kind).get(first) or _summary(getattr(kind, first, None))
+
+
+def _parts(kind: Any) -> list[Any]:
+    """A kind, or those of a union."""
+    return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
+
+
 def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
+    meanings = field_docs(kind)
+    properties = {name: _described(shape, meanings.get(name, "")) for name, shape in properties.items()}
     return {
         "type": "object",
         "description": _summary(kind),
@@ -249,20 +309,10 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 def _summary(what: Any) -> str:
     """The first paragraph of a docstring, on one line; "" for what has none of its own."""
-    own = getattr(what, "__module__", "geartrain").startswith("geartrain")
-    text = what.__doc__ if own and (isinstance(what, type | property) or hasattr(what, "func")) else ""
+    maker = getattr(what, "func", what)  # of a cached property
+    own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
+    text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
     return " ".join((text or "").split("\n\n")[0].split())
-
-
-@cache
-def _words(kind: type) -> dict[str, str]:
-    """What the docstring of a class says of its fields."""
-    found: dict[str, str] = {}
-    for base in reversed(kind.__mro__):
-        said = base.__doc__ or ""
-        for names, text in (*_LINE.findall(said), *_ENTRY.findall(said)):
-            found |= dict.fromkeys(names.split(", "), " ".join(text.split()))
-    return found
 
 
 # ------------------------------------------------------------------------------------------------------- annotations

@@ -2,7 +2,7 @@
 
 columns      paragraphs of lines `name   meaning`, with meanings that go on indented, become lists
 See Also     names lead to where they are described on the page
-models       fields of a declaration, which describe themselves, become its section of attributes
+fields       those that are described one by one become the section of attributes
 products     stars between factors are no emphasis
 """
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from textwrap import indent
 from typing import Any
 
 from griffe import Attribute, Class, ExprCall, ExprKeyword, Extension, Object
@@ -93,10 +94,18 @@ def _full_name(name: str, seen_from: Object) -> str:
         return name
 
 
-def described_fields(model: Class) -> Iterator[str]:
-    """The fields of a pydantic model, with their descriptions, as numpydoc has attributes."""
-    for field in model.attributes.values():
-        if isinstance(field, Attribute) and not field.is_alias and isinstance(field.value, ExprCall):
+def described_fields(kind: Class) -> Iterator[str]:
+    """The fields of a class as numpydoc has attributes: those with a docstring below them, and those of a model.
+
+    They lose the docstring, so that the site does not show them a second time as members.
+    """
+    for field in kind.attributes.values():
+        if not isinstance(field, Attribute) or field.is_alias or field.name.startswith("_"):
+            continue
+        if field.docstring is not None and "property" not in field.labels:
+            yield f"{field.name} : {field.annotation}\n" + indent(field.docstring.value, "    ")
+            field.docstring = None
+        elif isinstance(field.value, ExprCall):
             for argument in field.value.arguments:
                 if isinstance(argument, ExprKeyword) and argument.name == "description":
                     yield f"{field.name} :\n    {ast.literal_eval(str(argument.value))}"

@@ -65,17 +65,6 @@ def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = F
 class Problem:
     """One thing that is wrong, in four parts.
 
-    Attributes
-    ----------
-    what : str
-        What is wrong, in a few words.
-    why : str
-        Why it cannot stand; empty where that is plain.
-    fix : str
-        What to do about it.
-    place : str
-        Where: `file.yaml:12`, the path of a declared value such as `gears[3].pair`, or a file; may be empty.
-
     Examples
     --------
     >>> print(Problem("unknown key 'tooths'", "a wheel has no such key", "did you mean 'teeth'?", "train.yaml:7"))
@@ -85,9 +74,13 @@ class Problem:
     """
 
     what: str
+    """What is wrong, in a few words."""
     why: str = ""
+    """Why it cannot stand; empty where that is plain."""
     fix: str = ""
+    """What to do about it."""
     place: str = ""
+    """Where: `file.yaml:12`, the path of a declared value such as `gears[3].pair`, or a file; may be empty."""
 
     @property
     def text(self) -> str:

@@ -39,14 +39,12 @@ def wing(name: str) -> Any:
 
 @dataclass(frozen=True)
 class WingResult:
-    """Annotation of a field that holds a result of a wing: `Annotated[Any, WingResult("simulation", "TimeRun")]`.
-
-    wing   name of the wing
-    name   public name of the class of the result in that wing
-    """
+    """Annotation of a field that holds a result of a wing: `Annotated[Any, WingResult("simulation", "TimeRun")]`."""
 
     wing: str
+    """Name of the wing."""
     name: str
+    """Public name of the class of the result in that wing."""
 
     def kind(self) -> type | None:
         """The class; None if the wing is not installed."""

@@ -12,7 +12,6 @@ from textwrap import dedent
 
 import pytest
 from hypothesis import HealthCheck, settings
-from sampling import seeds_of
 
 from geartrain import GearTrain, GearTrainError, load
 
@@ -21,6 +20,7 @@ for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
 PASSED = "geartrain/passed"  # key of pytest's cache
+FEW = 300  # random samples without --slow
 
 # a shell that starts tests in the background has interrupts ignored, and so would commands that tests interrupt
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -91,7 +91,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Deselect the tests marked slow, unless `--slow` is given, and with `--rest` what passed before."""
     slow, rest = config.getoption("--slow"), config.getoption("--rest")
     passed = set(config.cache.get(PASSED, ())) if rest and config.cache else set()
-    again = {"seeds", "mutants"} if slow else set()  # fixtures that then bring other samples
+    again = {"seeds", "mutant_seeds"} if slow else set()  # fixtures that then bring other samples
     done = [item for item in items if item.nodeid in passed and again.isdisjoint(getattr(item, "fixturenames", ()))]
     left = [*done, *(item for item in items if "slow" in item.keywords and not slow)]
     left += [item for item in items if "long" in item.keywords and not config.getoption("--long")]
@@ -122,7 +122,24 @@ def one_core() -> Iterator[None]:
 @pytest.fixture
 def seeds(request: pytest.FixtureRequest) -> range:
     """The seeds of the random trains, from `--first-train` on."""
-    return seeds_of(request.config, "--first-train", "--trains")
+    return _seeds(request.config, "--first-train", "--trains")
+
+
+@pytest.fixture
+def mutant_seeds(request: pytest.FixtureRequest) -> range:
+    """The seeds of the corrupted declarations, from `--first-mutant` on."""
+    return _seeds(request.config, "--first-mutant", "--mutants")
+
+
+def _seeds(config: pytest.Config, first: str, number: str) -> range:
+    """Seeds from an option on, as many as another option says: 300 by default, 1000 with `--slow`.
+
+    With `--slow --rest` only those after the first 300, which ran before.
+    """
+    start, slow = config.getoption(first), config.getoption("--slow")
+    stop = start + (config.getoption(number) or (1000 if slow else FEW))
+    ran = FEW if slow and config.getoption("--rest") else 0
+    return range(min(start + ran, stop), stop)
 
 
 @pytest.fixture

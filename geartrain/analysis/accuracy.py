@@ -37,54 +37,32 @@ _NO_FORM = "no pair has a tooth form, and no pin its sizes"
 class MethodAccuracy:
     """Run time and error of one method of one stage.
 
-    Attributes
-    ----------
-    stage : {"speeds", "transmission functions", "motion", "torques"}
-        What is computed.
-    method : str
-        Name of the method.
-    seconds : float
-        Time of one run [s].
-    error : float or None
-        Maximum error in `unit`; None for the method that others are compared with.
-    unit : {"relative", "pitches", "deg"}
-        Unit of the error.
-    reference : str
-        What the error is the difference from.
-    prepared : float or None
-        Time of what is done once before the run, such as making tables [s].
-    ratio : float
-        `seconds` divided by that of the fastest method of the stage.
-
     See Also
     --------
     find_accuracy : Measures it.
     """
 
     stage: Stage
+    """What is computed."""
     method: str
+    """Name of the method."""
     seconds: float
+    """Time of one run [s]."""
     error: float | None
+    """Maximum error in `unit`; None for the method that others are compared with."""
     unit: Literal["relative", "pitches", "deg"]
+    """Unit of the error."""
     reference: str
+    """What the error is the difference from."""
     prepared: float | None = None
+    """Time of what is done once before the run, such as making tables [s]."""
     ratio: float = 1.0
+    """`seconds` divided by that of the fastest method of the stage."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainAccuracy(Result):
     """Run time and error of all methods on one train in one state.
-
-    Attributes
-    ----------
-    state : str or None
-        The state.
-    positions : int
-        Angles of each pair, and positions of the input.
-    methods : tuple of MethodAccuracy
-        In the order of the stages.
-    left_out : dict of str to str
-        Reason for each stage that the train does not have.
 
     See Also
     --------
@@ -92,9 +70,13 @@ class TrainAccuracy(Result):
     """
 
     state: str | None
+    """The state."""
     positions: int
+    """Angles of each pair, and positions of the input."""
     methods: tuple[MethodAccuracy, ...]
+    """In the order of the stages."""
     left_out: dict[str, str]
+    """Reason for each stage that the train does not have."""
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:

@@ -26,36 +26,24 @@ _FIGURES = 12  # digits past the point to which sums of squares are compared
 
 @dataclass(frozen=True)
 class PossibleGear(Result):
-    """What closing some elements gives.
-
-    Attributes
-    ----------
-    engaged : tuple of str
-        Elements that are closed, in the order declared.
-    ratio : Fraction or None
-        Input over output; None where the output stands still.
-    states : tuple of str
-        Declared states in which just these are closed.
-    """
+    """What closing some elements gives."""
 
     engaged: tuple[str, ...]
+    """Elements that are closed, in the order declared."""
     ratio: Fraction | None
+    """Input over output; None where the output stands still."""
     states: tuple[str, ...]
+    """Declared states in which just these are closed."""
 
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Forward gears, from the lowest.
-
-    Attributes
-    ----------
-    gears : tuple of PossibleGear
-        Ratios fall.
-    """
+    """Forward gears, from the lowest."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
     gears: tuple[PossibleGear, ...]
+    """Ratios fall."""
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:
@@ -89,27 +77,6 @@ class GearSeries(Result):
 class GearSearch(Tabular, Result):
     """All gears of a gearbox, and the series asked for.
 
-    Attributes
-    ----------
-    name, title : str
-        Of the train.
-    input, output : str
-        The links between which ratios are.
-    closed : int
-        How many elements must be closed for the inputs to determine all speeds.
-    combinations : int
-        Ways to close so many.
-    gears : tuple of PossibleGear
-        Those that determine the output and let it turn, or hold it; forward from the lowest, backward, held.
-    free, locked : tuple of tuple of str
-        The other ways to close so many, which leave the train free, and which lock it.
-    asked : int
-        Gears of the series asked for; 0 where none was.
-    series : int
-        How many series there are with all steps inside the window, shifts as asked; 0 where none was asked for.
-    widest, evenest : GearSeries or None
-        Of these, one with the greatest spread, and one whose steps differ least.
-
     See Also
     --------
     find_gears : gives it.
@@ -121,18 +88,31 @@ class GearSearch(Tabular, Result):
     )
 
     name: str
+    """Of the train."""
     title: str
+    """Of the train."""
     input: str
+    """The links between which ratios are."""
     output: str
+    """The links between which ratios are."""
     closed: int
+    """How many elements must be closed for the inputs to determine all speeds."""
     combinations: int
+    """Ways to close so many."""
     gears: tuple[PossibleGear, ...]
+    """Those that determine the output and let it turn, or hold it; forward from the lowest, backward, held."""
     free: tuple[tuple[str, ...], ...] = ()
+    """The other ways to close so many, which leave the train free, and which lock it."""
     locked: tuple[tuple[str, ...], ...] = ()
+    """The other ways to close so many, which leave the train free, and which lock it."""
     asked: int = 0
+    """Gears of the series asked for; 0 where none was."""
     series: int = 0
+    """How many series there are with all steps inside the window, shifts as asked; 0 where none was asked for."""
     widest: GearSeries | None = None
+    """Of these, one with the greatest spread, and one whose steps differ least."""
     evenest: GearSeries | None = None
+    """Of these, one with the greatest spread, and one whose steps differ least."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -40,11 +40,6 @@ if TYPE_CHECKING:
 class GearTrain:
     """A declared train that answers questions. Parts are made once, when first requested, and kept.
 
-    Parameters
-    ----------
-    declaration : Train
-        What is declared, checked already: `geartrain.load` and `declare` make it from files and plain data.
-
     Raises
     ------
     DeclarationError
@@ -76,6 +71,7 @@ class GearTrain:
     """
 
     declaration: Train
+    """What is declared, checked already: `geartrain.load` and `declare` make it from files and plain data."""
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Speeds and judged outputs in one state, by propagation along components and exact elimination.

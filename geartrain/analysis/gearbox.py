@@ -27,38 +27,7 @@ ElementKind = Literal["brake", "clutch"]
 
 @dataclass(frozen=True)
 class GearState(Result):
-    """One state of a gearbox.
-
-    Attributes
-    ----------
-    state : str
-        Its name.
-    engaged : tuple of str
-        Elements that are closed.
-    verdict : Verdict
-        Neutral is free, park is locked.
-    ratio : Fraction or None
-        Input over output; None where one of them is at rest or the output is not determined.
-    step : Fraction or None
-        This ratio over that of the next state; None where one of them runs backwards.
-    driven_by : str
-        The link whose speed is the unit of `speeds` and `slips`: the input, or where that is at rest in this state the
-        first input that turns; empty if none does, and speeds are those declared.
-    speeds : mapping of str to Fraction
-        Speed of each determined link, over that of `driven_by`.
-    slips : mapping of str to Fraction
-        By open element, speed of the link it fixes, or of the first it locks relative to the second, over that of
-        `driven_by`.
-    torques : mapping of str to Fraction or None
-        By closed element, what it exerts on the link it fixes, or on the first it locks, over the input's torque; None
-        where statics leaves it open.
-    efficiency : Fraction, float or None
-        Power out over power in.
-    recirculating : Fraction or None
-        Power that runs round between gear sets, over power in.
-    inner : Fraction or None
-        The same inside gear sets, where a carrier runs free.
-    """
+    """One state of a gearbox."""
 
     KEYS = (
         "state",
@@ -76,37 +45,48 @@ class GearState(Result):
     )
 
     state: str
+    """Its name."""
     engaged: tuple[str, ...]
+    """Elements that are closed."""
     verdict: Verdict
+    """Neutral is free, park is locked."""
     ratio: Fraction | None
+    """Input over output; None where one of them is at rest or the output is not determined."""
     step: Fraction | None
+    """This ratio over that of the next state; None where one of them runs backwards."""
     driven_by: str
+    """The link whose speed is the unit of `speeds` and `slips`: the input, or where that is at rest in this state
+    the first input that turns; empty if none does, and speeds are those declared."""
     speeds: Mapping[str, Fraction]
+    """Speed of each determined link, over that of `driven_by`."""
     slips: Mapping[str, Fraction]
+    """By open element, speed of the link it fixes, or of the first it locks relative to the second, over that of
+    `driven_by`."""
     torques: Mapping[str, Fraction | None]
+    """By closed element, what it exerts on the link it fixes, or on the first it locks, over the input's torque;
+    None where statics leaves it open."""
     efficiency: Fraction | float | None
+    """Power out over power in."""
     recirculating: Fraction | None
+    """Power that runs round between gear sets, over power in."""
     inner: Fraction | None
+    """The same inside gear sets, where a carrier runs free."""
 
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """From one state to the next.
-
-    Attributes
-    ----------
-    before, after : str
-        The states.
-    released, applied : tuple of str
-        Elements that open, and that close.
-    """
+    """From one state to the next."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
     before: str
+    """The states."""
     after: str
+    """The states."""
     released: tuple[str, ...]
+    """Elements that open, and that close."""
     applied: tuple[str, ...]
+    """Elements that open, and that close."""
 
     @property
     def is_double(self) -> bool:
@@ -116,47 +96,29 @@ class Shift(Result):
 
 @dataclass(frozen=True)
 class ShiftElement(Result):
-    """A clutch or a brake over all states.
-
-    Attributes
-    ----------
-    name, kind : str
-        Its name; brake or clutch.
-    states : tuple of str
-        In which it is closed.
-    torque, torque_state : Fraction or None, str
-        Greatest torque over that of the input, and where.
-    slip, slip_state : Fraction or None, str
-        Greatest speed over that of the input while it is open, and where.
-    """
+    """A clutch or a brake over all states."""
 
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
     name: str
+    """Its name; brake or clutch."""
     kind: ElementKind
+    """Its name; brake or clutch."""
     states: tuple[str, ...]
+    """In which it is closed."""
     torque: Fraction | None
+    """Greatest torque over that of the input, and where."""
     torque_state: str
+    """Greatest torque over that of the input, and where."""
     slip: Fraction | None
+    """Greatest speed over that of the input while it is open, and where."""
     slip_state: str
+    """Greatest speed over that of the input while it is open, and where."""
 
 
 @dataclass(frozen=True)
 class Gearbox(Tabular, Result):
     """All states of a train with clutches.
-
-    Attributes
-    ----------
-    name, title : str
-        Of the train.
-    input, output : str
-        The links between which it is a gearbox.
-    states : tuple of GearState
-        In the order declared.
-    elements : tuple of ShiftElement
-        In the order declared.
-    shifts : tuple of Shift
-        From each state to the next that runs the same way round.
 
     See Also
     --------
@@ -166,12 +128,19 @@ class Gearbox(Tabular, Result):
     KEYS = ("name", "title", "input", "output", Key("spread", to=as_float), "states", "elements", "shifts")
 
     name: str
+    """Of the train."""
     title: str
+    """Of the train."""
     input: str
+    """The links between which it is a gearbox."""
     output: str
+    """The links between which it is a gearbox."""
     states: tuple[GearState, ...]
+    """In the order declared."""
     elements: tuple[ShiftElement, ...]
+    """In the order declared."""
     shifts: tuple[Shift, ...]
+    """From each state to the next that runs the same way round."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

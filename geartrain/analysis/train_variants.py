@@ -25,19 +25,6 @@ MOST_VARIANTS = 100_000_000
 class TrainVariants(Tabular, Result):
     """Speeds of outputs by assignment of tooth counts. `found["moon"]` is a column: of an output, or of counts.
 
-    Attributes
-    ----------
-    wheels, outputs : tuple of str
-        Columns of `counts`, and of `speeds` and `errors`.
-    counts : ndarray
-        A row an assignment, shape (n, wheels); the last wheel changes fastest.
-    speeds : ndarray
-        Shape (n, outputs) [unit of the train]; nan where a train is locked, free, or does not close a loop.
-    errors : ndarray
-        Bounds on the relative errors of the speeds, infinite where no digit is sure; shape (n, outputs).
-    formulas : Formulas
-        Where the speeds come from; `exact` asks them.
-
     See Also
     --------
     geartrain.GearTrain.variants : gives it.
@@ -46,11 +33,17 @@ class TrainVariants(Tabular, Result):
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
 
     wheels: tuple[str, ...]
+    """Columns of `counts`, and of `speeds` and `errors`."""
     outputs: tuple[str, ...]
+    """Columns of `counts`, and of `speeds` and `errors`."""
     counts: Ints
+    """A row an assignment, shape (n, wheels); the last wheel changes fastest."""
     speeds: Floats
+    """Shape (n, outputs) [unit of the train]; nan where a train is locked, free, or does not close a loop."""
     errors: Floats
+    """Bounds on the relative errors of the speeds, infinite where no digit is sure; shape (n, outputs)."""
     formulas: Formulas
+    """Where the speeds come from; `exact` asks them."""
 
     def __len__(self) -> int:
         return len(self.counts)

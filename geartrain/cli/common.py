@@ -90,18 +90,16 @@ def complain(error: GearTrainError) -> None:
 
 @dataclass(frozen=True)
 class Sink:
-    """Where a result goes: into a file that may be written, or to standard output.
-
-    path    None: standard output
-    force   an existing file is written over
-    plain   standard output was asked for by name, `-`: what goes there is what would go into a file
-    theme   colours of a picture that goes there
-    """
+    """Where a result goes: into a file that may be written, or to standard output."""
 
     path: Path | None = None
+    """None: standard output."""
     force: bool = False
+    """An existing file is written over."""
     plain: bool = False
+    """Standard output was asked for by name, `-`: what goes there is what would go into a file."""
     theme: ThemeName = "light"
+    """Colours of a picture that goes there."""
 
     @property
     def suffix(self) -> str:

@@ -76,14 +76,12 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Who does the work, and whether an interrupted run is resumed.
-
-    workers   processes; None for all cores, or for those of the cluster
-    dask      address of a dask scheduler
-    """
+    """Who does the work, and whether an interrupted run is resumed."""
 
     workers: int | None
+    """Processes; None for all cores, or for those of the cluster."""
     dask: str | None = None
+    """Address of a dask scheduler."""
     resume: bool = False
 
     @contextmanager

@@ -253,12 +253,10 @@ _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 @dataclass(frozen=True, slots=True)
 class Callout:
-    """A word, or a list of words below each other, for a point in a picture, in inches.
-
-    words   each with the key that names it in a vector file
-    """
+    """A word, or a list of words below each other, for a point in a picture, in inches."""
 
     words: Sequence[tuple[str, str]]
+    """Each with the key that names it in a vector file."""
     anchor: Spot
 
     @property

@@ -42,17 +42,15 @@ _SAMPLE, _DASHED = 0.45, 0.75  # inches of a hand in the key, and of hands that 
 
 @dataclass(frozen=True, slots=True)
 class PointerReading:
-    """The position of a pointer after some turns of the driving link.
-
-    turned   mean turns since the zero pose, clockwise as read positive, exact; None if undetermined
-    error    what its starting angle, teeth and pins add (turns, clockwise as read)
-    reach    length of its hand over the radius of a scale, and `outline` (x, half its width) over that length
-    """
+    """The position of a pointer after some turns of the driving link."""
 
     output: str
     turned: Fraction | None
+    """Mean turns since the zero pose, clockwise as read positive, exact; None if undetermined."""
     error: float
+    """What its starting angle, teeth and pins add (turns, clockwise as read)."""
     reach: float = 1.0
+    """Length of its hand over the radius of a scale, and `outline` (x, half its width) over that length."""
     outline: Sequence[tuple[float, float]] = ()
 
     @property
@@ -66,15 +64,13 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """A face with the pointers that are read on it; `name` is empty for a plain face of one output.
-
-    title   what stands over it where that is not its name: one dial may stand about several axes
-    """
+    """A face with the pointers that are read on it; `name` is empty for a plain face of one output."""
 
     name: str
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
+    """What stands over it where that is not its name: one dial may stand about several axes."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:

@@ -49,10 +49,7 @@ _ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
 
 
 class _Trace(NamedTuple):
-    """One output over the turns of the input: angle (turns), error (rad), speed over the mean (or the input's).
-
-    first   turns, error and speed at every one of the first positions
-    """
+    """One output over the turns of the input: angle (turns), error (rad), speed over the mean (or the input's)."""
 
     name: str
     turns: Floats
@@ -61,6 +58,7 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     first: tuple[Floats, Floats, Floats]
+    """Turns, error and speed at every one of the first positions."""
 
     @property
     def errs(self) -> bool:

@@ -190,19 +190,17 @@ _HUB, _LINE = 0.12, 0.04  # inches that a hub or a point of an arm keeps free, a
 
 @dataclass(frozen=True, slots=True)
 class PlanNames:
-    """Where the names of wheels that face the reader, the nearest first, may stand in a plan, in inches.
-
-    centres   of the wheels (n, 2)
-    reach     what each hides (n,); of a ring nothing, which is open
-    arms      points (m, 2) that keep names off arms, slots, and pins in holes
-    scale     inches of a millimetre
-    """
+    """Where the names of wheels that face the reader, the nearest first, may stand in a plan, in inches."""
 
     wheels: Sequence[SceneWheel]
     centres: Floats
+    """Of the wheels (n, 2)."""
     reach: Floats
+    """What each hides (n,); of a ring nothing, which is open."""
     arms: Floats
+    """Points (m, 2) that keep names off arms, slots, and pins in holes."""
     scale: float
+    """Inches of a millimetre."""
 
     @classmethod
     def of(
@@ -366,20 +364,20 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
 
 @dataclass(frozen=True, slots=True)
 class _PlanSize:
-    """Sizes of a plan on paper, in inches but for its depth.
-
-    scale          inches of a millimetre
-    low, size      lower left corner, about the origin of the train, and sides
-    bottom, depth  height of the lowest layer towards the reader and of all layers (mm)
-    deep           width of the side view, 0 without one
-    """
+    """Sizes of a plan on paper, in inches but for its depth."""
 
     scale: float
+    """Inches of a millimetre."""
     low: Floats
+    """Lower left corner, about the origin of the train, and sides."""
     size: Floats
+    """Lower left corner, about the origin of the train, and sides."""
     bottom: float
+    """Height of the lowest layer towards the reader and of all layers (mm)."""
     depth: float
+    """Height of the lowest layer towards the reader and of all layers (mm)."""
     deep: float
+    """Width of the side view, 0 without one."""
 
     @classmethod
     def of(cls, standing: ProjectedScene) -> _PlanSize:

@@ -23,19 +23,18 @@ _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 @dataclass(eq=False)
 class SankeySpot:
-    """A node in its column, or (without one) the place where a band passes a column.
-
-    power         that passes it; `shed`, width of what it loses
-    left, right   room for words on both sides of its middle
-    """
+    """A node in its column, or (without one) the place where a band passes a column."""
 
     node: PowerNode | None
     column: int
     height: float
     power: Fraction = Fraction(0)
+    """That passes it; `shed`, width of what it loses."""
     shed: float = 0.0
     left: float = 0.0
+    """Room for words on both sides of its middle."""
     right: float = 0.0
+    """Room for words on both sides of its middle."""
     top: float = 0.0
     before: list[BandSegment] = field(default_factory=list)
     after: list[BandSegment] = field(default_factory=list)
@@ -91,22 +90,20 @@ class ReturnBand:
 
 @dataclass(frozen=True)
 class SankeyLayout:
-    """Everything in its place.
-
-    bands   that lead on, each as its pieces from column to column; `turns`, those that run back
-    x       middle of each column
-    scale   inches by power
-    sheds   what is lost by node
-    low     least y of all parts
-    """
+    """Everything in its place."""
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
+    """That lead on, each as its pieces from column to column; `turns`, those that run back."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
+    """Middle of each column."""
     scale: float
+    """Inches by power."""
     sheds: Mapping[PowerNode, Fraction]
+    """What is lost by node."""
     low: float
+    """Least y of all parts."""
     width: float
     height: float
 

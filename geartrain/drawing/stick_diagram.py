@@ -181,23 +181,22 @@ REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """A gear pair or coupling in its column, between two rows; `ring` is the wheel that is one, or empty.
-
-    ends   links, the one on the lower row first; wheels, theirs (of a coupling the links again)
-    x      column; of a ring's own upright, `x` + one column
-    low, high   ends of what it takes of its column (inches)
-    meet   height at which its wheels touch
-    """
+    """A gear pair or coupling in its column, between two rows; `ring` is the wheel that is one, or empty."""
 
     name: str
     kind: str
     ends: tuple[str, str]
+    """Links, the one on the lower row first; wheels, theirs (of a coupling the links again)."""
     wheels: tuple[str, str]
     ring: str
     x: float
+    """Column; of a ring's own upright, `x` + one column."""
     low: float
+    """Ends of what it takes of its column (inches)."""
     high: float
+    """Ends of what it takes of its column (inches)."""
     meet: float
+    """Height at which its wheels touch."""
 
 
 _Try = tuple[
@@ -212,17 +211,15 @@ _Try = tuple[
 
 @dataclass(frozen=True, slots=True)
 class StickSkeleton:
-    """All of it, in inches from the lower left corner.
-
-    rows    axis -> height of its lowest and highest shaft, from below
-    lone    wheels that mesh with nothing, with their column
-    """
+    """All of it, in inches from the lower left corner."""
 
     rows: dict[str, tuple[float, float]]
+    """Axis -> height of its lowest and highest shaft, from below."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     cranks: list[StickCrank]
     lone: list[tuple[str, float]]
+    """Wheels that mesh with nothing, with their column."""
     width: float
     height: float
 

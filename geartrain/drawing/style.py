@@ -12,8 +12,6 @@ from textwrap import fill, shorten
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, QuestionError, printable
 from geartrain.scene.palette import THEMES, ThemeName, series_colour, series_dash
 
@@ -22,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 try:
+    import numpy as np
     from matplotlib import rc_context
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes

@@ -32,17 +32,13 @@ DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
 class TrainMechanics:
     """Everything about a train that follows from its teeth and loads.
 
-    Attributes
-    ----------
-    kinematics : TrainKinematics
-        The same train without them.
-
     See Also
     --------
     geartrain.GearTrain.mechanics : gives it.
     """
 
     kinematics: TrainKinematics
+    """The same train without them."""
     _settings: dict[str | None, LoadCase | None] = field(default_factory=dict, init=False, repr=False)
     _drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = field(
         default_factory=dict, init=False, repr=False

@@ -49,35 +49,31 @@ class ToothingPlace(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class PairPlay:
-    """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels.
-
-    contact_ratio   of conjugate teeth that stand where they are made for; None of others
-    more_contact    what raises it
-    """
+    """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels."""
 
     pair: str
     wheels: tuple[str, str]
     length: float
     angles: tuple[float, float]
     contact_ratio: float | None = None
+    """Of conjugate teeth that stand where they are made for; None of others."""
     more_contact: str = ""
+    """What raises it."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainTeeth:
-    """The teeth of a train.
-
-    wheels      teeth by wheel; `problems`, why the others have none
-    likenesses  of those, teeth that the first of their pairs asks for
-    flat        wheels whose teeth stand straight in a plane
-    plays       of all pairs of which both wheels have teeth
-    """
+    """The teeth of a train."""
 
     wheels: Mapping[str, WheelTeeth]
+    """Teeth by wheel; `problems`, why the others have none."""
     problems: Mapping[str, tuple[Problem, ...]]
     likenesses: Mapping[str, WheelTeeth]
+    """Of those, teeth that the first of their pairs asks for."""
     flat: frozenset[str]
+    """Wheels whose teeth stand straight in a plane."""
     plays: tuple[PairPlay, ...]
+    """Of all pairs of which both wheels have teeth."""
 
 
 def find_train_teeth(

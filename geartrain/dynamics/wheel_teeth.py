@@ -18,24 +18,23 @@ _SAME = 1e-9  # rad
 
 @dataclass(frozen=True, slots=True)
 class WheelTeeth:
-    """The teeth of one wheel, lengths in modules.
-
-    kind    external, ring or pins
-    form    name of the declared form, or `standard`; `words`, what a maker is told
-    tooth   the first of them, about the x axis, from root to root; empty for pins
-    tip, root   radii
-    pins    of a lantern; of a ring whose teeth are pins, parts of their own
-    """
+    """The teeth of one wheel, lengths in modules."""
 
     wheel: str
     z: int
     kind: str
+    """External, ring or pins."""
     form: str
+    """Name of the declared form, or `standard`; `words`, what a maker is told."""
     words: str
     tip: float
+    """Radii."""
     root: float
+    """Radii."""
     tooth: tuple[Vertex, ...] = ()
+    """The first of them, about the x axis, from root to root; empty for pins."""
     pins: LanternPins | None = None
+    """Of a lantern; of a ring whose teeth are pins, parts of their own."""
 
     def contours(self, module: float) -> tuple[Contour, ...]:
         """All of the wheel (mm), the outer contour first, then holes; the axle at (0, 0)."""

@@ -32,18 +32,6 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 class Loop(Result):
     """A closed loop of meshing wheels in one carrier's frame, with the product of its ratios (docs/theory.md, 7).
 
-    Attributes
-    ----------
-    carrier : str
-        The link from which all pairs of the loop are seen.
-    links : tuple of str
-        Links in order.
-    pairs : tuple of str
-        Ids of the pairs in order; the last one closes the loop.
-    product : Fraction
-        Speed with which a walk round the loop comes back, as a multiple of that with which it left, equation (20): 1
-        closes, and one mesh is redundant; anything else locks the loop to its carrier.
-
     Examples
     --------
     >>> import geartrain
@@ -53,9 +41,14 @@ class Loop(Result):
     """
 
     carrier: str
+    """The link from which all pairs of the loop are seen."""
     links: tuple[str, ...]
+    """Links in order."""
     pairs: tuple[str, ...]
+    """Ids of the pairs in order; the last one closes the loop."""
     product: Fraction
+    """Speed with which a walk round the loop comes back, as a multiple of that with which it left, equation (20): 1
+    closes, and one mesh is redundant; anything else locks the loop to its carrier."""
 
     @property
     def closes(self) -> bool:
@@ -76,23 +69,6 @@ class Verdict(Result):
 
     A verdict is an answer, never an exception. It is true if it is `determined`.
 
-    Attributes
-    ----------
-    kind : {"determined", "free", "locked", "contradictory", "refused"}
-        determined: every link's speed follows from the inputs. free: `links` are undetermined. locked: the input cannot
-        move, for `loops` or `prescriptions` hold it. contradictory: `prescriptions` cannot hold at once. refused: no
-        speed can be calculated in one of several states, for its locks make a linkage, or it drives no rotation.
-    text : str
-        The verdict in a sentence, with what it follows from.
-    links : tuple of str
-        Links whose speed is not determined.
-    fixes : tuple of str
-        Links which, prescribed too, would determine all.
-    prescriptions : tuple of str
-        Inputs, brakes and clutches that take part in a lock or contradiction.
-    loops : tuple of Loop
-        Loops that do not close and hold the train, or a part of it.
-
     Examples
     --------
     >>> import geartrain
@@ -102,11 +78,19 @@ class Verdict(Result):
     """
 
     kind: VerdictKind
+    """Determined: every link's speed follows from the inputs. free: `links` are undetermined. locked: the input
+    cannot move, for `loops` or `prescriptions` hold it. contradictory: `prescriptions` cannot hold at once. refused:
+    no speed can be calculated in one of several states, for its locks make a linkage, or it drives no rotation."""
     text: str
+    """The verdict in a sentence, with what it follows from."""
     links: tuple[str, ...] = ()
+    """Links whose speed is not determined."""
     fixes: tuple[str, ...] = ()
+    """Links which, prescribed too, would determine all."""
     prescriptions: tuple[str, ...] = ()
+    """Inputs, brakes and clutches that take part in a lock or contradiction."""
     loops: tuple[Loop, ...] = ()
+    """Loops that do not close and hold the train, or a part of it."""
 
     def __bool__(self) -> bool:
         return self.kind == "determined"
@@ -117,20 +101,19 @@ class Verdict(Result):
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """How far floats are from the truth: the estimate that came with them, and the true error where it was had.
-
-    condition   component-wise, (25) of docs/theory.md, infinite of a link at rest; None where it was not asked for
-    """
+    """How far floats are from the truth: the estimate that came with them, and the true error where it was had."""
 
     estimate: Real
     true_error: Real | None
     condition: float | None = None
+    """Component-wise, (25) of docs/theory.md, infinite of a link at rest; None where it was not asked for."""
 
 
 class RowResiduals(TypedDict, total=False):
     """What JSON has of floats only: by row of the Willis system, the part of its terms that it is off."""
 
     residual: Mapping[str, float]
+    """Residual of each row of the Willis system over the sum of the sizes of its terms, by label."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,35 +122,6 @@ class Answer(FrozenFields, Tabular, Result):
 
     True if the verdict is as expected (`determined` unless the state's `expect` says otherwise), and so are all
     outputs. `answer[name]` is the speed of an output or a link; `KeyError` where it is not determined.
-
-    Attributes
-    ----------
-    train : str
-        Name of the train.
-    state : str or None
-        The state; None for a train without states.
-    place : str
-        Where the state's inputs were declared; empty where the verdict is `determined`, as expected.
-    unit : str
-        Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers.
-    verdict : Verdict
-        Whether the speeds follow from the inputs.
-    speeds : mapping of str to Fraction, float or LongFloat
-        Speed of each determined link [`unit`]: exact, or floats (`LongFloat` past 1e308) where `method` says so.
-    outputs : mapping of str to OutputResult
-        The declared outputs, judged when they are first read.
-    ratios : mapping of str to mapping of str to Fraction
-        Link -> input -> speed over that input, the others at rest; made when read, empty for floats.
-    method : {"exact", "floats"}
-        How the speeds were found; floats by the sparse LU of the Willis system's matrix, or as exact ones rounded.
-    accuracy : mapping of str to SpeedAccuracy
-        Absolute error of each link's speed [`unit`] and its condition number; made when read, empty for exact speeds.
-    work : int
-        Circuits that were solved.
-    residual : mapping of str to float
-        By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; made when read, empty for speeds not found by it.
-    expected : {"determined", "free", "locked"}
-        The verdict that the state's `expect` names.
 
     Examples
     --------
@@ -184,18 +138,31 @@ class Answer(FrozenFields, Tabular, Result):
     KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs", Key("", "row_residuals"))
 
     train: str
+    """Name of the train."""
     state: str | None
+    """The state; None for a train without states."""
     place: str
+    """Where the state's inputs were declared; empty where the verdict is `determined`, as expected."""
     unit: str
+    """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
     verdict: Verdict
+    """Whether the speeds follow from the inputs."""
     speeds: Mapping[str, SpeedValue]
+    """Speed of each determined link [`unit`]: exact, or floats (`LongFloat` past 1e308) where `method` says so."""
     outputs: Mapping[str, OutputResult]
+    """The declared outputs, judged when they are first read."""
     ratios: Mapping[str, Mapping[str, Fraction]]
+    """Link -> input -> speed over that input, the others at rest; made when read, empty for floats."""
     method: str
+    """How the speeds were found; floats by the sparse LU of the Willis system's matrix, or as exact ones rounded."""
     accuracy: Mapping[str, SpeedAccuracy]
+    """Absolute error of each link's speed [`unit`] and its condition number; made when read, empty for exact speeds."""
     work: int
+    """Circuits that were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
+    """By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; made when read, empty for speeds not found by it."""
     expected: str = "determined"
+    """The verdict that the state's `expect` names."""
 
     def __getitem__(self, name: str) -> SpeedValue:
         """The speed of an output, or of a link."""

@@ -23,33 +23,32 @@ from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 @dataclass(frozen=True, slots=True)
 class Components:
-    """All components of a train. A node is a link seen from a carrier; node arrays run in parallel.
-
-    node_link, node_carrier  link and carrier of each node, as indices into `links`
-    node_group               the component each node belongs to
-    ratios                   its speed relative to the carrier, over that of its component's unknown
-    node_circuit             the circuit by which the walk reached it; -1 at the root
-    group_carrier            carrier of each component
-    nodes_of                 link -> its nodes
-    closing                  circuits that close a loop and agree: each is redundant
-    breaking                 circuits that close a loop and disagree: they lock their component
-    holding                  couplings of winding number 0: they hold the slot's component on its carrier
-    """
+    """All components of a train. A node is a link seen from a carrier; node arrays run in parallel."""
 
     links: tuple[str, ...]
     index: Mapping[str, int]
     frame: int
     circuits: Sequence[Circuit]
     node_link: Sequence[int]
+    """Link and carrier of each node, as indices into `links`."""
     node_carrier: Sequence[int]
+    """Link and carrier of each node, as indices into `links`."""
     node_group: Sequence[int]
+    """The component each node belongs to."""
     ratios: FactoredRatios
+    """Its speed relative to the carrier, over that of its component's unknown."""
     node_circuit: Sequence[int]
+    """The circuit by which the walk reached it; -1 at the root."""
     group_carrier: Sequence[int]
+    """Carrier of each component."""
     nodes_of: Mapping[int, Sequence[int]]
+    """Link -> its nodes."""
     closing: Sequence[int]
+    """Circuits that close a loop and agree: each is redundant."""
     breaking: Sequence[int]
+    """Circuits that close a loop and disagree: they lock their component."""
     holding: Sequence[int]
+    """Couplings of winding number 0: they hold the slot's component on its carrier."""
 
     @property
     def node_parent(self) -> Sequence[int]:
@@ -277,15 +276,13 @@ def reduce_components(parts: Components) -> ReducedSystem:
 
 @dataclass(frozen=True)
 class SolvedPart:
-    """A train, or the part of it that matters, ready to be solved; its components are made when first needed.
-
-    first   links to walk from where possible (the inputs)
-    """
+    """A train, or the part of it that matters, ready to be solved; its components are made when first needed."""
 
     links: tuple[str, ...]
     frame: str
     circuits: Sequence[Circuit]
     first: tuple[str, ...]
+    """Links to walk from where possible (the inputs)."""
 
     @cached_property
     def reduced(self) -> ReducedSystem:

@@ -22,18 +22,16 @@ Relative = Callable[[str, str], SpeedValue | None]
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """What a target asks of a speed.
-
-    label    the target in words, its sense left out
-    speed    in the train's unit; positive where only the magnitude counts
-    signed   False: only the magnitude counts
-    sense    that of a name or period: "direct", "retrograde" or nothing
-    """
+    """What a target asks of a speed."""
 
     label: str
+    """The target in words, its sense left out."""
     speed: Fraction
+    """In the train's unit; positive where only the magnitude counts."""
     signed: bool
+    """False: only the magnitude counts."""
     sense: str = ""
+    """That of a name or period: "direct", "retrograde" or nothing."""
 
     @property
     def words(self) -> str:
@@ -54,20 +52,6 @@ def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedVal
 @dataclass(frozen=True, slots=True)
 class TargetResult(Result):
     """An output against one target. A positive error is fast.
-
-    Attributes
-    ----------
-    goal : RatioGoal
-        The target's speed [the train's unit], and whether its sense counts.
-    error : Fraction, float or LongFloat
-        Output / speed - 1, of magnitudes where the sense does not count; the output itself where 0 is wanted.
-    days_per_century : float or None
-        What the pointer gains in time [d per 36525 d], where the unit is a time and the target turns; None beyond the
-        range of float64.
-    degrees_per_unit : float or None
-        What the pointer gains in angle while the unit passes once [deg]; None beyond the range of float64.
-    met : bool or None
-        Whether it is within the declared tolerance; None without one.
 
     Examples
     --------
@@ -90,10 +74,16 @@ class TargetResult(Result):
     )
 
     goal: RatioGoal
+    """The target's speed [the train's unit], and whether its sense counts."""
     error: SpeedValue
+    """Output / speed - 1, of magnitudes where the sense does not count; the output itself where 0 is wanted."""
     days_per_century: float | None
+    """What the pointer gains in time [d per 36525 d], where the unit is a time and the target turns; None beyond the
+    range of float64."""
     degrees_per_unit: float | None
+    """What the pointer gains in angle while the unit passes once [deg]; None beyond the range of float64."""
     met: bool | None
+    """Whether it is within the declared tolerance; None without one."""
 
     @property
     def label(self) -> str:
@@ -120,18 +110,26 @@ class SpeedFigures(TypedDict, total=False):
     """A speed as JSON has it: a fraction in text, and the nearest float; errors are of speeds solved in floats."""
 
     exact: Required[str | None]
+    """The exact speed as a fraction in text; None where it was solved in floats or is not determined."""
     value: Required[float | None]
+    """The nearest float64; None beyond its range, or where the speed is not determined."""
     decimal: str
+    """Twelve digits of a speed beyond the range of float64."""
     estimate: float | None
+    """Estimated absolute error of a speed solved in floats."""
     true_error: float | None
+    """Absolute error of a speed solved in floats against the exact one, where that is known."""
     condition: float | None
+    """Component-wise condition number of a speed solved in floats; None of a link at rest."""
 
 
 class JudgedExpectation(NamedTuple):
     """A declared `expect`, and whether it holds."""
 
     value: str
+    """As declared."""
     holds: bool | None
+    """True if the speed equals it within its tolerance; None where the speed is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,39 +139,20 @@ class JudgedFigure(Result):
     KEYS = ("value", Key("as", "form"), "place", "found", "holds")
 
     value: str
+    """As printed in the source."""
     form: Literal["speed", "input/output", "output/input"]
+    """Which quantity is printed."""
     place: str | None
+    """Where in the source it stands."""
     found: SpeedValue | None
+    """The same quantity of this train."""
     holds: bool | None
+    """True if both agree at the digits printed; None where the quantity is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
 class OutputResult(Result):
     """One output: its speed and whether its declared expectations hold.
-
-    Attributes
-    ----------
-    name : str
-        Name of the output.
-    output : Output
-        The output as declared.
-    of : str
-        The link that turns.
-    relative_to : str
-        The link it is seen from.
-    speed : Fraction, float, LongFloat or None
-        Speed of the one seen from the other, about the first one's axis [the train's unit]: exact, or a float
-        (`LongFloat` past 1e308) where solved in floats; None where undetermined.
-    ratio : Fraction, float, LongFloat or None
-        Output over input, where there is exactly one non-zero input.
-    expect_holds : bool or None
-        Whether the declared `expect` holds; None without one.
-    published_holds : bool or None
-        Whether the declared `published` figure holds; None without one.
-    targets : tuple of TargetResult
-        The output against each of its targets.
-    bookkeeping : bool
-        True for a sum of joint speeds over non-parallel axes, which is no rotation.
 
     Examples
     --------
@@ -186,15 +165,26 @@ class OutputResult(Result):
     KEYS = (Key("", "figures"), "of", "relative_to", Key("output/input", "ratio"), "expect", "published", "targets")
 
     name: str
+    """Name of the output."""
     output: Output
+    """The output as declared."""
     of: str
+    """The link that turns."""
     relative_to: str
+    """The link it is seen from."""
     speed: SpeedValue | None
+    """Speed of the one seen from the other, about the first one's axis [the train's unit]: exact, or a float
+    (`LongFloat` past 1e308) where solved in floats; None where undetermined."""
     ratio: SpeedValue | None
+    """Output over input, where there is exactly one non-zero input."""
     expect_holds: bool | None
+    """Whether the declared `expect` holds; None without one."""
     published_holds: bool | None
+    """Whether the declared `published` figure holds; None without one."""
     targets: tuple[TargetResult, ...]
+    """The output against each of its targets."""
     bookkeeping: bool
+    """True for a sum of joint speeds over non-parallel axes, which is no rotation."""
 
     @property
     def found(self) -> SpeedValue | None:
@@ -351,20 +341,6 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
 class Sensitivity(Result):
     """What one tooth fewer and one tooth more on an uncertain wheel do to an output, solved again exactly.
 
-    Attributes
-    ----------
-    wheel : str
-        The wheel whose count is in doubt.
-    teeth : int
-        The count used.
-    allowed : tuple of int
-        All counts that the evidence allows.
-    output : str
-        Name of the output.
-    less, more : float or None
-        Change of its speed with one tooth fewer, and with one more [ppm]; None for a train that no longer turns, or an
-        output that stands still.
-
     Examples
     --------
     With 63 teeth in place of 64 the Moon is slower by 1/64:
@@ -379,11 +355,19 @@ class Sensitivity(Result):
     KEYS = ("wheel", "teeth", "output", Key("one_fewer_ppm", "less"), Key("one_more_ppm", "more"))
 
     wheel: str
+    """The wheel whose count is in doubt."""
     teeth: int
+    """The count used."""
     allowed: tuple[int, ...]
+    """All counts that the evidence allows."""
     output: str
+    """Name of the output."""
     less: float | None
+    """Change of its speed with one tooth fewer, and with one more [ppm]; None for a train that no longer turns, or
+    an output that stands still."""
     more: float | None
+    """Change of its speed with one tooth fewer, and with one more [ppm]; None for a train that no longer turns, or
+    an output that stands still."""
 
 
 def sensitivity(

@@ -23,20 +23,15 @@ if TYPE_CHECKING:
 class Lever:
     """One epicyclic set as points on a line: w_m = w_k + x_m u for each member m.
 
-    Attributes
-    ----------
-    carrier : str
-        The carrier k of the set.
-    abscissae : mapping of str to Fraction
-        Link -> x, exact; the carrier's is 0, and the greatest magnitude is 1.
-
     See Also
     --------
     find_levers : an example
     """
 
     carrier: str
+    """The carrier k of the set."""
     abscissae: Mapping[str, Fraction]
+    """Link -> x, exact; the carrier's is 0, and the greatest magnitude is 1."""
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:

@@ -86,17 +86,13 @@ _CONDITIONED = 400  # links up to which each has its condition number; beyond, t
 class TrainKinematics:
     """Everything about a declared train that follows without teeth.
 
-    Attributes
-    ----------
-    declaration : Train
-        What is declared.
-
     See Also
     --------
     geartrain.GearTrain.kinematics : gives it.
     """
 
     declaration: Train
+    """What is declared."""
 
     # ------------------------------------------------------------------------------------------ joints and circuits
 

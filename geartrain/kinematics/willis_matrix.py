@@ -33,19 +33,6 @@ class WillisMatrix:
     One matrix serves three right-hand sides: speeds (A w = b), small errors of teeth (A dw = e), and, transposed,
     torques without losses. `GearTrain.solve(method="sparse")` factorises this one.
 
-    Attributes
-    ----------
-    matrix : scipy.sparse.csc_array
-        A, (row, link), float64, column compressed; every entry is a whole number, held exactly.
-    right : ndarray
-        b, (row,), float64: the floats nearest to what is prescribed [the train's unit].
-    rows : tuple of WillisEquation
-        The equations of the rows, each with its label, kind and exact right-hand side.
-    links : tuple of str
-        The columns: all links that move, or with the frame where the whole system was asked for.
-    left_out : tuple of str
-        Labels of declared rows that are not in it: the frame's, and those that follow from others.
-
     See Also
     --------
     WillisSystem.matrix : what gives it
@@ -64,10 +51,15 @@ class WillisMatrix:
     """
 
     matrix: csc_array
+    """A, (row, link), float64, column compressed; every entry is a whole number, held exactly."""
     right: Floats
+    """B, (row,), float64: the floats nearest to what is prescribed [the train's unit]."""
     rows: tuple[WillisEquation, ...]
+    """The equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
+    """The columns: all links that move, or with the frame where the whole system was asked for."""
     left_out: tuple[str, ...]
+    """Labels of declared rows that are not in it: the frame's, and those that follow from others."""
 
     @property
     def labels(self) -> tuple[str, ...]:

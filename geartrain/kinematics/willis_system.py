@@ -65,17 +65,6 @@ class WillisSystem:
     One row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of docs/theory.md,
     one for the frame, one for each drive, brake and lock.
 
-    Attributes
-    ----------
-    links : tuple of str
-        The columns.
-    equations : tuple of WillisEquation
-        The rows.
-    exact : bool
-        False where inputs are in radians beside others in turns, so that their numbers are shown in decimal.
-    redundant : tuple of str
-        Labels of pairs that add nothing, for they close loops of product 1; where that was not looked for, none.
-
     Examples
     --------
     >>> import geartrain
@@ -87,9 +76,13 @@ class WillisSystem:
     """
 
     links: tuple[str, ...]
+    """The columns."""
     equations: tuple[WillisEquation, ...]
+    """The rows."""
     exact: bool = True
+    """False where inputs are in radians beside others in turns, so that their numbers are shown in decimal."""
     redundant: tuple[str, ...] = ()
+    """Labels of pairs that add nothing, for they close loops of product 1; where that was not looked for, none."""
 
     def matrix(self, whole: bool = False) -> WillisMatrix:
         """The system as a sparse matrix and a right-hand side, for a solver of one's own.

@@ -86,14 +86,12 @@ def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Seq
 
 @dataclass(frozen=True, eq=False)
 class BoundedPolynomial:
-    """A sum of coefficients times monomials.
-
-    terms      coefficients in float64, and their monomials
-    roundings  in one term and in the sum: a value is off by at most roundings u times the sum of the terms' sizes
-    """
+    """A sum of coefficients times monomials."""
 
     terms: tuple[tuple[float, Monomial], ...]
+    """Coefficients in float64, and their monomials."""
     roundings: int
+    """In one term and in the sum: a value is off by at most roundings u times the sum of the terms' sizes."""
 
     @classmethod
     def of(cls, terms: Sequence[tuple[int, Monomial]], scale: int, roundings: Sequence[int]) -> BoundedPolynomial:

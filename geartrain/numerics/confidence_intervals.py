@@ -29,11 +29,6 @@ def deviations(confidence: float = CONFIDENCE) -> float:
 class ProbabilityEstimate(Result):
     """A probability estimated from independent trials, with Wilson's 95 % interval.
 
-    Attributes
-    ----------
-    count, of : int
-        In so many of so many trials it happened.
-
     Examples
     --------
     Of none in 256 trials the upper end is z^2 / (256 + z^2), z = 1.96.
@@ -46,7 +41,9 @@ class ProbabilityEstimate(Result):
     KEYS = ("count", "of", Key("share", "value", finite), "interval")
 
     count: int
+    """In so many of so many trials it happened."""
     of: int
+    """In so many of so many trials it happened."""
 
     @property
     def value(self) -> float:
@@ -79,11 +76,6 @@ def wilson(count: float, of: float) -> tuple[float, float]:
 class IntervalEstimate:
     """An estimate and its 95 % interval.
 
-    Attributes
-    ----------
-    value, low, high : float
-        In the unit of what is estimated; the ends are infinite where there are too few trials to say.
-
     Examples
     --------
     >>> IntervalEstimate(1.0, 0.5, float("inf")).to_dict()
@@ -91,8 +83,11 @@ class IntervalEstimate:
     """
 
     value: float
+    """In the unit of what is estimated; the ends are infinite where there are too few trials to say."""
     low: float
+    """In the unit of what is estimated; the ends are infinite where there are too few trials to say."""
     high: float
+    """In the unit of what is estimated; the ends are infinite where there are too few trials to say."""
 
     def to_dict(self) -> list[float | None]:
         """Plain data for JSON: value, low, high; null where there is none."""

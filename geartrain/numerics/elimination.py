@@ -24,16 +24,14 @@ LinearForm = dict[int, Fraction]
 
 @dataclass(frozen=True, slots=True)
 class Echelon:
-    """What elimination leaves: pivots in the order taken, conditions on symbols alone, redundant rows.
-
-    pivots      (column, rest): column = -(rest), rest free of all columns taken before it
-    conditions  rows without unknowns: each must vanish
-    redundant   indices of the rows that became 0 = 0
-    """
+    """What elimination leaves: pivots in the order taken, conditions on symbols alone, redundant rows."""
 
     pivots: tuple[tuple[int, LinearForm], ...]
+    """(column, rest): column = -(rest), rest free of all columns taken before it."""
     conditions: tuple[LinearForm, ...]
+    """Rows without unknowns: each must vanish."""
     redundant: tuple[int, ...]
+    """Indices of the rows that became 0 = 0."""
 
     @property
     def rank(self) -> int:

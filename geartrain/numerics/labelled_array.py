@@ -21,15 +21,6 @@ class LabelledArray(Tabular, Result):
 
     `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels; `KeyError` for one there is not.
 
-    Attributes
-    ----------
-    values : ndarray
-        The numbers, of any shape, read-only.
-    axes : tuple of str
-        A name for each axis, such as ("link", "case").
-    labels : tuple of tuple of str
-        A label for each position of each axis.
-
     Examples
     --------
     >>> import geartrain
@@ -41,8 +32,11 @@ class LabelledArray(Tabular, Result):
     KEYS = ("axes", "labels", "values")
 
     values: NDArray[Any]
+    """The numbers, of any shape, read-only."""
     axes: tuple[str, ...]
+    """A name for each axis, such as ("link", "case")."""
     labels: tuple[tuple[str, ...], ...]
+    """A label for each position of each axis."""
 
     def __post_init__(self) -> None:
         if self.values.shape != tuple(len(names) for names in self.labels):

@@ -22,13 +22,6 @@ class LongFloat(Rational):
     Arithmetic rounds as that of floats does, and gives a float again wherever one holds the result. Mixed with floats,
     integers and Fractions; `Fraction(value)` is its value, which like that of any float is not the exact answer.
 
-    Attributes
-    ----------
-    mantissa : float
-        From 1/2 to 1, 1 left out, or the negative of that.
-    exponent : int
-        Of two.
-
     Examples
     --------
     >>> number = LongFloat(0.75, 5000)
@@ -37,7 +30,9 @@ class LongFloat(Rational):
     """
 
     mantissa: float
+    """From 1/2 to 1, 1 left out, or the negative of that."""
     exponent: int
+    """Of two."""
 
     @classmethod
     def make(cls, mantissa: float, exponent: int) -> Any:

@@ -173,15 +173,6 @@ _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$"
 class Figure:
     """A number with the digits it was written with.
 
-    Attributes
-    ----------
-    value : Fraction
-        The number, exactly as written.
-    half : Fraction or None
-        Half a unit of the last decimal written; None for an integer or fraction, which is exact.
-    text : str
-        As it was written.
-
     Examples
     --------
     >>> published = Figure.parse("13.37")
@@ -190,8 +181,11 @@ class Figure:
     """
 
     value: Fraction
+    """The number, exactly as written."""
     half: Fraction | None
+    """Half a unit of the last decimal written; None for an integer or fraction, which is exact."""
     text: str
+    """As it was written."""
 
     def __str__(self) -> str:
         return self.text
@@ -308,15 +302,6 @@ class Quantity:
     What is compared or computed with is always `base`, never `value`, so that two units of one dimension mean the same.
     Units are those of `UNITS`, and rad and rad/s: a radian is no rational part of a turn, and holds to 50 digits.
 
-    Attributes
-    ----------
-    value : Fraction
-        The number, exact in the unit written.
-    unit : str or None
-        The unit; None for a plain number.
-    text : str
-        As it was written.
-
     Examples
     --------
     >>> speed = Quantity.parse("90 rpm", "speed", plain=True)
@@ -325,8 +310,11 @@ class Quantity:
     """
 
     value: Fraction
+    """The number, exact in the unit written."""
     unit: str | None
+    """The unit; None for a plain number."""
     text: str
+    """As it was written."""
 
     def __str__(self) -> str:
         return self.text

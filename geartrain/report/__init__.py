@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from geartrain.report.gearbox_report import describe_gearbox as describe_gearbox
     from geartrain.report.html_page import to_html as to_html
     from geartrain.report.json_schema import answer_schema as answer_schema
+    from geartrain.report.json_schema import describe_answer as describe_answer
     from geartrain.report.motion_report import MotionFigures as MotionFigures
     from geartrain.report.motion_report import collect_motion as collect_motion
     from geartrain.report.motion_report import describe_motion as describe_motion
@@ -68,6 +69,7 @@ __all__ = [
     "collect_motion",
     "collect_report",
     "collect_torque_report",
+    "describe_answer",
     "describe_comparison",
     "describe_formulas",
     "describe_gear_search",
@@ -86,7 +88,7 @@ _PLACES = {
     **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
     **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
     "to_html": "html_page",
-    "answer_schema": "json_schema",
+    **dict.fromkeys(("answer_schema", "describe_answer"), "json_schema"),
     **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_report"),
     "describe_motion": "motion_report",
     "describe_comparison": "reconstruction_comparison",

@@ -18,8 +18,11 @@ class AccuracyReport(Result):
     """Methods on a train in every state that was requested."""
 
     name: str
+    """Of the train."""
     title: str
+    """Of the train."""
     states: tuple[TrainAccuracy, ...]
+    """One entry for each state."""
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:

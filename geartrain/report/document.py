@@ -63,15 +63,6 @@ class SceneText(str):
 class Table:
     """Rows of text under a header; the first column names the row.
 
-    Attributes
-    ----------
-    header : sequence of str
-        One title a column; "" where none is needed.
-    rows : sequence of sequence of str
-        Cells, as many in each row as the header has.
-    wide : bool
-        True for matrices, which a terminal shows in strips of columns and never wraps.
-
     Examples
     --------
     >>> from geartrain.report import Document, Section, to_markdown
@@ -81,8 +72,11 @@ class Table:
     """
 
     header: Sequence[str]
+    """One title a column; "" where none is needed."""
     rows: Sequence[Sequence[str]]
+    """Cells, as many in each row as the header has."""
     wide: bool = False
+    """True for matrices, which a terminal shows in strips of columns and never wraps."""
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
@@ -93,34 +87,17 @@ def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: i
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A line of a tree, with all that goes on from it.
-
-    Attributes
-    ----------
-    text : str
-        The line.
-    below : sequence of Branch
-        Lines that stand below it.
-    """
+    """A line of a tree, with all that goes on from it."""
 
     text: str
+    """The line."""
     below: Sequence[Branch] = ()
+    """Lines that stand below it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Section:
     """A heading with paragraphs, a tree, then tables.
-
-    Attributes
-    ----------
-    title : str
-        The heading.
-    paragraphs : sequence of str
-        Plain text; no markup in it is obeyed.
-    tables : sequence of Table
-        After the paragraphs.
-    branches : sequence of Branch
-        A tree between paragraphs and tables.
 
     Examples
     --------
@@ -129,21 +106,18 @@ class Section:
     """
 
     title: str
+    """The heading."""
     paragraphs: Sequence[str] = ()
+    """Plain text; no markup in it is obeyed."""
     tables: Sequence[Table] = field(default_factory=tuple)
+    """After the paragraphs."""
     branches: Sequence[Branch] = ()
+    """A tree between paragraphs and tables."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture:
     """A picture with a caption, for pages of HTML.
-
-    Attributes
-    ----------
-    caption : str
-        One line below it.
-    svg : str
-        One whole SVG document, made by a program that escapes what users write: it stands in the page as it is.
 
     Examples
     --------
@@ -152,7 +126,9 @@ class Picture:
     """
 
     caption: str
+    """One line below it."""
     svg: str
+    """One whole SVG document, made by a program that escapes what users write: it stands in the page as it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,38 +142,25 @@ class SourceReference:
 
 @dataclass(frozen=True, slots=True)
 class PageExtras:
-    """What only a page has room for, beside what a document says in any form.
-
-    badge       the verdict in a word or two; `sound` if there is nothing to complain of
-    notes       short remarks below the lead, such as which extra brings pictures
-    viewer      a whole HTML page in which the train turns
-    sections    further sections at the end
-    references  sources by key
-    """
+    """What only a page has room for, beside what a document says in any form."""
 
     badge: str = ""
+    """The verdict in a word or two; `sound` if there is nothing to complain of."""
     sound: bool = True
     notes: Sequence[str] = ()
+    """Short remarks below the lead, such as which extra brings pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
+    """A whole HTML page in which the train turns."""
     sections: Sequence[Section] = ()
+    """Further sections at the end."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)
+    """Sources by key."""
 
 
 @dataclass(frozen=True, slots=True)
 class Document:
     """A title, a lead, and sections, independent of how they are shown.
-
-    Attributes
-    ----------
-    title : str
-        The first heading.
-    lead : sequence of str
-        Paragraphs before the first section.
-    sections : sequence of Section
-        In the order in which they are read.
-    aside : PageExtras
-        Badge, pictures, viewer and sources, which only a page of HTML has room for.
 
     See Also
     --------
@@ -214,9 +177,13 @@ class Document:
     """
 
     title: str
+    """The first heading."""
     lead: Sequence[str]
+    """Paragraphs before the first section."""
     sections: Sequence[Section]
+    """In the order in which they are read."""
     aside: PageExtras = field(default_factory=PageExtras)
+    """Badge, pictures, viewer and sources, which only a page of HTML has room for."""
 
     def __str__(self) -> str:
         """The document as Markdown."""

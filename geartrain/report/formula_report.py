@@ -19,37 +19,23 @@ _HEAD = "z_NAME stands for the tooth count of the wheel NAME, and the name of a 
 
 @dataclass(frozen=True)
 class RatioElasticity(Result):
-    """How a tooth count changes a ratio.
-
-    Attributes
-    ----------
-    state : str or None
-        The state.
-    output, input, wheel : str
-        Whose ratio, and whose count.
-    elasticity : ClosedForm
-        (z/f) df/dz: by how many per cent the ratio grows where the count grows by one per cent.
-    """
+    """How a tooth count changes a ratio."""
 
     state: str | None
+    """The state."""
     output: str
+    """Whose ratio, and whose count."""
     input: str
+    """Whose ratio, and whose count."""
     wheel: str
+    """Whose ratio, and whose count."""
     elasticity: ClosedForm
+    """(z/f) df/dz: by how many per cent the ratio grows where the count grows by one per cent."""
 
 
 @dataclass(frozen=True)
 class FormulaReport(Result):
     """Formulas of outputs, in each state that was asked for.
-
-    Attributes
-    ----------
-    name, title : str
-        Of the train.
-    formulas : tuple of OutputFormula
-        State by state.
-    sensitivities : tuple of RatioElasticity
-        Of all counts, where they were asked for.
 
     See Also
     --------
@@ -57,9 +43,13 @@ class FormulaReport(Result):
     """
 
     name: str
+    """Of the train."""
     title: str
+    """Of the train."""
     formulas: tuple[OutputFormula, ...]
+    """State by state."""
     sensitivities: tuple[RatioElasticity, ...] = ()
+    """Of all counts, where they were asked for."""
 
 
 def collect_formulas(

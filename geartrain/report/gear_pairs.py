@@ -22,15 +22,13 @@ _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "m
 
 @dataclass(frozen=True)
 class DrivenPair(Result):
-    """A pair with real teeth in one way in which it is driven.
-
-    states   in which it is driven so
-    """
+    """A pair with real teeth in one way in which it is driven."""
 
     KEYS = (Key("pair", "mesh.name"), Key("", "mesh.who"), "states", *_OF_PAIR)
 
     mesh: GearMesh
     states: tuple[str, ...] = ()
+    """In which it is driven so."""
 
     @cached_property
     def account(self) -> PairAccount:
@@ -50,7 +48,9 @@ class DrivenPin(Result):
     KEYS = ("coupling", Key("ratio", "figures.speed_ratio.mean"), Key("", "figures"))
 
     coupling: str
+    """Name of the coupling."""
     figures: PinFigures
+    """Its figures with the pin driving."""
 
 
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:

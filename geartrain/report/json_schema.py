@@ -161,6 +161,11 @@ def describe_answer(question: str) -> Document:
     question : str
         A key of `answer_schema()["$defs"]`.
 
+    Returns
+    -------
+    Document
+        One section with one table.
+
     Raises
     ------
     QuestionError
@@ -191,8 +196,9 @@ def _key_rows(shape: Schema, path: str) -> Iterator[tuple[str, str, str]]:
 
 def _kinds(shape: Schema) -> Iterator[str]:
     for part in shape.get("anyOf", [shape]):
-        kind = part.get("type", "string" if "enum" in part else "any")
-        yield kind if kind != "array" else "list"
+        kinds = part.get("type", "string" if "enum" in part else "any")
+        for kind in [kinds] if isinstance(kinds, str) else kinds:
+            yield "list" if kind == "array" else kind
 
 
 # ---------------------------------------------------------------------------------------------------- shapes of results
@@ -286,8 +292,8 @@ def meaning_of(kind: Any, path: str) -> str:
     """The docstring of a field or property, `part.attribute` for one of a part; "" where there is none."""
     first, _, rest = path.partition(".")
     if rest:
-        parts = [part for part in _parts(attribute_kind(kind, first)) if hasattr(part, rest.partition(".")[0])]
-        return meaning_of(parts[0], rest) if parts else ""
+        parts = (part for part in _parts(attribute_kind(kind, first)) if part is not NoneType)
+        return next(filter(None, (meaning_of(part, rest) for part in parts)), "")
     return field_docs(kind).get(first) or _summary(getattr(kind, first, None))
 
 

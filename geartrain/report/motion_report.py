@@ -27,75 +27,52 @@ class PhaseRange(NamedTuple):
     """Least and greatest error (rad) of one output over runs with other phases."""
 
     peak_to_peak: tuple[float, float]
+    """Least and greatest peak-to-peak error [rad]."""
     rms: tuple[float, float]
+    """Least and greatest root mean square error [rad]."""
 
 
 class PhaseSets(NamedTuple):
     """How many sets of random phases were tried, and their seed."""
 
     sets: int
+    """Number of sets of random phases."""
     seed: int | None
+    """Seed of the random phases."""
 
 
 class PartialRun(NamedTuple):
     """What was done of an interrupted run."""
 
     done: int
+    """Positions computed."""
     of: int
+    """Positions requested."""
 
 
 @dataclass(frozen=True)
 class OutputMotion:
-    """One output of a run; what was not asked for is None.
-
-    setting       by how much the pointer is turned on its wheels, so that at turn 0 its teeth do not displace it (rad)
-    sensitivity   radians of the output per radian of error of a pair's driven side, by pair
-    """
+    """One output of a run; what was not asked for is None."""
 
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "estimates", "spectrum")
 
     tally: RunningStatistics
+    """Peaks and moments of the run."""
     setting: float
+    """By how much the pointer is turned on its wheels, so that at turn 0 its teeth do not displace it (rad)."""
     sensitivity: Mapping[str, float]
+    """Radians of the output per radian of error of a pair's driven side, by pair."""
     phases: PhaseRange | None
+    """Errors over runs with random phases; None unless requested."""
     estimates: ErrorEstimates | None
+    """Estimates of the error without composition; None unless requested."""
     spectrum: Sequence[SpectrumLine] | None
+    """Lines of the spectrum by exact orders of the input; None unless requested."""
 
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
     """Errors and speeds of a train with real teeth and pins in one state, over a run; angles in rad.
-
-    Attributes
-    ----------
-    run : MotionRun
-        What was done; not part of the data.
-    name : str
-        Of the train.
-    state : str or None
-        As it was named.
-    input : str
-        The link whose turns are counted.
-    turns : float
-        Of the input [turn]; negative backwards.
-    positions : int
-        At which the motion was worked out.
-    period : Fraction or None
-        Turns of the input after which everything repeats; None where nothing ripples.
-    drivers : mapping of str to MeshDriver
-        The driving wheel of each pair that ripples.
-    turned_back : sequence of str
-        Pairs whose driver turns against its mean at times.
-    rigid : sequence of str
-        Pairs with real teeth that keep their ratio at every instant and add nothing.
-    outputs : mapping of str to OutputMotion
-        Transmission error, speed and whatever else was asked, by output.
-    separation : geartrain.simulation.SeparationRates or None
-        Up to which rate of the input this motion holds; None where no inertia is declared.
-    phases : PhaseSets or None
-        Random phases that were tried.
-    partial : PartialRun or None
-        What was done of an interrupted run.
 
     See Also
     --------
@@ -108,19 +85,33 @@ class MotionFigures(Result):
     )
 
     run: MotionRun
+    """What was done; not part of the data."""
     name: str
+    """Of the train."""
     state: str | None
+    """As it was named."""
     input: str
+    """The link whose turns are counted."""
     turns: float
+    """Of the input [turn]; negative backwards."""
     positions: int
+    """At which the motion was worked out."""
     period: Fraction | None
+    """Turns of the input after which everything repeats; None where nothing ripples."""
     drivers: Mapping[str, MeshDriver]
+    """The driving wheel of each pair that ripples."""
     turned_back: Sequence[str]
+    """Pairs whose driver turns against its mean at times."""
     rigid: Sequence[str]
+    """Pairs with real teeth that keep their ratio at every instant and add nothing."""
     outputs: Mapping[str, OutputMotion]
+    """Transmission error, speed and whatever else was asked, by output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
+    """Up to which rate of the input this motion holds; None where no inertia is declared."""
     phases: PhaseSets | None
+    """Random phases that were tried."""
     partial: PartialRun | None
+    """What was done of an interrupted run."""
 
 
 @dataclass(frozen=True)
@@ -130,8 +121,11 @@ class UnfollowedMotion:
     KEYS = ("name", "state", "error")
 
     name: str
+    """Of the train."""
     state: str | None
+    """The state; None for a train without states."""
     why: GearTrainError
+    """Why the motion cannot be followed."""
 
     @property
     def error(self) -> str:

@@ -34,11 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FormedPair(Result):
-    """A pair of any form, with the figures of its mesh.
-
-    mesh       the pair, as it is driven
-    outlines   wheels that were cut
-    """
+    """A pair of any form, with the figures of its mesh."""
 
     KEYS = (
         *(Key("form", "mesh.form"), Key("driver", "mesh.driver"), Key("gears", "mesh.gears"), Key("note", "mesh.note")),
@@ -46,7 +42,9 @@ class FormedPair(Result):
     )
 
     mesh: GearMesh
+    """The pair, as it is driven."""
     outlines: tuple[WheelOutline, ...] = ()
+    """Wheels that were cut."""
 
     @property
     def figures(self) -> PairFigures:
@@ -56,18 +54,17 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given.
-
-    course     speed ratio, instant centre and moment arms over the pitch
-    outlines   wheels that were cut
-    """
+    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given."""
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
     figures: TriangularFigures
     course: ContactCourse
+    """Speed ratio, instant centre and moment arms over the pitch."""
     impacts: PairImpacts | None
+    """What its collisions cost; None unless a run of it is given."""
     outlines: tuple[WheelOutline, ...] = ()
+    """Wheels that were cut."""
 
 
 def collect_pair(

@@ -22,17 +22,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """What was found of a train in a file; true if nothing fails.
-
-    failures   verdicts that leave speeds open, figures that do not hold, what cannot be built, teeth that cannot turn
-    whole      false where nothing was asked that takes numpy: teeth, loads, and whether loops close
-    """
+    """What was found of a train in a file; true if nothing fails."""
 
     train: GearTrain
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
+    """Verdicts that leave speeds open, figures that do not hold, what cannot be built, teeth that cannot turn."""
     whole: bool = True
+    """False where nothing was asked that takes numpy: teeth, loads, and whether loops close."""
 
     def __bool__(self) -> bool:
         return not self.failures

@@ -25,6 +25,7 @@ class Impact(NamedTuple):
     """Power (W) that the collisions of a pair dissipate."""
 
     impact: float
+    """Power that the collisions of the pair dissipate [W]."""
 
 
 @dataclass(frozen=True)
@@ -73,22 +74,20 @@ class DrivenWays(NamedTuple):
 
 @dataclass(frozen=True)
 class TorqueFigures(Result):
-    """Torques, flow of power and losses of one state.
-
-    drives             None where it is not plain which link is the output
-    watts_per_unit     None where torques or speeds are plain numbers
-    in_newton_metres   whether torques have a unit
-    blows              what the collisions of each pair dissipate (W), where inertias and a rate are declared
-    """
+    """Torques, flow of power and losses of one state."""
 
     KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
 
     torques: Torques
     drives: DrivenWays | None
+    """None where it is not plain which link is the output."""
     watts_per_unit: float | None
+    """None where torques or speeds are plain numbers."""
     in_newton_metres: bool
+    """Whether torques have a unit."""
     flow: PowerFlow
     blows: Mapping[str, float]
+    """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
@@ -104,29 +103,21 @@ class TorqueFigures(Result):
 class TorqueReport(Result):
     """Torques of a train in every state that was asked for.
 
-    Attributes
-    ----------
-    name : str
-        Of the train.
-    title : str
-        One line for a reader.
-    states : tuple of TorqueFigures
-        Torques, powers, flow and losses of each state, in the order asked.
-    over_turn : TorqueCycle or None
-        Torque over some turns of the one state asked for; None where it was not asked for.
-    friction_trials : geartrain.workshop.FrictionTrials or None
-        The same in trials of friction; None where none were asked for.
-
     See Also
     --------
     collect_torque_report : Gives it.
     """
 
     name: str
+    """Of the train."""
     title: str
+    """One line for a reader."""
     states: tuple[TorqueFigures, ...]
+    """Torques, powers, flow and losses of each state, in the order asked."""
     over_turn: TorqueCycle | None = None
+    """Torque over some turns of the one state asked for; None where it was not asked for."""
     friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
+    """The same in trials of friction; None where none were asked for."""
 
 
 def collect_torque_report(

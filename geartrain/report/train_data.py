@@ -30,17 +30,16 @@ _MOST_LINKS = 500  # of a train whose adjacency is told
 
 @dataclass(frozen=True)
 class TrainAnswers(Result):
-    """A train and its answers: one for each state that was asked for.
-
-    mobility   None where one output was asked for: it takes all circuits, where that takes those that drive it
-    states     answers; a train without states has one, whose `state` is None
-    """
+    """A train and its answers: one for each state that was asked for."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
 
     train: GearTrain
+    """The train itself, which is not part of the data."""
     mobility: Mobility | None
+    """None where one output was asked for: it takes all circuits, where that takes those that drive it."""
     states: tuple[Answer, ...]
+    """Answers; a train without states has one, whose `state` is None."""
 
     @property
     def name(self) -> str:
@@ -68,7 +67,9 @@ class AdjacencyLetters:
     """Which links are joined: in row and column order of `links` the turning pairs, gear pairs and couplings."""
 
     links: tuple[str, ...]
+    """Names of the rows and columns, in order."""
     cells: list[list[str]]
+    """Letters of the joints between two links, row by row: R a turning pair, G a gear pair, C a coupling."""
 
 
 @dataclass(frozen=True)
@@ -78,49 +79,14 @@ class StateSensitivity:
     KEYS = ("state", Key("", "change"))
 
     state: str | None
+    """The state; None for a train without states."""
     change: Sensitivity
+    """What one tooth less and one more change."""
 
 
 @dataclass(frozen=True)
 class TrainReport(TrainAnswers):
     """All that a report on a train holds; `to_dict` gives its JSON, `describe_train` its page.
-
-    Attributes
-    ----------
-    train : GearTrain
-        What is reported on; not part of the data.
-    mobility : Mobility or None
-        Degrees of freedom by count and by rank.
-    states : tuple of Answer
-        Speeds, verdict and judged outputs of each state; a train without states has one, whose `state` is None.
-    gridlock : Gridlock
-        Links that are locked together, and the least meshes to remove.
-    closure : MeshPhasing or None
-        Whether the teeth of all loops meet; None where axes have no positions.
-    sources : mapping of str to str
-        Citations by key.
-    circuits : tuple of Circuit
-        The fundamental circuit of each gear pair and coupling.
-    adjacency : AdjacencyLetters or None
-        Which links are joined; None for very large trains.
-    build_findings : tuple of BuildFinding
-        What of the train cannot be built, and what is unwise.
-    remarks : tuple of Problem
-        Conventions that the answers rest on.
-    sensitivity : tuple of StateSensitivity
-        What one tooth more or less on a wheel in doubt does.
-    teeth : tuple of DrivenPair
-        Pairs with real teeth, in every way in which they are driven.
-    pins : tuple of DrivenPin
-        Couplings with dimensions.
-    torques : tuple of TorqueFigures
-        Of every state with loads, or friction of bearings.
-    strength : tuple of geartrain.simulation.TrainStrength
-        Of every state with loads in units, where a train says what its wheels are made of.
-    motion : tuple of MotionFigures or UnfollowedMotion
-        Of every state of a train with real teeth or pins; where it cannot be followed, the `error`.
-    errata : tuple of Erratum
-        Errors of the sources, as declared.
 
     See Also
     --------
@@ -135,19 +101,33 @@ class TrainReport(TrainAnswers):
     )
 
     gridlock: Gridlock
+    """Links that are locked together, and the least meshes to remove."""
     closure: MeshPhasing | None
+    """Whether the teeth of all loops meet; None where axes have no positions."""
     sources: Mapping[str, str]
+    """Citations by key."""
     circuits: tuple[Circuit, ...]
+    """The fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None
+    """Which links are joined; None for very large trains."""
     build_findings: tuple[BuildFinding, ...]
+    """What of the train cannot be built, and what is unwise."""
     remarks: tuple[Problem, ...]
+    """Conventions that the answers rest on."""
     sensitivity: tuple[StateSensitivity, ...]
+    """What one tooth more or less on a wheel in doubt does."""
     teeth: tuple[DrivenPair, ...]
+    """Pairs with real teeth, in every way in which they are driven."""
     pins: tuple[DrivenPin, ...]
+    """Couplings with dimensions."""
     torques: tuple[TorqueFigures, ...]
+    """Of every state with loads, or friction of bearings."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
+    """Of every state with loads in units, where a train says what its wheels are made of."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
+    """Of every state of a train with real teeth or pins; where it cannot be followed, the `error`."""
     errata: tuple[Erratum, ...]
+    """Errors of the sources, as declared."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:

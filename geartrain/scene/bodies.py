@@ -35,19 +35,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """A thin wheel and its generator.
-
-    wheel, link   its own, and the link whose wave bends it
-    axis          label of the generator's axis
-    offset        from that to the axis on which the wheel is declared (mm): how far its wave rises, and towards where
-    lobes         of the wave: as many as the ring has teeth more
-    """
+    """A thin wheel and its generator."""
 
     wheel: str
+    """Its own, and the link whose wave bends it."""
     link: str
+    """Its own, and the link whose wave bends it."""
     axis: str
+    """Label of the generator's axis."""
     offset: Vector
+    """From that to the axis on which the wheel is declared (mm): how far its wave rises, and towards where."""
     lobes: int
+    """Of the wave: as many as the ring has teeth more."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:

@@ -53,14 +53,12 @@ _NONE = 1e-9  # mm, or of a unit vector
 
 @dataclass(frozen=True, slots=True)
 class MeshDirections:
-    """The two wheels of a pair.
-
-    contact    unit vectors from their centres, across their axes, to where they touch
-    same       1 where both turn about their own direction with teeth going one way at the contact, else -1
-    """
+    """The two wheels of a pair."""
 
     contact: tuple[Vector, Vector]
+    """Unit vectors from their centres, across their axes, to where they touch."""
     same: int
+    """1 where both turn about their own direction with teeth going one way at the contact, else -1."""
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:

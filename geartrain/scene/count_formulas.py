@@ -10,37 +10,22 @@ from dataclasses import dataclass
 class CountFormula:
     """A quotient of two sums of products of counts; coefficients are whole.
 
-    Attributes
-    ----------
-    wheels : sequence of int
-        The counts it depends on, as indices of `SceneFormulas.wheels`; one twice where equal planets have it.
-    numerator, denominator : sequence of tuple
-        Terms: a coefficient as text, and the powers, parallel to `wheels`, all 0 or more.
-
     See Also
     --------
     SceneFormulas : holds them
     """
 
     wheels: Sequence[int]
+    """The counts it depends on, as indices of `SceneFormulas.wheels`; one twice where equal planets have it."""
     numerator: Sequence[tuple[str, Sequence[int]]]
+    """Terms: a coefficient as text, and the powers, parallel to `wheels`, all 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
+    """Terms: a coefficient as text, and the powers, parallel to `wheels`, all 0 or more."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCondition:
     """What counts must not break for the formulas to hold.
-
-    Attributes
-    ----------
-    formula : CountFormula
-        A function of the counts.
-    zero : bool
-        True where it must be 0, False where it must not.
-    text : str
-        What it states.
-    carrier : int or None
-        Of a loop, the body from which its wheels are seen.
 
     See Also
     --------
@@ -48,33 +33,18 @@ class CountCondition:
     """
 
     formula: CountFormula
+    """A function of the counts."""
     zero: bool
+    """True where it must be 0, False where it must not."""
     text: str
+    """What it states."""
     carrier: int | None = None
+    """Of a loop, the body from which its wheels are seen."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneFormulas:
     """All speeds of a scene, at the declared inputs and in the train's unit, as functions of tooth counts.
-
-    Attributes
-    ----------
-    wheels : sequence of str
-        Names of the declared wheels whose counts may change.
-    count : sequence of int or None
-        For each wheel of the scene the index of its count in `wheels`; None where it has none.
-    formulas : sequence of CountFormula
-        Functions, each once.
-    bodies, pointers : sequence of int or None
-        For each body and pointer of the scene the index of its function; None where nothing determines it.
-    conditions : sequence of CountCondition
-        Where one is broken, the train does not turn by these functions.
-    input : str
-        Speed of the lead, exact.
-    exact : bool
-        False where speeds are told in decimal.
-    parent : str
-        What a declaration of the changed train extends: the name of a shipped train, or of a file.
 
     See Also
     --------
@@ -82,11 +52,20 @@ class SceneFormulas:
     """
 
     wheels: Sequence[str]
+    """Names of the declared wheels whose counts may change."""
     count: Sequence[int | None]
+    """For each wheel of the scene the index of its count in `wheels`; None where it has none."""
     formulas: Sequence[CountFormula]
+    """Functions, each once."""
     bodies: Sequence[int | None]
+    """For each body and pointer of the scene the index of its function; None where nothing determines it."""
     pointers: Sequence[int | None]
+    """For each body and pointer of the scene the index of its function; None where nothing determines it."""
     conditions: Sequence[CountCondition]
+    """Where one is broken, the train does not turn by these functions."""
     input: str
+    """Speed of the lead, exact."""
     exact: bool
+    """False where speeds are told in decimal."""
     parent: str
+    """What a declaration of the changed train extends: the name of a shipped train, or of a file."""

@@ -62,44 +62,32 @@ class ScaleReading:
 
 @dataclass(frozen=True, slots=True)
 class DialScale:
-    """Cells along a circle, or along a spiral from its inner end outwards.
-
-    Attributes
-    ----------
-    turns, divisions : int
-        Turns of its spiral, and cells along all of them.
-    inner, outer : float
-        Radius of its inner end over that of its dial; and of its outer one. Equal for a circle.
-    way : int
-        1 if it is counted clockwise as read, -1 if counter-clockwise.
-    cell : str
-        What one division is.
-    names : tuple of (str, Fraction, Fraction)
-        Name of divisions in a row, how many are before them, and how many they are.
-    numerals : tuple of (str, int)
-        What is written at lines, and how many divisions lie before each.
-    glyphs : tuple of (int, str)
-        What is written in cells, by their numbers from 1.
-    around : DialScale or None
-        Another scale around it.
-    radial : bool
-        Whether all numerals stand with their feet to the middle, as Roman ones do, which know no 0.
-    counted : int
-        Where numerals are declared, the line at which they begin again; else 0: cells are counted, from 1.
-    """
+    """Cells along a circle, or along a spiral from its inner end outwards."""
 
     turns: int
+    """Turns of its spiral, and cells along all of them."""
     divisions: int
+    """Turns of its spiral, and cells along all of them."""
     inner: float = 1.0
+    """Radius of its inner end over that of its dial; and of its outer one. Equal for a circle."""
     outer: float = 1.0
+    """Radius of its inner end over that of its dial; and of its outer one. Equal for a circle."""
     way: int = 1
+    """1 if it is counted clockwise as read, -1 if counter-clockwise."""
     cell: str = _CELL
+    """What one division is."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
+    """Name of divisions in a row, how many are before them, and how many they are."""
     numerals: tuple[tuple[str, int], ...] = ()
+    """What is written at lines, and how many divisions lie before each."""
     glyphs: tuple[tuple[int, str], ...] = ()
+    """What is written in cells, by their numbers from 1."""
     around: DialScale | None = None
+    """Another scale around it."""
     radial: bool = False
+    """Whether all numerals stand with their feet to the middle, as Roman ones do, which know no 0."""
     counted: int = 0
+    """Where numerals are declared, the line at which they begin again; else 0: cells are counted, from 1."""
 
     def radius(self, turned: float) -> float:
         """After some turns from the inner end; of a circle, always the outer one."""
@@ -211,21 +199,14 @@ _PEN = 0.12  # over the height of letters
 
 @dataclass(frozen=True, slots=True)
 class Engraving:
-    """Lines of one width.
-
-    Attributes
-    ----------
-    kind : {"rim", "fine", "bold", "letters"}
-        What they are.
-    width : float
-        Over the radius of the dial.
-    lines : sequence of sequence of (float, float)
-        Their points.
-    """
+    """Lines of one width."""
 
     kind: Kind
+    """What they are."""
     width: float
+    """Over the radius of the dial."""
     lines: Sequence[Stroke]
+    """Their points."""
 
 
 def engrave(scale: DialScale) -> list[Engraving]:

@@ -20,62 +20,36 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 class ScenePart:
     """What holds wheels, as it is made: a turned part, or a flat one; about its own z, its middle at `place`.
 
-    Attributes
-    ----------
-    body : int
-        Index of the body to which it belongs.
-    name, kind : str
-        Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
-        for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials.
-    place : tuple of float
-        Where it stands in the zero pose [mm].
-    direction, across : tuple of float
-        Unit vectors: its z and its x.
-    bands : sequence of (float, float, float, float)
-        Of a turned part, from below: from and to along z, outside and inside radius [mm].
-    outlines : sequence of sequence of float
-        Of a flat part: its edge, then its holes, as x and y in turn [mm].
-    height : float
-        Thickness of a flat part, half of it to either side [mm].
-
     See Also
     --------
     build_scene : gives it, in `Scene.parts`.
     """
 
     body: int
+    """Index of the body to which it belongs."""
     name: str
+    """Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
+    for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials."""
     kind: str
+    """Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
+    for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials."""
     place: Vector
+    """Where it stands in the zero pose [mm]."""
     direction: Vector
+    """Unit vectors: its z and its x."""
     across: Vector
+    """Unit vectors: its z and its x."""
     bands: Sequence[tuple[float, float, float, float]] = ()
+    """Of a turned part, from below: from and to along z, outside and inside radius [mm]."""
     outlines: Sequence[Sequence[float]] = ()
+    """Of a flat part: its edge, then its holes, as x and y in turn [mm]."""
     height: float = 0.0
+    """Thickness of a flat part, half of it to either side [mm]."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger:
     """What hangs on a train: a pendulum, the line of a weight, or the weight.
-
-    Attributes
-    ----------
-    kind : {"pendulum", "line", "weight"}
-        A pendulum swings as its escape wheel lets it; a weight falls and its line grows as their barrel turns.
-    body : int
-        Index of the body by whose angle it moves.
-    point : tuple of float
-        Where it hangs [mm].
-    direction, down : tuple of float
-        Unit vectors: the axis about which it swings or turns, and the way down, across it.
-    length : float
-        From where it hangs to the middle of the bob, or to the weight in the zero pose [mm].
-    rate : float
-        Of a pendulum swings to and fro in a turn of its body; else how far a weight falls for each radian [mm].
-    wide : float
-        Radius of the bob, the weight or the line [mm].
-    parts : sequence of ScenePart
-        What is turned for it, where it hangs in the zero pose: rod and bob, or the weight.
 
     See Also
     --------
@@ -83,14 +57,23 @@ class SceneHanger:
     """
 
     kind: Literal["pendulum", "line", "weight"]
+    """A pendulum swings as its escape wheel lets it; a weight falls and its line grows as their barrel turns."""
     body: int
+    """Index of the body by whose angle it moves."""
     point: Vector
+    """Where it hangs [mm]."""
     direction: Vector
+    """Unit vectors: the axis about which it swings or turns, and the way down, across it."""
     down: Vector
+    """Unit vectors: the axis about which it swings or turns, and the way down, across it."""
     length: float
+    """From where it hangs to the middle of the bob, or to the weight in the zero pose [mm]."""
     rate: float
+    """Of a pendulum swings to and fro in a turn of its body; else how far a weight falls for each radian [mm]."""
     wide: float
+    """Radius of the bob, the weight or the line [mm]."""
     parts: Sequence[ScenePart] = ()
+    """What is turned for it, where it hangs in the zero pose: rod and bob, or the weight."""
 
 
 # Not in every train: `SceneCoupling.slot_turn` (starting angles), heights in place of radii in the profiles of bevel
@@ -104,64 +87,42 @@ class SceneHanger:
 class SceneBody:
     """A link of a scene, with the axis about which it turns.
 
-    Attributes
-    ----------
-    id : str
-        Name of the link.
-    parent : int or None
-        Index of the body that bears its axis; None for the frame.
-    axis : str
-        Label of its axis.
-    point, direction : tuple of float
-        A point of the axis [mm], and the reference direction of its parallels, a unit vector.
-    sense : int
-        -1 where the declared axis points against `direction`: its declared speed is about the other way; else 1.
-    speed : str or None
-        Over the lead's, about its declared axis, exact; None where it is not determined.
-    shown, decimal : str or None, str
-        Its speed at the declared inputs, in the train's unit: exact, and rounded.
-    start : float
-        Declared starting angle [rad].
-    role : {"frame", "carrier", "arbor"}
-        A carrier bears a moving axis.
-    bookkeeping : bool
-        True where its speed is a sum over non-parallel joints, and no rotation.
-    note : str
-        As declared.
-
     See Also
     --------
     make_scene : gives it, in `Scene.bodies`.
     """
 
     id: str
+    """Name of the link."""
     parent: int | None
+    """Index of the body that bears its axis; None for the frame."""
     axis: str
+    """Label of its axis."""
     point: Vector
+    """A point of the axis [mm], and the reference direction of its parallels, a unit vector."""
     direction: Vector
+    """A point of the axis [mm], and the reference direction of its parallels, a unit vector."""
     sense: int
+    """-1 where the declared axis points against `direction`: its declared speed is about the other way; else 1."""
     speed: str | None
+    """Over the lead's, about its declared axis, exact; None where it is not determined."""
     shown: str | None
+    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
     decimal: str
+    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
     start: float
+    """Declared starting angle [rad]."""
     role: str
+    """A carrier bears a moving axis."""
     bookkeeping: bool = False
+    """True where its speed is a sum over non-parallel joints, and no rotation."""
     note: str = ""
+    """As declared."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothProfile:
     """One tooth of a wheel, from the middle of a space to the middle of the next, the tooth's middle at angle 0.
-
-    Attributes
-    ----------
-    form : str
-        triangular, involute, cycloidal, ...; `standard` where none is declared, `likeness` without a flat outline.
-    points : sequence of tuple of float
-        Radius (over the pitch radius) and angle [rad], in order of angle from -pi/z to pi/z, both ends there; of a
-        bevel or contrate wheel the radius is 1 and the height over the pitch cone, along the back cone.
-    hole : bool
-        True for a lantern's pin or another closed curve, whose points then go round it.
 
     See Also
     --------
@@ -169,59 +130,17 @@ class ToothProfile:
     """
 
     form: str
+    """Triangular, involute, cycloidal, ...; `standard` where none is declared, `likeness` without a flat outline."""
     points: Sequence[tuple[float, float]]
+    """Radius (over the pitch radius) and angle [rad], in order of angle from -pi/z to pi/z, both ends there; of a
+    bevel or contrate wheel the radius is 1 and the height over the pitch cone, along the back cone."""
     hole: bool = False
+    """True for a lantern's pin or another closed curve, whose points then go round it."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneWheel:
     """A wheel of a body.
-
-    Attributes
-    ----------
-    id : str
-        Its name.
-    body : int
-        Index of its body.
-    teeth : int
-        Tooth count; 1 where it is not known.
-    kind : {"spur", "ring", "bevel", "contrate", "worm", "pins"}
-        Kind of wheel; `pins` is a lantern.
-    centre : tuple of float
-        Of its pitch circle, on its axis [mm].
-    direction, reference : tuple of float
-        Unit vectors: along the axis, that of its body; and across it, from which `turn` is counted.
-    turn : float
-        Angle of its first tooth about `direction` [rad].
-    radius, tip, root : float
-        Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller.
-    module : float
-        Pitch diameter over tooth count [mm].
-    thickness : float
-        Of its rim along the axis [mm].
-    cone : float
-        Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel.
-    facing : int
-        Side of the axis to which the cone opens: 1 or -1; 0 of a cylinder.
-    profile : int
-        Index of the tooth's form.
-    layer : int or None
-        Level in the stack; None off it.
-    status : str
-        surviving, reconstructed, hypothetical, or empty where nothing is said.
-    source, note : str
-        As declared.
-    doubt : str
-        Counts that the evidence allows, in words; empty for a sure count.
-    circuits : sequence of str
-        Names of the gear pairs it belongs to.
-    loss : float or None
-        Part of the power put in that is lost at its meshes, where loads and friction are declared.
-    helix : float
-        Angle of its teeth, of a worm of its thread, from the axis [rad], of a right hand above 0.
-    holes : sequence of sequence of float
-        As it is built, outlines of what is cut out of it for pins that move in it, or for an eccentric in which it
-        turns, as x and y in turn from its middle, x through its first tooth [mm].
 
     See Also
     --------
@@ -229,30 +148,56 @@ class SceneWheel:
     """
 
     id: str
+    """Its name."""
     body: int
+    """Index of its body."""
     teeth: int
+    """Tooth count; 1 where it is not known."""
     kind: str
+    """Kind of wheel; `pins` is a lantern."""
     centre: Vector
+    """Of its pitch circle, on its axis [mm]."""
     direction: Vector
+    """Unit vectors: along the axis, that of its body; and across it, from which `turn` is counted."""
     reference: Vector
+    """Unit vectors: along the axis, that of its body; and across it, from which `turn` is counted."""
     turn: float
+    """Angle of its first tooth about `direction` [rad]."""
     radius: float
+    """Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller."""
     tip: float
+    """Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller."""
     root: float
+    """Of its pitch circle and of its teeth [mm]; of a ring the tip is the smaller."""
     module: float
+    """Pitch diameter over tooth count [mm]."""
     thickness: float
+    """Of its rim along the axis [mm]."""
     cone: float
+    """Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel."""
     facing: int
+    """Side of the axis to which the cone opens: 1 or -1; 0 of a cylinder."""
     profile: int
+    """Index of the tooth's form."""
     layer: int | None
+    """Level in the stack; None off it."""
     status: str
+    """Surviving, reconstructed, hypothetical, or empty where nothing is said."""
     source: str
+    """As declared."""
     note: str
+    """As declared."""
     doubt: str
+    """Counts that the evidence allows, in words; empty for a sure count."""
     circuits: Sequence[str]
+    """Names of the gear pairs it belongs to."""
     loss: float | None = None
+    """Part of the power put in that is lost at its meshes, where loads and friction are declared."""
     helix: float = 0.0
+    """Angle of its teeth, of a worm of its thread, from the axis [rad], of a right hand above 0."""
     holes: Sequence[Sequence[float]] = ()
+    """As it is built, outlines of what is cut out of it for pins that move in it, or for an eccentric in which it
+    turns, as x and y in turn from its middle, x through its first tooth [mm]."""
 
     @property
     def span(self) -> tuple[float, float]:
@@ -270,65 +215,32 @@ class SceneWheel:
 class ScenePair:
     """A gear pair of a scene.
 
-    Attributes
-    ----------
-    id : str
-        Its name.
-    wheels : tuple of int
-        Indices of its wheels.
-    carrier : int
-        Index of the body that carries both axes.
-    ratio : str
-        Of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md.
-    form : str
-        Tooth form; empty where none is declared.
-    text : str
-        The circuit in words.
-    broken : bool
-        True if it belongs to a loop that does not close, or lets the train not turn.
-    fault : str
-        The loop in words.
-
     See Also
     --------
     make_scene : gives it, in `Scene.pairs`.
     """
 
     id: str
+    """Its name."""
     wheels: tuple[int, int]
+    """Indices of its wheels."""
     carrier: int
+    """Index of the body that carries both axes."""
     ratio: str
+    """Of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
     form: str
+    """Tooth form; empty where none is declared."""
     text: str
+    """The circuit in words."""
     broken: bool = False
+    """True if it belongs to a loop that does not close, or lets the train not turn."""
     fault: str = ""
+    """The loop in words."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCoupling:
     """A pin in a slot, or pins in round holes.
-
-    Attributes
-    ----------
-    id, kind : str
-        Its name and its kind.
-    pin, slot, carrier : int
-        Indices of bodies: that of the pin, that of the slot, and the one that carries both axes.
-    pin_at, slot_at : tuple of float
-        The pin's centre in the zero pose, and the slot's axis at the pin's height [mm].
-    pin_radius, offset : float
-        Of the pin from its axis, and of the two axes from each other [mm].
-    drawn : bool
-        False where dimensions are not declared: sizes are then chosen for the picture.
-    text : str
-        The circuit in words.
-    slot_turn : float
-        Angle about the slot's direction by which the slot, in the zero pose, runs aside from the line from `slot_at` to
-        `pin_at` [rad]: 0 unless starting angles are declared.
-    pins_at, holes_at : sequence of tuple of float
-        Middles of all pins in round holes, and of these, in the zero pose [mm]; none of a pin in a slot.
-    pin_diameter, hole : float
-        Diameters of such pins and holes [mm]; 0 of a pin in a slot.
 
     See Also
     --------
@@ -336,37 +248,43 @@ class SceneCoupling:
     """
 
     id: str
+    """Its name and its kind."""
     kind: str
+    """Its name and its kind."""
     pin: int
+    """Indices of bodies: that of the pin, that of the slot, and the one that carries both axes."""
     slot: int
+    """Indices of bodies: that of the pin, that of the slot, and the one that carries both axes."""
     carrier: int
+    """Indices of bodies: that of the pin, that of the slot, and the one that carries both axes."""
     pin_at: Vector
+    """The pin's centre in the zero pose, and the slot's axis at the pin's height [mm]."""
     slot_at: Vector
+    """The pin's centre in the zero pose, and the slot's axis at the pin's height [mm]."""
     pin_radius: float
+    """Of the pin from its axis, and of the two axes from each other [mm]."""
     offset: float
+    """Of the pin from its axis, and of the two axes from each other [mm]."""
     drawn: bool
+    """False where dimensions are not declared: sizes are then chosen for the picture."""
     text: str
+    """The circuit in words."""
     slot_turn: float = 0.0
+    """Angle about the slot's direction by which the slot, in the zero pose, runs aside from the line from `slot_at`
+    to `pin_at` [rad]: 0 unless starting angles are declared."""
     pins_at: Sequence[Vector] = ()
+    """Middles of all pins in round holes, and of these, in the zero pose [mm]; none of a pin in a slot."""
     holes_at: Sequence[Vector] = ()
+    """Middles of all pins in round holes, and of these, in the zero pose [mm]; none of a pin in a slot."""
     pin_diameter: float = 0.0
+    """Diameters of such pins and holes [mm]; 0 of a pin in a slot."""
     hole: float = 0.0
+    """Diameters of such pins and holes [mm]; 0 of a pin in a slot."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneShiftElement:
     """A brake or a clutch.
-
-    Attributes
-    ----------
-    id, kind : str
-        Its name, and brake or clutch.
-    bodies : sequence of int
-        Indices of what it holds to the frame, or of the two that it joins.
-    closed : bool
-        Whether it is closed in this state.
-    text : str
-        What it is and does, such as `B brakes ring`.
 
     See Also
     --------
@@ -374,28 +292,20 @@ class SceneShiftElement:
     """
 
     id: str
+    """Its name, and brake or clutch."""
     kind: Literal["brake", "clutch"]
+    """Its name, and brake or clutch."""
     bodies: Sequence[int]
+    """Indices of what it holds to the frame, or of the two that it joins."""
     closed: bool
+    """Whether it is closed in this state."""
     text: str
+    """What it is and does, such as `B brakes ring`."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneWave:
     """What bends a thin wheel into its ring as it goes round; wheel and wall of its cup stand about one axis with it.
-
-    Attributes
-    ----------
-    wheel, by : int
-        Indices of the wheel, and of the body whose angle is the wave's.
-    towards : tuple of float
-        Unit vector across the axis: to the first lobe in the zero pose.
-    rise : float
-        How far the middle line of the wheel's wall goes out at a lobe, and in between lobes [mm].
-    lobes : int
-        How many of them.
-    middle, wall : float
-        Radius of that line in the round wheel, and the thickness of its wall [mm].
 
     See Also
     --------
@@ -403,9 +313,16 @@ class SceneWave:
     """
 
     wheel: int
+    """Indices of the wheel, and of the body whose angle is the wave's."""
     by: int
+    """Indices of the wheel, and of the body whose angle is the wave's."""
     towards: Vector
+    """Unit vector across the axis: to the first lobe in the zero pose."""
     rise: float
+    """How far the middle line of the wheel's wall goes out at a lobe, and in between lobes [mm]."""
     lobes: int
+    """How many of them."""
     middle: float
+    """Radius of that line in the round wheel, and the thickness of its wall [mm]."""
     wall: float
+    """Radius of that line in the round wheel, and the thickness of its wall [mm]."""

@@ -33,19 +33,6 @@ if TYPE_CHECKING:
 class ErrorLawTable(Result):
     """The periodic error of a gear pair or a pin in a slot, as polynomials between breaks.
 
-    Attributes
-    ----------
-    pair : str
-        The pair, the first of those that share the law.
-    period : float
-        Of the driver's angle [rad].
-    breaks : array of float, (n + 1,)
-        Of the driver's angle, from 0 to the period [rad].
-    coefficients : array of float, (n, degree + 1)
-        Of the driven side's error [rad], in powers of the driver's angle less the middle of its cell.
-    uncertainty : float
-        Greatest error of the table [rad].
-
     See Also
     --------
     Movement : holds it.
@@ -60,10 +47,16 @@ class ErrorLawTable(Result):
     )
 
     pair: str
+    """The pair, the first of those that share the law."""
     period: float
+    """Of the driver's angle [rad]."""
     breaks: Floats
+    """Of the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
+    """Of the driven side's error [rad], in powers of the driver's angle less the middle of its cell. Shape (n,
+    degree + 1)."""
     uncertainty: float
+    """Greatest error of the table [rad]."""
 
     @property
     def packed_breaks(self) -> str:
@@ -86,58 +79,36 @@ class ErrorSource:
 
     and the pair adds sense law(S) to what it drives.
 
-    Attributes
-    ----------
-    pair : str
-        Name of the gear pair or coupling.
-    law : int
-        Index of its law in the movement.
-    driver, carrier : int
-        Indices of bodies.
-    driver_sense, carrier_sense : int
-        1 or -1: how the errors of these bodies count in the pair's own sense.
-    cycles : str
-        Periods of the law in a turn of the lead, exact.
-    start : float
-        S at the start [rad].
-    forward : int
-        1 or -1: the sense in which the driver turns.
-    sense : int
-        1 or -1: the sign with which the law counts.
-
     See Also
     --------
     Movement : holds it.
     """
 
     pair: str
+    """Name of the gear pair or coupling."""
     law: int
+    """Index of its law in the movement."""
     driver: int
+    """Indices of bodies."""
     carrier: int
+    """Indices of bodies."""
     driver_sense: int
+    """1 or -1: how the errors of these bodies count in the pair's own sense."""
     carrier_sense: int
+    """1 or -1: how the errors of these bodies count in the pair's own sense."""
     cycles: str
+    """Periods of the law in a turn of the lead, exact."""
     start: float
+    """S at the start [rad]."""
     forward: int
+    """1 or -1: the sense in which the driver turns."""
     sense: int
+    """1 or -1: the sign with which the law counts."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep:
     """Errors of some bodies from those known: error[bodies] = from_known error[known] + from_sources delta[sources].
-
-    Attributes
-    ----------
-    bodies, known : sequence of int
-        Indices of bodies: those found in this step, and those it takes from steps before.
-    from_known : sequence of sequence of float
-        Matrix, a row a body found.
-    sources : sequence of int
-        Indices of sources.
-    from_sources : sequence of sequence of float
-        Matrix, a row a body found.
-    coupled : bool
-        True where sources depend on the bodies found: they are found together, by iteration.
 
     See Also
     --------
@@ -145,33 +116,22 @@ class ErrorStep:
     """
 
     bodies: Sequence[int]
+    """Indices of bodies: those found in this step, and those it takes from steps before."""
     known: Sequence[int]
+    """Indices of bodies: those found in this step, and those it takes from steps before."""
     from_known: Sequence[Sequence[float]]
+    """Matrix, a row a body found."""
     sources: Sequence[int]
+    """Indices of sources."""
     from_sources: Sequence[Sequence[float]]
+    """Matrix, a row a body found."""
     coupled: bool
+    """True where sources depend on the bodies found: they are found together, by iteration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Movement:
     """How errors of angles follow from the turns of the lead: the steps in order, then constant offsets.
-
-    Attributes
-    ----------
-    kind : {"exact", "real", "mean", "still"}
-        Nothing ripples; teeth or pins ripple; they would, but cannot be followed; no speed is determined.
-    why : str
-        Why it is mean or still.
-    period : str or None
-        Turns of the lead after which all stands as before, exact; None where nothing repeats.
-    laws : sequence of ErrorLawTable
-        Laws, those of pairs alike once.
-    sources : sequence of ErrorSource
-        The pairs that have them.
-    steps : sequence of ErrorStep
-        In the order in which they can be taken.
-    offsets : mapping of str to float
-        Constant errors by the index of the body [rad].
 
     See Also
     --------
@@ -179,12 +139,19 @@ class Movement:
     """
 
     kind: str
+    """Nothing ripples; teeth or pins ripple; they would, but cannot be followed; no speed is determined."""
     why: str = ""
+    """Why it is mean or still."""
     period: str | None = None
+    """Turns of the lead after which all stands as before, exact; None where nothing repeats."""
     laws: Sequence[ErrorLawTable] = ()
+    """Laws, those of pairs alike once."""
     sources: Sequence[ErrorSource] = ()
+    """The pairs that have them."""
     steps: Sequence[ErrorStep] = ()
+    """In the order in which they can be taken."""
     offsets: Mapping[str, float] = field(default_factory=dict)
+    """Constant errors by the index of the body [rad]."""
 
 
 TOLERANCE = 1e-11  # of a driven pitch
@@ -268,18 +235,17 @@ _TRIED = 257  # positions at which pairs that depend on each other are tried
 
 @dataclass(frozen=True, slots=True)
 class InitialPosition:
-    """How a pair that ripples stands at the beginning.
-
-    driver    its link; `forward` 1, or -1 where it turns against its body's direction
-    S, error  its forward angle, and the error of the driven side there (rad)
-    law       of the pair
-    """
+    """How a pair that ripples stands at the beginning."""
 
     driver: str
+    """Its link; `forward` 1, or -1 where it turns against its body's direction."""
     forward: int
     S: float
+    """Its forward angle, and the error of the driven side there (rad)."""
     error: float
+    """Its forward angle, and the error of the driven side there (rad)."""
     law: ToothLaw
+    """Of the pair."""
 
     def error_past(self, shift: float) -> float:
         """The least error (rad) with which a driven tooth that moves by this law is never cut by its driver's, where
@@ -295,19 +261,17 @@ class InitialPosition:
 
 @dataclass(frozen=True, slots=True)
 class MovementStart:
-    """The movement, and the pose at its beginning.
-
-    back     the movement against the declared sense of the lead, on the other flanks; None where it is the same
-    rest     angle A of each link about its body's direction after no turn (rad)
-    driving  by pair or coupling that ripples
-    """
+    """The movement, and the pose at its beginning."""
 
     movement: Movement
     rest: Mapping[str, float]
+    """Angle A of each link about its body's direction after no turn (rad)."""
     driving: Mapping[str, InitialPosition] = field(default_factory=dict)
+    """By pair or coupling that ripples."""
     motion: Motion | None = None
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
+    """The movement against the declared sense of the lead, on the other flanks; None where it is the same."""
 
 
 def find_movement(stage: SceneContext) -> MovementStart:

@@ -28,34 +28,32 @@ _DASHES: tuple[Dash, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """Colours as #rrggbb by what they are for.
-
-    desk     behind papers: the ground of a page
-    paper    what is drawn and written on
-    ink      lines and words
-    quiet    words that step back
-    line     lines that step back: grids, borders
-    accent   headings and links of a page
-    fault    what is wrong
-    fill     faces of what a picture is of; `shade` where they turn away; `band`, of what flows or is marked
-    scale    of values, from the least to the greatest; what lies between is mixed
-    series   ten, in order
-    areas    colour and matplotlib's hatch of areas of the series, where that is not plainly their colour
-    """
+    """Colours as #rrggbb by what they are for."""
 
     desk: str
+    """Behind papers: the ground of a page."""
     paper: str
+    """What is drawn and written on."""
     ink: str
+    """Lines and words."""
     quiet: str
+    """Words that step back."""
     line: str
+    """Lines that step back: grids, borders."""
     accent: str
+    """Headings and links of a page."""
     fault: str
+    """What is wrong."""
     fill: str
+    """Faces of what a picture is of; `shade` where they turn away; `band`, of what flows or is marked."""
     shade: str
     band: str
     scale: tuple[str, str, str]
+    """Of values, from the least to the greatest; what lies between is mixed."""
     series: tuple[str, ...]
+    """Ten, in order."""
     areas: tuple[tuple[str, str], ...] = ()
+    """Colour and matplotlib's hatch of areas of the series, where that is not plainly their colour."""
 
     @property
     def css(self) -> str:

@@ -23,13 +23,11 @@ _ROUNDS, _SETTLED = 500, 1e-14  # of fixed-point iteration, for pairs that depen
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Angles A of all bodies about their directions (rad, whole turns left out), and where that brings them.
-
-    turned   (bodies, 3, 3) rotations; moved (bodies, 3), mm: a point p of the zero pose goes to turned p + moved
-    """
+    """Angles A of all bodies about their directions (rad, whole turns left out), and where that brings them."""
 
     angles: Floats
     turned: Floats
+    """(bodies, 3, 3) rotations; moved (bodies, 3), mm: a point p of the zero pose goes to turned p + moved."""
     moved: Floats
 
     def point(self, body: int, point: object) -> Floats:

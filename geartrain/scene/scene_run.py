@@ -38,15 +38,6 @@ TimeRun: TypeAlias = Any
 class LinkCourse(Result):
     """The angle of a link through time.
 
-    Attributes
-    ----------
-    rate : float
-        Its mean speed about its declared axis [rad/s].
-    samples : array of int, (n,)
-        Numbers of the samples that are kept.
-    angles : array of float, (n,)
-        By how much it has turned since the start, less `rate` times the time [rad].
-
     See Also
     --------
     SceneRun : holds one for each body.
@@ -55,8 +46,11 @@ class LinkCourse(Result):
     KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
 
     rate: float
+    """Its mean speed about its declared axis [rad/s]."""
     samples: Ints
+    """Numbers of the samples that are kept. Shape (n,)."""
     angles: Floats
+    """By how much it has turned since the start, less `rate` times the time [rad]. Shape (n,)."""
 
     @property
     def packed_samples(self) -> str:
@@ -72,29 +66,6 @@ class LinkCourse(Result):
 @dataclass(frozen=True, slots=True)
 class SceneContact(Result):
     """What teeth, a pin or an escapement do through time.
-
-    Attributes
-    ----------
-    name : str
-        The pair or coupling; of an escapement its link.
-    kind : {"pair", "pin", "escapement"}
-        What it is.
-    body : int
-        Index of the body with which the place of its contact moves.
-    at : tuple of float
-        That place in the zero pose [mm].
-    apart, coast : float
-        Shares of time in which no flank touches, and on the coast flank.
-    blows : float
-        Impacts a second [1/s].
-    hardest : float
-        Greatest closing speed of one, of the driven side [rad/s].
-    changes : array of int, (n,)
-        Samples from which `states` hold.
-    states : str
-        One letter each: `d` on the drive flank, `c` on the coast flank, `a` apart; empty where that is not known.
-    blow_times, blow_speeds : array of float, (m,)
-        Impacts: time since what is shown began [s], closing speed of the driven side [rad/s].
 
     See Also
     --------
@@ -117,17 +88,29 @@ class SceneContact(Result):
     )
 
     name: str
+    """The pair or coupling; of an escapement its link."""
     kind: str
+    """What it is."""
     body: int
+    """Index of the body with which the place of its contact moves."""
     at: Vector
+    """That place in the zero pose [mm]."""
     apart: float
+    """Shares of time in which no flank touches, and on the coast flank."""
     coast: float
+    """Shares of time in which no flank touches, and on the coast flank."""
     blows: float
+    """Impacts a second [1/s]."""
     hardest: float
+    """Greatest closing speed of one, of the driven side [rad/s]."""
     changes: Ints
+    """Samples from which `states` hold. Shape (n,)."""
     states: str
+    """One letter each: `d` on the drive flank, `c` on the coast flank, `a` apart; empty where that is not known."""
     blow_times: Floats
+    """Impacts: time since what is shown began [s], closing speed of the driven side [rad/s]. Shape (m,)."""
     blow_speeds: Floats
+    """Impacts: time since what is shown began [s], closing speed of the driven side [rad/s]. Shape (m,)."""
 
     @property
     def packed_changes(self) -> str:
@@ -149,54 +132,39 @@ class SceneContact(Result):
 class SceneRun(Result):
     """A train in time, ready to be played; angles in rad, times in s.
 
-    Attributes
-    ----------
-    driven : {"rate", "torque", "spring", "hand"}
-        What drives it.
-    link : str
-        Where power enters.
-    rate : float
-        Mean speed of the lead [rad/s].
-    period : float
-        In which the lead would turn once at that speed [s].
-    skip, duration : float
-        Time before what is shown, and of what is shown [s].
-    step : float
-        From one sample of the simulation to the next [s].
-    tolerance : float
-        Within which angles are those of the simulation [rad].
-    torque : float
-        Mean torque where power enters [N m].
-    complete : bool
-        False if the simulation was stopped before its end.
-    links : sequence of LinkCourse
-        Angles, in the order of bodies.
-    contacts : sequence of SceneContact
-        Teeth, pins and the escapement.
-    leads : sequence of geartrain.simulation.OutputLead
-        How far outputs are ahead of `motion` and behind.
-    notes : sequence of str
-        What is left out, and what is drawn as one.
-
     See Also
     --------
     make_scene : gives it, in `Scene.run`.
     """
 
     driven: str
+    """What drives it."""
     link: str
+    """Where power enters."""
     rate: float
+    """Mean speed of the lead [rad/s]."""
     period: float
+    """In which the lead would turn once at that speed [s]."""
     skip: float
+    """Time before what is shown, and of what is shown [s]."""
     duration: float
+    """Time before what is shown, and of what is shown [s]."""
     step: float
+    """From one sample of the simulation to the next [s]."""
     tolerance: float
+    """Within which angles are those of the simulation [rad]."""
     torque: float
+    """Mean torque where power enters [N m]."""
     complete: bool
+    """False if the simulation was stopped before its end."""
     links: Sequence[LinkCourse]
+    """Angles, in the order of bodies."""
     contacts: Sequence[SceneContact]
+    """Teeth, pins and the escapement."""
     leads: Sequence[Annotated[Any, WingResult("simulation", "OutputLead")]]
+    """How far outputs are ahead of `motion` and behind."""
     notes: Sequence[str]
+    """What is left out, and what is drawn as one."""
 
 
 # ------------------------------------------------------------------------------------------------- from a simulated run

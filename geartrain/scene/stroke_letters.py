@@ -18,14 +18,12 @@ from math import cos, sin
 
 @dataclass(frozen=True, slots=True)
 class HandOutline:
-    """A hand along x from its axis, its tip at 1.
-
-    reach      its length over the radius of the scale on which it is read
-    stations   (x, half its width there) from the tail to the tip, over its length
-    """
+    """A hand along x from its axis, its tip at 1."""
 
     reach: float
+    """Its length over the radius of the scale on which it is read."""
     stations: tuple[tuple[float, float], ...]
+    """(x, half its width there) from the tail to the tip, over its length."""
 
 
 HANDS: Mapping[str, HandOutline] = {
@@ -205,14 +203,12 @@ def text_length(text: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class CurvedLine:
-    """A line along which text runs: round the middle at some radius, at an angle clockwise from above (rad).
-
-    inwards   its letters have their feet outside: so it is read where it runs below the middle
-    """
+    """A line along which text runs: round the middle at some radius, at an angle clockwise from above (rad)."""
 
     radius: float
     angle: float
     inwards: bool = False
+    """Its letters have their feet outside: so it is read where it runs below the middle."""
 
 
 def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:

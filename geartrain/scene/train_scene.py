@@ -41,70 +41,47 @@ FORMAT = 1
 class DialFace:
     """A scale over which pointers turn.
 
-    Attributes
-    ----------
-    id : str
-        Its name.
-    body : int
-        Index of the body on which it stands.
-    face : str
-        front or back, or a name of its own.
-    centre : tuple of float
-        Its middle [mm].
-    normal, zero : tuple of float
-        Unit vectors: the way its face looks, and from the middle to its zero mark.
-    radius : float
-        Of all that is engraved [mm].
-    scale : DialScale
-        Its divisions, over its radius.
-    look : {"scale", "ball"}
-        A scale with a pointer, or a ball in the pointer of the link on which it stands: then `radius` is that of the
-        ball, `normal` the direction of the axis about which it turns, through its middle.
-    note : str
-        As declared.
-    plate : float
-        Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made.
-    seated : bool
-        Whether it turns on the end of an arbor or pipe, with a hand of the dial below it.
-    title : str
-        What stands over it: its name, and in brackets the outputs read on it where the dial stands about several axes.
-    engraving : sequence of (str, float, sequence of sequence of int)
-        What is engraved: rim, fine, bold or letters, the width of lines over the radius, and lines in 4,000ths of it:
-        x to the reader's right and y to the zero mark, first from the middle, then from point to point.
-
     See Also
     --------
     make_scene : gives it, in `Scene.dials`.
     """
 
     id: str
+    """Its name."""
     body: int
+    """Index of the body on which it stands."""
     face: str
+    """Front or back, or a name of its own."""
     centre: Vector
+    """Its middle [mm]."""
     normal: Vector
+    """Unit vectors: the way its face looks, and from the middle to its zero mark."""
     zero: Vector
+    """Unit vectors: the way its face looks, and from the middle to its zero mark."""
     radius: float
+    """Of all that is engraved [mm]."""
     scale: DialScale
+    """Its divisions, over its radius."""
     look: Literal["scale", "ball"] = "scale"
+    """A scale with a pointer, or a ball in the pointer of the link on which it stands: then `radius` is that of the
+    ball, `normal` the direction of the axis about which it turns, through its middle."""
     note: str = ""
+    """As declared."""
     plate: float = 0.0
+    """Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made."""
     seated: bool = False
+    """Whether it turns on the end of an arbor or pipe, with a hand of the dial below it."""
     title: str = ""
+    """What stands over it: its name, and in brackets the outputs read on it where the dial stands about several
+    axes."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
+    """What is engraved: rim, fine, bold or letters, the width of lines over the radius, and lines in 4,000ths of it:
+    x to the reader's right and y to the zero mark, first from the middle, then from point to point."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget:
     """What an output should show.
-
-    Attributes
-    ----------
-    label : str
-        The target in words.
-    speed : str
-        Over the lead's, exact; of a target without a sense, in that of the output.
-    source : str
-        Key of its source; empty where it names none.
 
     See Also
     --------
@@ -112,26 +89,16 @@ class PointerTarget:
     """
 
     label: str
+    """The target in words."""
     speed: str
+    """Over the lead's, exact; of a target without a sense, in that of the output."""
     source: str = ""
+    """Key of its source; empty where it names none."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneEpoch:
     """The date at which the lead has made some turns, and what a turn lasts.
-
-    Attributes
-    ----------
-    julian_day : str
-        Of that date, exact [d].
-    turns : str
-        That the lead has made by then, exact.
-    days : str
-        That one turn of the lead lasts, exact; negative where the lead turns against its positive sense.
-    calendar : str or None
-        In which dates are told; None for Julian before 1582-10-15 and Gregorian from then on.
-    source, note : str
-        As declared.
 
     See Also
     --------
@@ -139,49 +106,22 @@ class SceneEpoch:
     """
 
     julian_day: str
+    """Of that date, exact [d]."""
     turns: str
+    """That the lead has made by then, exact."""
     days: str
+    """That one turn of the lead lasts, exact; negative where the lead turns against its positive sense."""
     calendar: str | None
+    """In which dates are told; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
+    """As declared."""
     note: str
+    """As declared."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pointer:
     """An output as a pointer.
-
-    Attributes
-    ----------
-    output : str
-        Its name.
-    body, base : int
-        Indices of the body that turns and of the one from which it is seen.
-    dial : int or None
-        Index of its dial; None for an output without one, which gets a small one of its own in the picture.
-    speed : str or None
-        Over the lead's, exact; None where it is not determined.
-    shown, decimal : str or None, str
-        Its speed at the declared inputs, in the train's unit: exact, and rounded.
-    sense : int
-        1 where a positive angle is clockwise for one who reads the dial, -1 where it is counter-clockwise.
-    text : str
-        What it shows, in words.
-    pairs : sequence of str
-        Names of the pairs and couplings on which the output depends, in order from the input.
-    bodies, wheels : sequence of int
-        The same as indices of bodies and of wheels.
-    note : str
-        As declared.
-    targets : sequence of PointerTarget
-        What it should show, in the order declared; none where nothing is driven, or it is not determined.
-    level : float
-        How high the middle of its hand stands over its dial [mm].
-    seat : float
-        Diameter of the arbor or pipe on whose end the hand sits [mm]; 0 where none is made.
-    reach : float
-        Length of its hand over the radius of its scale.
-    outline : sequence of (float, float)
-        Of its hand, over its length: how far from the axis, and half its width there; none without a dial.
 
     See Also
     --------
@@ -189,86 +129,46 @@ class Pointer:
     """
 
     output: str
+    """Its name."""
     body: int
+    """Indices of the body that turns and of the one from which it is seen."""
     base: int
+    """Indices of the body that turns and of the one from which it is seen."""
     dial: int | None
+    """Index of its dial; None for an output without one, which gets a small one of its own in the picture."""
     speed: str | None
+    """Over the lead's, exact; None where it is not determined."""
     shown: str | None
+    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
     decimal: str
+    """Its speed at the declared inputs, in the train's unit: exact, and rounded."""
     sense: int
+    """1 where a positive angle is clockwise for one who reads the dial, -1 where it is counter-clockwise."""
     text: str
+    """What it shows, in words."""
     pairs: Sequence[str]
+    """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
+    """The same as indices of bodies and of wheels."""
     wheels: Sequence[int]
+    """The same as indices of bodies and of wheels."""
     note: str = ""
+    """As declared."""
     targets: Sequence[PointerTarget] = ()
+    """What it should show, in the order declared; none where nothing is driven, or it is not determined."""
     level: float = 0.0
+    """How high the middle of its hand stands over its dial [mm]."""
     seat: float = 0.0
+    """Diameter of the arbor or pipe on whose end the hand sits [mm]; 0 where none is made."""
     reach: float = 0.0
+    """Length of its hand over the radius of its scale."""
     outline: Sequence[tuple[float, float]] = ()
+    """Of its hand, over its length: how far from the axis, and half its width there; none without a dial."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
     """A train in one state, ready to be drawn: plain data, in mm and rad.
-
-    Attributes
-    ----------
-    name, title, note : str
-        Of the train, as declared.
-    state : str or None
-        The state; None where the train has none.
-    unit, positive : str
-        Unit of speeds, and the declared sense of a positive one.
-    front : int
-        Side of z from which it is looked at, 1 or -1.
-    lead, crank : int or None
-        Indices of the body whose turns are given, and of that at which a hand would turn it.
-    step : str
-        Turns of the lead in one unit of the input, exact.
-    verdict : mapping
-        kind, text, the offending loops: {"pairs": [...], "links": [...], "text": ...}, and "advice", a list of
-        sentences that say what would free it.
-    bodies : sequence of SceneBody
-        Links, in the order declared, which is that of indices.
-    wheels : sequence of SceneWheel
-        In the order declared, which is that of indices.
-    profiles : sequence of ToothProfile
-        Tooth forms that wheels share.
-    pairs : sequence of ScenePair
-        Gear pairs.
-    couplings : sequence of SceneCoupling
-        Pins in slots.
-    dials : sequence of DialFace
-        Scales.
-    pointers : sequence of Pointer
-        Outputs; of a train that declares none, its links, a hundred at most.
-    movement : Movement
-        How angles differ from exact ones, for positive turns.
-    sources : mapping of str to mapping
-        Citations by key.
-    notices : sequence of mapping
-        What could not be placed or followed, and why: {"what", "why", "fix", "place"}.
-    back : Movement or None
-        The movement while the lead turns against its declared sense, on the other flanks; None where it is the same.
-    unit_days : str or None
-        Length of the unit in days, exact, where it is a time; None elsewhere.
-    elements : sequence of SceneShiftElement
-        Brakes and clutches, in the order declared; which are closed.
-    epoch : SceneEpoch or None
-        A date for turns of the lead, where one is declared.
-    formulas : SceneFormulas or None
-        Speeds as functions of tooth counts, where they were asked for and there are any.
-    asks : bool
-        False where no output is declared, and links stand for outputs.
-    run : SceneRun or None
-        The simulated motion through time, which is then played; None where the train is turned by its crank.
-    parts : sequence of ScenePart
-        Plates, pillars, arbors, pipes and all else that holds the wheels, of a train as built; else none.
-    hangers : sequence of SceneHanger
-        The pendulum and the weight of a train as built that declares them; else none.
-    waves : sequence of SceneWave
-        What bends thin wheels into their rings.
 
     See Also
     --------
@@ -276,36 +176,68 @@ class Scene:
     """
 
     name: str
+    """Of the train, as declared."""
     title: str
+    """Of the train, as declared."""
     note: str
+    """Of the train, as declared."""
     state: str | None
+    """The state; None where the train has none."""
     unit: str
+    """Unit of speeds, and the declared sense of a positive one."""
     positive: str
+    """Unit of speeds, and the declared sense of a positive one."""
     front: int
+    """Side of z from which it is looked at, 1 or -1."""
     lead: int | None
+    """Indices of the body whose turns are given, and of that at which a hand would turn it."""
     crank: int | None
+    """Indices of the body whose turns are given, and of that at which a hand would turn it."""
     step: str
+    """Turns of the lead in one unit of the input, exact."""
     verdict: Mapping[str, Any]
+    """Kind, text, the offending loops: {"pairs": [...], "links": [...], "text": ...}, and "advice", a list of
+    sentences that say what would free it."""
     bodies: Sequence[SceneBody]
+    """Links, in the order declared, which is that of indices."""
     wheels: Sequence[SceneWheel]
+    """In the order declared, which is that of indices."""
     profiles: Sequence[ToothProfile]
+    """Tooth forms that wheels share."""
     pairs: Sequence[ScenePair]
+    """Gear pairs."""
     couplings: Sequence[SceneCoupling]
+    """Pins in slots."""
     dials: Sequence[DialFace]
+    """Scales."""
     pointers: Sequence[Pointer]
+    """Outputs; of a train that declares none, its links, a hundred at most."""
     movement: Movement
+    """How angles differ from exact ones, for positive turns."""
     sources: Mapping[str, Mapping[str, str]]
+    """Citations by key."""
     notices: Sequence[Mapping[str, str]]
+    """What could not be placed or followed, and why: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
+    """The movement while the lead turns against its declared sense, on the other flanks; None where it is the same."""
     unit_days: str | None = None
+    """Length of the unit in days, exact, where it is a time; None elsewhere."""
     elements: Sequence[SceneShiftElement] = ()
+    """Brakes and clutches, in the order declared; which are closed."""
     epoch: SceneEpoch | None = None
+    """A date for turns of the lead, where one is declared."""
     formulas: SceneFormulas | None = None
+    """Speeds as functions of tooth counts, where they were asked for and there are any."""
     asks: bool = True
+    """False where no output is declared, and links stand for outputs."""
     run: SceneRun | None = None
+    """The simulated motion through time, which is then played; None where the train is turned by its crank."""
     parts: Sequence[ScenePart] = ()
+    """Plates, pillars, arbors, pipes and all else that holds the wheels, of a train as built; else none."""
     hangers: Sequence[SceneHanger] = ()
+    """The pendulum and the weight of a train as built that declares them; else none."""
     waves: Sequence[SceneWave] = ()
+    """What bends thin wheels into their rings."""
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""

@@ -15,17 +15,6 @@ from geartrain.numerics.results import Key, Result
 class Shortfall(Result):
     """Where candidates went: the infeasibility certificate of an empty or short list.
 
-    Attributes
-    ----------
-    considered : int
-        Candidates there were before any constraint.
-    removed : mapping of str to int, optional
-        Reason -> candidates it removed; each candidate is charged to the first reason that refuses it.
-    nearest : str
-        The nearest miss in words, with its teeth and its error; empty where something was found.
-    advice : str
-        What to relax, and what that would give; empty where something was found.
-
     See Also
     --------
     geartrain.search.find_stages, geartrain.search.find_sets : whose findings hold one.
@@ -34,9 +23,13 @@ class Shortfall(Result):
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
 
     considered: int = 0
+    """Candidates there were before any constraint."""
     removed: Mapping[str, int] | None = None
+    """Reason -> candidates it removed; each candidate is charged to the first reason that refuses it."""
     nearest: str = ""
+    """The nearest miss in words, with its teeth and its error; empty where something was found."""
     advice: str = ""
+    """What to relax, and what that would give; empty where something was found."""
 
     @property
     def removals(self) -> Mapping[str, int]:
@@ -74,17 +67,6 @@ class CountSizes(ABC):
 class GearStages(CountSizes, Result):
     """Tooth numbers of one ratio: the counts on top over the counts beneath, each an unordered set.
 
-    Attributes
-    ----------
-    top, beneath : tuple of int
-        Counts, ascending, as many as there are stages.
-    ratio : Fraction
-        Product of `top` over product of `beneath`, exact; positive.
-    error : Fraction
-        `ratio` over the wanted magnitude, less 1; exact.
-    pairs : tuple of (int, int)
-        The stages as they are best paired: count on top, count beneath.
-
     See Also
     --------
     find_stages : finds them.
@@ -103,10 +85,15 @@ class GearStages(CountSizes, Result):
     )
 
     top: tuple[int, ...]
+    """Counts, ascending, as many as there are stages."""
     beneath: tuple[int, ...]
+    """Counts, ascending, as many as there are stages."""
     ratio: Fraction
+    """Product of `top` over product of `beneath`, exact; positive."""
     error: Fraction
+    """`ratio` over the wanted magnitude, less 1; exact."""
     pairs: tuple[tuple[int, int], ...]
+    """The stages as they are best paired: count on top, count beneath."""
 
     @property
     def teeth(self) -> tuple[int, ...]:

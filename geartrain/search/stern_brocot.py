@@ -30,16 +30,6 @@ _MOST_LISTED = 10**5
 class Approximant(Result):
     """A fraction on the walk to a number.
 
-    Attributes
-    ----------
-    value : Fraction
-        The fraction, positive.
-    error : Fraction
-        `value` over the number, less 1; exact.
-    kind : {"convergent", "best", "intermediate"}
-        "convergent": of the continued fraction. "best": no convergent, but nearer than every other positive fraction
-        whose denominator is not larger (a best approximation of the first kind). "intermediate": neither.
-
     See Also
     --------
     approximants : lists them.
@@ -48,40 +38,40 @@ class Approximant(Result):
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
 
     value: Fraction
+    """The fraction, positive."""
     error: Fraction
+    """`value` over the number, less 1; exact."""
     kind: ApproximantKind
+    """"convergent": of the continued fraction. "best": no convergent, but nearer than every other positive fraction
+    whose denominator is not larger (a best approximation of the first kind). "intermediate": neither."""
 
 
 @dataclass(frozen=True, slots=True)
 class Approximants(Result):
-    """The fractions on the way to a ratio, each nearer than all smaller ones.
-
-    wanted     the ratio
-    most       the greatest numerator and denominator
-    solutions  in the order of the walk
-    """
+    """The fractions on the way to a ratio, each nearer than all smaller ones."""
 
     wanted: TargetRatio
+    """The ratio."""
     most: int
+    """The greatest numerator and denominator."""
     solutions: tuple[Approximant, ...]
+    """In the order of the walk."""
 
 
 @dataclass(frozen=True, slots=True)
 class SternBrocotRun:
-    """A straight run of the walk: the fractions (p + k P)/(q + k Q) for k from 1 to `length`, from p/q towards P/Q.
-
-    near    (p, q), the end on the side of the run's fractions
-    far     (P, Q), the end beyond the number
-    whole   length the run would have without bounds: a term of the continued fraction; there the convergent stands
-    length  length within the bounds
-    best    least k whose fraction is a best one of the first kind, and all after it are; `length` + 1 if none is
-    """
+    """A straight run of the walk: the fractions (p + k P)/(q + k Q) for k from 1 to `length`, from p/q towards P/Q."""
 
     near: IntegerPair
+    """(p, q), the end on the side of the run's fractions."""
     far: IntegerPair
+    """(P, Q), the end beyond the number."""
     whole: int
+    """Length the run would have without bounds: a term of the continued fraction; there the convergent stands."""
     length: int
+    """Length within the bounds."""
     best: int
+    """Least k whose fraction is a best one of the first kind, and all after it are; `length` + 1 if none is."""
 
     def at(self, k: int) -> Fraction:
         """The fraction of place k."""

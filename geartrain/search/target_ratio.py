@@ -39,17 +39,6 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 class TargetRatio(Result):
     """A ratio that tooth numbers are to make; `read_ratio` reads it from a text.
 
-    Attributes
-    ----------
-    value : Fraction
-        Its magnitude, exact, above 0: teeth on top over teeth beneath.
-    sense : {-1, 0, 1}
-        1 for an output that turns with the input, -1 against it, 0 where that is not asked.
-    label : str
-        The ratio as it was asked for.
-    note : str
-        Where the number comes from, with its source.
-
     Raises
     ------
     QuestionError
@@ -64,9 +53,13 @@ class TargetRatio(Result):
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
+    """Its magnitude, exact, above 0: teeth on top over teeth beneath."""
     sense: Literal[-1, 0, 1] = 0
+    """1 for an output that turns with the input, -1 against it, 0 where that is not asked."""
     label: str = ""
+    """The ratio as it was asked for."""
     note: str = ""
+    """Where the number comes from, with its source."""
 
     def __post_init__(self) -> None:
         if self.value <= 0:

@@ -125,16 +125,15 @@ def read_tolerance(text: str | None) -> Fraction | None:
 
 @dataclass(frozen=True)
 class SearchAnswer:
-    """Where the solutions of a search go, and in which form.
-
-    csv, json   what is printed
-    pick        which solution is written as a declaration, from 1
-    """
+    """Where the solutions of a search go, and in which form."""
 
     csv: bool
+    """What is printed."""
     json: bool
+    """What is printed."""
     out: Sink
     pick: int = 1
+    """Which solution is written as a declaration, from 1."""
 
     @classmethod
     def of(cls, csv: bool, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:

@@ -31,11 +31,6 @@ class CountRuns(Sequence[int]):
     A sequence of integers in every respect: it iterates in ascending order, has a length, and can be indexed.
     `read_counts` makes it of a text, `CountRuns.of` of any counts.
 
-    Attributes
-    ----------
-    spans : tuple of (int, int)
-        First and last count of each run, both included; ascending, and no two of them touch.
-
     Examples
     --------
     >>> counts = CountRuns.of([48, 12, 13, 14])
@@ -44,6 +39,7 @@ class CountRuns(Sequence[int]):
     """
 
     spans: tuple[tuple[int, int], ...]
+    """First and last count of each run, both included; ascending, and no two of them touch."""
     _before: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

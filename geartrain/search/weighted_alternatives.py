@@ -29,16 +29,14 @@ Node = TypeVar("Node", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Alternative(Generic[Node]):
-    """One way on from a node.
-
-    weight  its own, not negative
-    tells   what holds where it is chosen; no whole tells the same twice
-    parts   nodes, at each of which one alternative is chosen independently
-    """
+    """One way on from a node."""
 
     weight: int
+    """Its own, not negative."""
     tells: tuple[Hashable, ...] = ()
+    """What holds where it is chosen; no whole tells the same twice."""
     parts: tuple[Node, ...] = ()
+    """Nodes, at each of which one alternative is chosen independently."""
 
     def below(self, inside: Mapping[Node, int]) -> list[int]:
         """Of each part the inside sum."""
@@ -65,20 +63,18 @@ class Alternative(Generic[Node]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AlternativeRows(Generic[Node]):
-    """All ways on from the rows of a table, one a row of arrays.
-
-    weight  (m,) of each, or one for all; may have either sign
-    size    rows of the table
-    owners  (m,) the row of the table that it is a way on from; None: its own
-    leads   its parts: tables, each with (m,) the row in it
-    tells   what is told with several answers, their number, and (m,) which of them it tells
-    """
+    """All ways on from the rows of a table, one a row of arrays."""
 
     weight: Any
+    """(m,) of each, or one for all; may have either sign."""
     size: int
+    """Rows of the table."""
     owners: Ints | None
+    """(m,) the row of the table that it is a way on from; None: its own."""
     leads: tuple[tuple[Node, Ints], ...] = ()
+    """Its parts: tables, each with (m,) the row in it."""
     tells: tuple[tuple[Hashable, int, Ints], ...] = ()
+    """What is told with several answers, their number, and (m,) which of them it tells."""
 
     @property
     def parts(self) -> tuple[Node, ...]:

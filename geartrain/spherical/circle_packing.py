@@ -325,24 +325,24 @@ def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tange
 
 @dataclass(frozen=True)
 class SpherePacking:
-    """Circles on the sphere, centred: the pitch points of all meshes sum to 0.
-
-    axes, cones                of the gears: unit vectors and half-angles (rad)
-    region_axes, region_cones  of the regions: circles through the pitch points round each region
-    meshes                     pairs of gears
-    regions                    gears round each region, counterclockwise from outside
-    residual                   largest error of a tangency or right angle (rad)
-    residuals                  largest residual (rad) of the radii after each Newton step
-    """
+    """Circles on the sphere, centred: the pitch points of all meshes sum to 0."""
 
     axes: Floats
+    """Of the gears: unit vectors and half-angles (rad)."""
     cones: Floats
+    """Of the gears: unit vectors and half-angles (rad)."""
     region_axes: Floats
+    """Of the regions: circles through the pitch points round each region."""
     region_cones: Floats
+    """Of the regions: circles through the pitch points round each region."""
     meshes: tuple[tuple[int, int], ...]
+    """Pairs of gears."""
     regions: tuple[tuple[int, ...], ...]
+    """Gears round each region, counterclockwise from outside."""
     residual: float
+    """Largest error of a tangency or right angle (rad)."""
     residuals: tuple[float, ...]
+    """Largest residual (rad) of the radii after each Newton step."""
 
     @property
     def pitch_points(self) -> Floats:

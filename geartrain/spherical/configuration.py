@@ -41,24 +41,6 @@ class Configuration:
 
     Axes point outwards; angles about them are counterclockwise seen from outside.
 
-    Parameters
-    ----------
-    names : tuple of str
-        Of the gears.
-    axes : array of float, (gears, 3)
-        Unit vectors.
-    meshes : tuple of tuple of int
-        Pairs of gears by index.
-    kinds : tuple of str
-        Of each gear: gears of one kind are alike under the symmetries of the set, and have one tooth number.
-    regular : tuple of int
-        Of each gear: p where its contacts stand at multiples of a p-th of a turn from each other, exactly; 0 where
-        their angles are only known in floats.
-    teeth : mapping of str to int
-        Tooth number of each kind, as far as they are chosen.
-    title : str
-        For a reader.
-
     Examples
     --------
     Three gears on the axes x, y and z; x meshes with the other two:
@@ -70,12 +52,20 @@ class Configuration:
     """
 
     names: tuple[str, ...]
+    """Of the gears."""
     axes: Floats
+    """Unit vectors. Shape (gears, 3)."""
     meshes: tuple[tuple[int, int], ...]
+    """Pairs of gears by index."""
     kinds: tuple[str, ...]
+    """Of each gear: gears of one kind are alike under the symmetries of the set, and have one tooth number."""
     regular: tuple[int, ...]
+    """Of each gear: p where its contacts stand at multiples of a p-th of a turn from each other, exactly; 0 where
+    their angles are only known in floats."""
     teeth: Mapping[str, int] = field(default_factory=dict)
+    """Tooth number of each kind, as far as they are chosen."""
     title: str = ""
+    """For a reader."""
 
     def angle(self, i: int, j: int) -> float:
         """Angle between two axes [rad], 0 to pi.
@@ -162,9 +152,13 @@ class MeshKind:
     """Meshes that are alike: the kinds of their two gears, the angle between the axes (rad), and which they are."""
 
     a: str
+    """Kind of the first gear."""
     b: str
+    """Kind of the second gear."""
     angle: float
+    """Angle between the axes [rad]."""
     meshes: tuple[int, ...]
+    """Indices of the meshes of this kind."""
 
     @property
     def kinds(self) -> tuple[str, str]:

@@ -167,8 +167,11 @@ class TipCollision:
     """
 
     gears: tuple[str, str]
+    """Names of the two gears."""
     room: float
+    """Distance between their pitch circles [modules]; below 0 they overlap."""
     short: float
+    """By how much the distance is too small [modules]."""
 
     def __str__(self) -> str:
         return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} too few"
@@ -178,29 +181,18 @@ class MeshSize(NamedTuple):
     """Sizes of one mesh: its gears, their operating cones (deg), pitch, and pressure angle (deg) if there is one."""
 
     gears: tuple[str, str]
+    """Names of the two gears."""
     cones: tuple[float, float]
+    """Operating pitch cones of the two gears [deg]."""
     pitch: float
+    """Pitch of the teeth."""
     pressure_angle: float | None
+    """Pressure angle [deg]; None where there is none."""
 
 
 @dataclass(frozen=True)
 class SphereSizing(Result):
     """Sizes of a set with teeth. Rows run over the meshes.
-
-    Attributes
-    ----------
-    configuration : Configuration
-        The set.
-    teeth : array of int, (gears,)
-        Of each gear.
-    cones : array of float, (meshes, 2)
-        Operating pitch cones of the first and second gear of each mesh [rad].
-    pitches : array of float, (meshes,)
-        Operating pitch lambda of each mesh [radii of the sphere].
-    base : float
-        Base pitch c that all gears share [radii of the sphere]: base cones are sin g = c z.
-    pressure : array of float, (meshes,)
-        Operating pressure angle of each mesh [rad]; nan where involutes on one base pitch cannot mesh.
 
     See Also
     --------
@@ -218,11 +210,18 @@ class SphereSizing(Result):
     )
 
     configuration: Configuration
+    """The set."""
     teeth: NDArray[np.int64]
+    """Of each gear. Shape (gears,)."""
     cones: Floats
+    """Operating pitch cones of the first and second gear of each mesh [rad]. Shape (meshes, 2)."""
     pitches: Floats
+    """Operating pitch lambda of each mesh [radii of the sphere]. Shape (meshes,)."""
     base: float
+    """Base pitch c that all gears share [radii of the sphere]: base cones are sin g = c z."""
     pressure: Floats
+    """Operating pressure angle of each mesh [rad]; nan where involutes on one base pitch cannot mesh. Shape
+    (meshes,)."""
 
     @property
     def exact(self) -> bool:

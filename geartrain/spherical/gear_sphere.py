@@ -28,15 +28,6 @@ _SPREAD = Key("pitch_spread", "spread")
 class GearSphere(Result):
     """A set of gears on a sphere, and what is asked of it; each part is made when it is first needed.
 
-    Parameters
-    ----------
-    configuration : Configuration
-        The set.
-    radius : float
-        Of the sphere, in the unit of the reader; wheels are sized by it.
-    graph : GraphSet, optional
-        How the set was fitted to a graph, where it was.
-
     Examples
     --------
     20 and 12 teeth on the faces of the icosidodecahedron turn, meet round all 29 loops, and have one pitch:
@@ -67,8 +58,11 @@ class GearSphere(Result):
     )
 
     configuration: Configuration
+    """The set."""
     radius: float = 1.0
+    """Radius of the sphere, in the unit of the reader; wheels are sized by it."""
     graph: GraphSet | None = None
+    """How the set was fitted to a graph, where it was."""
 
     @cached_property
     def chosen(self) -> bool:

@@ -320,23 +320,6 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
 class GraphSet(Result):
     """Gears made from a graph, and what of them is exact.
 
-    Attributes
-    ----------
-    configuration : Configuration
-        Axes, meshes and teeth; every gear is a kind of its own.
-    aim : {"pitch", "phases"}
-        What the axes were moved for.
-    packing : SpherePacking
-        The circles from which the axes were moved; circles past the gears stood in beside idlers.
-    sizing : SphereSizing
-        Cones, pitches and pressure angles.
-    residue : float
-        Largest residue of a loop [pitches].
-    moved : array of float, (gears,)
-        How far each axis moved from the packing [rad].
-    residuals : tuple of float
-        What was left after each step of the fit [rad for pitches, pitches for phases].
-
     See Also
     --------
     from_graph : what gives these.
@@ -353,12 +336,19 @@ class GraphSet(Result):
     )
 
     configuration: Configuration
+    """Axes, meshes and teeth; every gear is a kind of its own."""
     aim: Aim
+    """What the axes were moved for."""
     packing: SpherePacking
+    """The circles from which the axes were moved; circles past the gears stood in beside idlers."""
     sizing: SphereSizing
+    """Cones, pitches and pressure angles."""
     residue: float
+    """Largest residue of a loop [pitches]."""
     moved: Floats
+    """How far each axis moved from the packing [rad]. Shape (gears,)."""
     residuals: tuple[float, ...]
+    """What was left after each step of the fit [rad for pitches, pitches for phases]."""
 
     @property
     def exact(self) -> tuple[str, ...]:

@@ -100,30 +100,22 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 class Polyhedron:
     """A convex polyhedron with the origin inside.
 
-    Attributes
-    ----------
-    vertices : array of float, (vertices, 3)
-        As they were given, in any unit.
-    faces : tuple of tuple of int
-        Vertices of each face by index, counterclockwise seen from outside; faces from the top (z) down, and
-        counterclockwise from x where they are equally high.
-    normals : array of float, (faces, 3)
-        Outward unit normals.
-    heights : array of float, (faces,)
-        Distance of each face's plane from the origin, in the unit of the vertices.
-    name : str
-        For a reader.
-
     See Also
     --------
     polyhedron, solid : what gives these.
     """
 
     vertices: Floats
+    """As they were given, in any unit. Shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
+    """Vertices of each face by index, counterclockwise seen from outside; faces from the top (z) down, and
+    counterclockwise from x where they are equally high."""
     normals: Floats = field(repr=False)
+    """Outward unit normals. Shape (faces, 3)."""
     heights: Floats = field(repr=False)
+    """Distance of each face's plane from the origin, in the unit of the vertices. Shape (faces,)."""
     name: str = ""
+    """For a reader."""
 
     @cached_property
     def _left(self) -> dict[tuple[int, int], int]:

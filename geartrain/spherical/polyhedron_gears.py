@@ -185,18 +185,16 @@ def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All gears a solid gives a place to, before any is left out.
-
-    axes      unit vectors, (gears, 3)
-    letters   of each gear: the number of sides of its face, v for a vertex, e for an edge
-    meshes    pairs of gears by index
-    movement  the symmetries of the solid, acting on the gears
-    """
+    """All gears a solid gives a place to, before any is left out."""
 
     axes: Floats
+    """Unit vectors, (gears, 3)."""
     letters: tuple[str, ...]
+    """Of each gear: the number of sides of its face, v for a vertex, e for an edge."""
     meshes: tuple[tuple[int, int], ...]
+    """Pairs of gears by index."""
     movement: SymmetricFreedom
+    """The symmetries of the solid, acting on the gears."""
 
 
 def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
@@ -404,27 +402,6 @@ def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
 class SurveyRow(Result):
     """Gears on all faces of one solid: a row of the table in section 2 of docs/sphere.md.
 
-    Attributes
-    ----------
-    solid : str
-        Its name.
-    gears, meshes : int
-        Faces, and edges.
-    bipartite : bool
-        Neighbours can turn against each other everywhere: the set moves, with one degree of freedom.
-    gruebler : int
-        Gears less meshes, the degrees of freedom that a count gives.
-    drop : int
-        Least number of meshes to take out so that it moves.
-    types : int
-        Kinds of gear: orbits under the symmetries of the solid.
-    mesh_kinds : int
-        Kinds of mesh, likewise.
-    positions : int
-        Free parameters of the axes while all symmetries are kept.
-    angles : tuple of float
-        Of the meshes [deg], those that differ by more than 1e-9, ascending.
-
     See Also
     --------
     survey : what gives these.
@@ -445,15 +422,25 @@ class SurveyRow(Result):
     )
 
     solid: str
+    """Its name."""
     gears: int
+    """Faces, and edges."""
     meshes: int
+    """Faces, and edges."""
     bipartite: bool
+    """Neighbours can turn against each other everywhere: the set moves, with one degree of freedom."""
     gruebler: int
+    """Gears less meshes, the degrees of freedom that a count gives."""
     drop: int
+    """Least number of meshes to take out so that it moves."""
     types: int
+    """Kinds of gear: orbits under the symmetries of the solid."""
     mesh_kinds: int
+    """Kinds of mesh, likewise."""
     positions: int
+    """Free parameters of the axes while all symmetries are kept."""
     angles: tuple[float, ...]
+    """Of the meshes [deg], those that differ by more than 1e-9, ascending."""
 
     @property
     def exact(self) -> bool:

@@ -24,14 +24,12 @@ _LONGEST = 0.2  # rad, of one step
 
 @dataclass(frozen=True, eq=False)
 class SymmetricFreedom:
-    """The symmetries of a set of axes, and what they leave free.
-
-    matrices  (order, 3, 3)
-    images    where each symmetry takes each gear, by index, (order, gears)
-    """
+    """The symmetries of a set of axes, and what they leave free."""
 
     matrices: Floats
+    """(order, 3, 3)."""
     images: Ints
+    """Where each symmetry takes each gear, by index, (order, gears)."""
 
     def orbits(self) -> Ints:
         """For each gear the first gear of its orbit."""

@@ -162,35 +162,25 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 class ToothCountCompromise:
     """One set of tooth numbers.
 
-    Attributes
-    ----------
-    teeth : mapping of str to int
-        Of each kind.
-    mismatch : float
-        ln(pitch of the first kind of mesh / pitch of the second); with more kinds, ln(greatest / least).
-    pitches : tuple of float
-        Operating pitch of each kind of mesh [radii of the sphere].
-    cones : tuple of tuple of float
-        Operating cones of its two gears [rad], for each kind of mesh.
-    pressure : tuple of float
-        Operating pressure angle of each kind of mesh, on one base pitch [rad].
-    room : float
-        Least room between pitch circles of gears that do not mesh [modules].
-    residue : float
-        Largest residue of a loop [pitches]; 0 where all loops close exactly.
-
     See Also
     --------
     suggest_tooth_counts : what gives these.
     """
 
     teeth: Mapping[str, int]
+    """Of each kind."""
     mismatch: float
+    """ln(pitch of the first kind of mesh / pitch of the second); with more kinds, ln(greatest / least)."""
     pitches: tuple[float, ...]
+    """Operating pitch of each kind of mesh [radii of the sphere]."""
     cones: tuple[tuple[float, float], ...]
+    """Operating cones of its two gears [rad], for each kind of mesh."""
     pressure: tuple[float, ...]
+    """Operating pressure angle of each kind of mesh, on one base pitch [rad]."""
     room: float
+    """Least room between pitch circles of gears that do not mesh [modules]."""
     residue: float
+    """Largest residue of a loop [pitches]; 0 where all loops close exactly."""
 
     @property
     def total(self) -> int:
@@ -206,21 +196,6 @@ class ToothCountCompromise:
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
     """What a search found, best first, and what removed the rest; a sequence of `ToothCountCompromise`.
-
-    Attributes
-    ----------
-    configuration : Configuration
-        The set.
-    meshes : tuple of MeshKind
-        Its kinds of mesh.
-    found : tuple of ToothCountCompromise
-        The sets.
-    considered : int
-        All tooth sets up to the bound.
-    removed : mapping of str to int
-        How many each condition removed, in the order in which the conditions were asked.
-    beyond : int
-        Sets that meet every condition but are worse than the last one listed.
 
     See Also
     --------
@@ -246,11 +221,17 @@ class ToothCountSuggestions(Result):
     )
 
     configuration: Configuration
+    """The set."""
     meshes: tuple[MeshKind, ...]
+    """Its kinds of mesh."""
     found: tuple[ToothCountCompromise, ...]
+    """The sets."""
     considered: int
+    """All tooth sets up to the bound."""
     removed: Mapping[str, int]
+    """How many each condition removed, in the order in which the conditions were asked."""
     beyond: int
+    """Sets that meet every condition but are worse than the last one listed."""
 
     def __len__(self) -> int:
         return len(self.found)
@@ -347,22 +328,19 @@ class _Search:
 class NeighbourRatioWindow:
     """Range of a tooth ratio in which equal neighbours do not overlap, tips not counted.
 
-    Attributes
-    ----------
-    a, b : str
-        The kinds of gear that mesh.
-    low, high : float
-        Bounds of z_a / z_b; `inf` where there is none.
-
     See Also
     --------
     ratio_windows : what gives these.
     """
 
     a: str
+    """The kinds of gear that mesh."""
     b: str
+    """The kinds of gear that mesh."""
     low: float
+    """Bounds of z_a / z_b; `inf` where there is none."""
     high: float
+    """Bounds of z_a / z_b; `inf` where there is none."""
 
     def __str__(self) -> str:
         return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"

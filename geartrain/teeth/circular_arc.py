@@ -315,18 +315,16 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """A tooth with radial flanks and a tip of two arcs, lengths in modules.
-
-    z           teeth of the wheel; `thickness` of one along the pitch circle
-    addendum    height of the tip over the pitch circle; `radius` of the arcs
-    dedendum    depth of the root under it
-    """
+    """A tooth with radial flanks and a tip of two arcs, lengths in modules."""
 
     z: int
+    """Teeth of the wheel; `thickness` of one along the pitch circle."""
     thickness: float
     addendum: float
+    """Height of the tip over the pitch circle; `radius` of the arcs."""
     radius: float
     dedendum: float
+    """Depth of the root under it."""
 
     @property
     def tip(self) -> float:

@@ -307,20 +307,18 @@ def _counted(fewest: int, most: int) -> str:
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Of a disc in its ring of pins.
-
-    shortening      the ring's pitch radius over that of the pins' circle
-    pin_radius      in modules
-    greatest_load   of one pin over the force on the disc's pitch circle
-    bearing         fewest and most pins that bear at once
-    """
+    """Of a disc in its ring of pins."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "greatest_load", "bearing")
 
     shortening: float
+    """The ring's pitch radius over that of the pins' circle."""
     pin_radius: float
+    """In modules."""
     greatest_load: float
+    """Of one pin over the force on the disc's pitch circle."""
     bearing: tuple[int, int]
+    """Fewest and most pins that bear at once."""
 
 
 @dataclass(frozen=True)

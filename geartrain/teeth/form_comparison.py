@@ -34,20 +34,18 @@ _EIGHTH = 0.125  # turn: from 45 deg on teeth of uniform stress are no longer de
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """One form of a comparison: its path and measures, or why it cannot run.
-
-    name     as it was asked for, with its reading
-    ratios   measures over those of the involute; None for teeth that cannot run
-    faults   why they cannot; of kind "refused" where the form gives no such pair
-    """
+    """One form of a comparison: its path and measures, or why it cannot run."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
     name: str
+    """As it was asked for, with its reading."""
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
+    """Measures over those of the involute; None for teeth that cannot run."""
     faults: tuple[ToothFault, ...] = ()
+    """Why they cannot; of kind "refused" where the form gives no such pair."""
 
     @property
     def runs(self) -> bool:
@@ -70,12 +68,7 @@ class MeasuredForm(Result):
 
 @dataclass(frozen=True)
 class FormComparison(Result):
-    """Forms beside the 20 degree involute of the same pair and arcs.
-
-    teeth     of the two wheels
-    matched   what all have in common, in words
-    base      the involute itself
-    """
+    """Forms beside the 20 degree involute of the same pair and arcs."""
 
     KEYS = (
         *("teeth", "matched"),
@@ -84,9 +77,13 @@ class FormComparison(Result):
     )
 
     teeth: tuple[int, int]
+    """Of the two wheels."""
     matched: str
+    """What all have in common, in words."""
     base: MeasuredForm
+    """The involute itself."""
     forms: tuple[MeasuredForm, ...]
+    """The forms that are compared."""
 
     @property
     def path(self) -> PathOfContact:

@@ -291,13 +291,6 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 class PairFriction:
     """A law of friction in a pair whose pitch line runs at some speed: the coefficient, by the speed of sliding.
 
-    Attributes
-    ----------
-    law : FrictionLaw
-        The law.
-    pitch_line : float or array of float
-        Speed of the pitch line, one or one for each position [m/s].
-
     Examples
     --------
     Teeth that slide at a fifth of the pitch line's 50 mm/s:
@@ -309,7 +302,9 @@ class PairFriction:
     """
 
     law: FrictionLaw
+    """The law."""
     pitch_line: float | Floats
+    """Speed of the pitch line, one or one for each position [m/s]."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
         """The coefficient where teeth slide at these speeds, over that of the pitch line."""

@@ -25,17 +25,6 @@ if TYPE_CHECKING:
 class GearMesh(ABC):
     """A gear pair with real teeth: all that others ask of it, whatever their form.
 
-    Attributes
-    ----------
-    wheels : MeshingWheels
-        The two wheels as declared, with their friction.
-    tooth_form : NamedForm
-        The form that made it.
-    who : MeshDriver
-        The wheel that drives, and how that is known.
-    law : TransmissionFunction
-        With that wheel driving, forwards; `coast` is that of the other flanks, `reversed` with the other wheel driving.
-
     See Also
     --------
     geartrain.GearTrain.meshes : the pairs of a train.
@@ -49,9 +38,14 @@ class GearMesh(ABC):
     """
 
     wheels: MeshingWheels
+    """The two wheels as declared, with their friction."""
     tooth_form: NamedForm
+    """The form that made it."""
     who: MeshDriver
+    """The wheel that drives, and how that is known."""
     law: TransmissionFunction
+    """With that wheel driving, forwards; `coast` is that of the other flanks, `reversed` with the other wheel
+    driving."""
 
     @property
     def gear(self) -> DeclaredPair:

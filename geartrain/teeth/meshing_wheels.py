@@ -45,16 +45,16 @@ class NamedForm(Protocol):
 
 @dataclass(frozen=True)
 class MeshDriver(Result):
-    """The wheel that drives a gear pair (of a coupling, the link), and how that is known.
-
-    known   False where the way of power is not determined: `wheel` is then taken to go on with, and no more
-    """
+    """The wheel that drives a gear pair (of a coupling, the link), and how that is known."""
 
     KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
 
     wheel: str
+    """The driving wheel; of a coupling, the driving link."""
     why: str
+    """How it is known."""
     known: bool = True
+    """False where the way of power is not determined: `wheel` is then taken to go on with, and no more."""
 
 
 _CONTRATE = "the contrate is taken for a spur wheel"
@@ -62,30 +62,27 @@ _CONTRATE = "the contrate is taken for a spur wheel"
 
 @dataclass(frozen=True)
 class MeshingWheels:
-    """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of.
-
-    place      where the pair is declared
-    counts     tooth numbers; `kinds` of the wheels, helical ones apart, and which of them are rings
-    friction   None where none is declared
-    friction_law   in place of a coefficient; then `friction` is None
-    pitch_line   speed of the pitch line (m/s), which a law of friction needs; None where it is not known
-    distance   half the transverse modules times the teeth, summed (m); None unless both wheels declare a module with a
-               unit
-    helix      helix angles (rad), of right hands above 0
-    width      of the narrower wheel (m); None where it is not known
-    """
+    """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of."""
 
     gear: DeclaredPair
     place: str
+    """Where the pair is declared."""
     counts: tuple[int, int]
+    """Tooth numbers; `kinds` of the wheels, helical ones apart, and which of them are rings."""
     kinds: tuple[str, str] = ("spur", "spur")
     internal: tuple[bool, bool] = (False, False)
     friction: float | None = None
+    """None where none is declared."""
     distance: float | None = None
+    """Half the transverse modules times the teeth, summed (m); None unless both wheels declare a module with a unit."""
     friction_law: FrictionLaw | None = None
+    """In place of a coefficient; then `friction` is None."""
     pitch_line: float | None = None
+    """Speed of the pitch line (m/s), which a law of friction needs; None where it is not known."""
     helix: tuple[float, float] = (0.0, 0.0)
+    """Helix angles (rad), of right hands above 0."""
     width: float | None = None
+    """Of the narrower wheel (m); None where it is not known."""
 
     @property
     def module(self) -> float | None:
@@ -126,13 +123,11 @@ class MeshingWheels:
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Of a pair with real teeth.
-
-    scale      modules in one unit of its law's lengths
-    distance   of its axes, in modules
-    stretch    that distance over the one at which pitch circles touch
-    """
+    """Of a pair with real teeth."""
 
     scale: float
+    """Modules in one unit of its law's lengths."""
     distance: float
+    """Of its axes, in modules."""
     stretch: float
+    """That distance over the one at which pitch circles touch."""

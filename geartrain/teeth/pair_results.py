@@ -23,13 +23,6 @@ if TYPE_CHECKING:
 class SpeedRatio(Result):
     """Speed ratio of a pair over a period: driven over driver, without sign.
 
-    Attributes
-    ----------
-    mean : Fraction
-        The ratio of tooth numbers, or the winding number of a pin.
-    least, greatest : float
-        At single angles.
-
     See Also
     --------
     geartrain.teeth.TransmissionFunction.speed : the ratio at each angle.
@@ -44,8 +37,11 @@ class SpeedRatio(Result):
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "least"), Key("max", "greatest"))
 
     mean: Fraction
+    """The ratio of tooth numbers, or the winding number of a pin."""
     least: float
+    """At single angles."""
     greatest: float
+    """At single angles."""
 
     @classmethod
     def of(cls, law: TransmissionFunction) -> SpeedRatio:
@@ -73,15 +69,6 @@ class SpeedRatio(Result):
 class TransmissionError(Result):
     """Transmission error of a pair over a period, positive where the driven side is ahead of uniform motion.
 
-    Attributes
-    ----------
-    peak_to_peak : float
-        Greatest less least [rad of the driven side].
-    rms : float
-        About the mean [rad].
-    mean : float
-        A lag that depends on where angles are counted from [rad].
-
     See Also
     --------
     geartrain.teeth.TransmissionFunction.error : the error at each angle.
@@ -98,8 +85,11 @@ class TransmissionError(Result):
     KEYS = ("peak_to_peak", "rms", "mean")
 
     peak_to_peak: float
+    """Greatest less least [rad of the driven side]."""
     rms: float
+    """About the mean [rad]."""
     mean: float
+    """A lag that depends on where angles are counted from [rad]."""
 
     @classmethod
     def of(cls, law: TransmissionFunction) -> TransmissionError:
@@ -132,11 +122,6 @@ class SlidingEfficiency(Result):
     Over a turn the torques of both sides cannot be constant at once: `mean` is at constant torque of the driver,
     `at_constant_load` at constant torque of the driven side. All are None where friction locks the pair.
 
-    Attributes
-    ----------
-    law : TransmissionFunction
-        Of the pair.
-
     See Also
     --------
     geartrain.teeth.GearMesh.efficiency : that of a pair of a train, either wheel driving.
@@ -154,6 +139,7 @@ class SlidingEfficiency(Result):
     KEYS = ("friction", "mean", "at_constant_load", Key("min", "least"), Key("locks_at", "locking_friction"))
 
     law: TransmissionFunction
+    """Of the pair."""
 
     @property
     def friction(self) -> float:
@@ -201,21 +187,22 @@ def _which(gear: int) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class ToothFault(Result):
-    """One reason why teeth cannot run.
-
-    gear    1 or 2; 0 for the pair
-    X       pitch-line displacement at which it begins; NaN for the pair
-    what, why, fix   in words
-    """
+    """One reason why teeth cannot run."""
 
     KEYS = ("kind", Key("gear", to=_which), "what", "why", "fix")
 
     kind: str
+    """Kind of fault, such as `jam`, `clash` or `undercut`."""
     gear: int
+    """1 or 2; 0 for the pair."""
     X: float
+    """Pitch-line displacement at which it begins; NaN for the pair."""
     what: str
+    """In words."""
     why: str
+    """In words."""
     fix: str
+    """In words."""
 
     @property
     def problem(self) -> Problem:
@@ -226,17 +213,6 @@ class ToothFault(Result):
 @dataclass(frozen=True, slots=True)
 class PairVerdict(Result):
     """Whether a pair of wheels can turn; true if it can.
-
-    Attributes
-    ----------
-    kind : str
-        "runs", or the kind of the first fault.
-    text : str
-        What is the case.
-    play : float
-        Least play of the teeth over a pitch [rad of the driven wheel].
-    faults : tuple of ToothFault
-        All reasons why they cannot, each with what, why and what to do.
 
     See Also
     --------
@@ -253,9 +229,13 @@ class PairVerdict(Result):
     KEYS = ("kind", "text", Key("play", to=finite), "faults", "why", "fix")
 
     kind: str
+    """"runs", or the kind of the first fault."""
     text: str
+    """What is the case."""
     play: float
+    """Least play of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
+    """All reasons why they cannot, each with what, why and what to do."""
 
     def __bool__(self) -> bool:
         return self.kind == "runs"
@@ -316,21 +296,20 @@ def friction_lock_at_speed(law: str, locking: float) -> Problem:
 
 @dataclass(frozen=True)
 class PinFigures(Result):
-    """Figures of a pin in a slot.
-
-    pin_radius, offset   m, or plain
-    speed_ratio          of the driven side over the driver
-    amplitude            greatest transmission error (rad)
-    transmission_error   of the driven side
-    efficiency           of the pin sliding along its slot
-    """
+    """Figures of a pin in a slot."""
 
     pin_radius: float
+    """M, or plain."""
     offset: float
+    """M, or plain."""
     speed_ratio: SpeedRatio
+    """Of the driven side over the driver."""
     amplitude: float
+    """Greatest transmission error (rad)."""
     transmission_error: TransmissionError
+    """Of the driven side."""
     efficiency: SlidingEfficiency
+    """Of the pin sliding along its slot."""
 
 
 def pin_figures(law: PinTransmission) -> PinFigures:
@@ -341,14 +320,7 @@ def pin_figures(law: PinTransmission) -> PinFigures:
 
 @dataclass(frozen=True)
 class PairFigures(Result):
-    """Figures of one pair, in one way of being driven; a form may add its own.
-
-    teeth                of the driver and of the driven wheel
-    verdict              whether they can turn
-    speed_ratio          driven over driver; None for teeth without a motion
-    transmission_error   of the driven wheel; None likewise
-    efficiency           of sliding; None likewise
-    """
+    """Figures of one pair, in one way of being driven; a form may add its own."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
         *("teeth", "verdict", Key("play", "verdict.play", finite)),
@@ -356,10 +328,15 @@ class PairFigures(Result):
     )
 
     teeth: tuple[int, int]
+    """Of the driver and of the driven wheel."""
     verdict: PairVerdict
+    """Whether they can turn."""
     speed_ratio: SpeedRatio | None
+    """Driven over driver; None for teeth without a motion."""
     transmission_error: TransmissionError | None
+    """Of the driven wheel; None likewise."""
     efficiency: SlidingEfficiency | None
+    """Of sliding; None likewise."""
 
     @property
     def error_text(self) -> str:
@@ -383,13 +360,11 @@ class AccountTable:
 
 @dataclass(frozen=True)
 class PairAccount:
-    """Of one pair, in one way of being driven.
-
-    words     what the tables of all pairs of this kind mean
-    tables    one row of each
-    figures   for JSON
-    """
+    """Of one pair, in one way of being driven."""
 
     words: str
+    """What the tables of all pairs of this kind mean."""
     tables: tuple[AccountTable, ...]
+    """One row of each."""
     figures: PairFigures
+    """For JSON."""

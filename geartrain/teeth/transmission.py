@@ -41,16 +41,16 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """How the teeth of a pair rub at some driver angles: arrays of one row for each contact; NaN where none is.
-
-    sliding     speed of sliding over that of the pitch line, 0 or more
-    into, out   what a unit of friction adds to the power that enters at a contact, and to that which leaves it, over
-                both without friction: the efficiency of a contact is (1 + f out) / (1 + f into)
-    """
+    """How the teeth of a pair rub at some driver angles: arrays of one row for each contact; NaN where none is."""
 
     sliding: Floats
+    """Speed of sliding over that of the pitch line, 0 or more."""
     into: Floats
+    """What a unit of friction adds to the power that enters at a contact, and to that which leaves it, over both
+    without friction: the efficiency of a contact is (1 + f out) / (1 + f into)."""
     out: Floats
+    """What a unit of friction adds to the power that enters at a contact, and to that which leaves it, over both
+    without friction: the efficiency of a contact is (1 + f out) / (1 + f into)."""
 
 
 class TransmissionFunction(ABC):

@@ -209,26 +209,28 @@ class TabulatedTransmission(DerivedTransmission):
 
 
 class TransmissionTables(NamedTuple):
-    """Laws by number.
-
-    period, inverse   of each law: the driver's angle (rad), and 1 / it
-    coarse, rest      the period as the sum of two floats, the first of 24 bits
-    density           of each law: uniform cells of a period over it (1/rad)
-    first, last       of each law: its first and last cell, cut at corners
-    cuts, corners     of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)
-    cells             `CELL` numbers a cell, error and speed in turns: middle (rad), then the highest power first
-    """
+    """Laws by number."""
 
     period: Floats
+    """Of each law: the driver's angle (rad), and 1 / it."""
     inverse: Floats
+    """Of each law: the driver's angle (rad), and 1 / it."""
     coarse: Floats
+    """The period as the sum of two floats, the first of 24 bits."""
     rest: Floats
+    """The period as the sum of two floats, the first of 24 bits."""
     density: Floats
+    """Of each law: uniform cells of a period over it (1/rad)."""
     first: Ints
+    """Of each law: its first and last cell, cut at corners."""
     last: Ints
+    """Of each law: its first and last cell, cut at corners."""
     cuts: Ints
+    """Of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)."""
     corners: Floats
+    """Of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)."""
     cells: Floats
+    """`CELL` numbers a cell, error and speed in turns: middle (rad), then the highest power first."""
 
 
 class PeriodicLaw(HasCorners, Protocol):

@@ -113,17 +113,6 @@ DeclaredEpoch = Annotated[Epoch, short_for("date")]
 class FrictionInForce:
     """Friction in force at a gear pair or a coupling.
 
-    Attributes
-    ----------
-    sliding : float or None
-        Coefficient while surfaces slide; None where it follows a law of speed.
-    static : float
-        Coefficient at rest; that of a law is its value at speed 0.
-    deviation : float
-        Standard deviation of `sliding`; `static` keeps its ratio to it.
-    law : FrictionLaw or None
-        The law of speed, where one is declared.
-
     Examples
     --------
     >>> import geartrain
@@ -133,9 +122,13 @@ class FrictionInForce:
     """
 
     sliding: float | None
+    """Coefficient while surfaces slide; None where it follows a law of speed."""
     static: float
+    """Coefficient at rest; that of a law is its value at speed 0."""
     deviation: float = 0.0
+    """Standard deviation of `sliding`; `static` keeps its ratio to it."""
     law: FrictionLaw | None = None
+    """The law of speed, where one is declared."""
 
     @property
     def rubs(self) -> bool:

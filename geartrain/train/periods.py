@@ -33,17 +33,6 @@ _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{
 class CalendarDate:
     """A day of a calendar, and the part of it that has passed.
 
-    Parameters
-    ----------
-    year : int
-        Astronomical: 0 is 1 BC.
-    month, day : int
-        From 1.
-    part : Fraction
-        Part of the day that has passed, from 0 to less than 1: 1/2 at noon.
-    calendar : {"julian", "gregorian"}
-        Proleptic: its rules hold for every year.
-
     See Also
     --------
     read_date : Reads one.
@@ -51,10 +40,15 @@ class CalendarDate:
     """
 
     year: int
+    """Astronomical: 0 is 1 BC."""
     month: int
+    """From 1."""
     day: int
+    """From 1."""
     part: Fraction
+    """Part of the day that has passed, from 0 to less than 1: 1/2 at noon."""
     calendar: Calendar
+    """Proleptic: its rules hold for every year."""
 
     def __str__(self) -> str:
         sign = "-" if self.year < 0 else ""
@@ -177,30 +171,23 @@ def _split_gregorian(days: int) -> tuple[int, int]:
 class Period:
     """An astronomical period, speed or count with its source.
 
-    Parameters
-    ----------
-    name : str
-        Name by which `unit` and `targets` of a declaration refer to it.
-    kind : {"period", "speed", "count"}
-        A period [d], a speed [turns per year], or a number of things.
-    value : Fraction
-        The fraction that the source gives, or the decimal as printed.
-    what : str
-        What goes round or is counted; plain name of a period that serves as a unit. May be empty.
-    source, confidence : str
-        Where the value is from, and how certain it is.
-
     See Also
     --------
     period_table : All of them.
     """
 
     name: str
+    """Name by which `unit` and `targets` of a declaration refer to it."""
     kind: Literal["period", "speed", "count"]
+    """A period [d], a speed [turns per year], or a number of things."""
     value: Fraction
+    """The fraction that the source gives, or the decimal as printed."""
     what: str
+    """What goes round or is counted; plain name of a period that serves as a unit. May be empty."""
     source: str
+    """Where the value is from, and how certain it is."""
     confidence: str
+    """Where the value is from, and how certain it is."""
 
 
 @cache

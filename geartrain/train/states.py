@@ -305,41 +305,6 @@ class Remove(Declared):
 class StateCase:
     """What is prescribed when the train is run in one state.
 
-    Attributes
-    ----------
-    state : str or None
-        The state; None for a train without states.
-    inputs : mapping of str to Fraction
-        Prescribed speed by link [`Train.unit_name`].
-    fixed : tuple of str
-        Links held to the frame.
-    locks : tuple of (str, str)
-        Pairs of links that turn together.
-    outputs : mapping of str to Output
-        What is asked for in this state, by name.
-    loc : tuple of str or int
-        Where the inputs were declared: the keys that lead to them.
-    engaged : tuple of str
-        Clutches and brakes that are closed.
-    clutches : mapping of tuple of str to str
-        The clutch or brake behind a fixed link or a lock.
-    loads : mapping of str to Quantity
-        Torques on links; power into the train is positive.
-    solve_for : str or None
-        The link whose torque is named as unknown.
-    drive : Drive or None
-        What drives the train in time: the state's, the train's, or its `rate`.
-    rate : Quantity or None
-        Speed of the input in real time, where `drive` or the train's `rate` says it.
-    expect : {"determined", "free", "locked"}
-        The verdict that is no failure.
-    exact : bool
-        False where radians had to be counted in turns, or turns in radians: to 50 digits then.
-    causes : mapping of tuple of str to tuple of str
-        A link that is fixed, or two that are locked, only because something else is -> the links of that.
-    problems : tuple of Problem
-        Why no speed can be calculated in this state; mostly none.
-
     Examples
     --------
     >>> import geartrain
@@ -349,21 +314,37 @@ class StateCase:
     """
 
     state: str | None
+    """The state; None for a train without states."""
     inputs: Mapping[str, Fraction]
+    """Prescribed speed by link [`Train.unit_name`]."""
     fixed: tuple[str, ...]
+    """Links held to the frame."""
     locks: tuple[tuple[str, str], ...]
+    """Pairs of links that turn together."""
     outputs: Mapping[str, Output]
+    """What is asked for in this state, by name."""
     loc: Loc
+    """Where the inputs were declared: the keys that lead to them."""
     engaged: tuple[str, ...]
+    """Clutches and brakes that are closed."""
     clutches: Mapping[tuple[str, ...], str]
+    """The clutch or brake behind a fixed link or a lock."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
+    """Torques on links; power into the train is positive."""
     solve_for: str | None = None
+    """The link whose torque is named as unknown."""
     exact: bool = True
+    """False where radians had to be counted in turns, or turns in radians: to 50 digits then."""
     drive: Drive | None = None
+    """What drives the train in time: the state's, the train's, or its `rate`."""
     rate: Quantity | None = None
+    """Speed of the input in real time, where `drive` or the train's `rate` says it."""
     expect: ExpectedVerdict = "determined"
+    """The verdict that is no failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
+    """A link that is fixed, or two that are locked, only because something else is -> the links of that."""
     problems: tuple[Problem, ...] = ()
+    """Why no speed can be calculated in this state; mostly none."""
 
     def given(self, link: str) -> str:
         """A prescribed speed in words: `sun = 1400`.

@@ -28,17 +28,15 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(slots=True)
 class YamlNode:
-    """A mapping, a list, a scalar or nothing, with the place it was written at.
-
-    value  of a file, every scalar is the text it was; of plain data, it is the object given
-    keys   for a mapping, the place of each key
-    size   number of nodes when all aliases are written out
-    """
+    """A mapping, a list, a scalar or nothing, with the place it was written at."""
 
     value: Any
+    """Of a file, every scalar is the text it was; of plain data, it is the object given."""
     place: str
     keys: dict[str, str] = field(default_factory=dict)
+    """For a mapping, the place of each key."""
     size: int = 1
+    """Number of nodes when all aliases are written out."""
 
     @property
     def mapping(self) -> dict[str, YamlNode]:

@@ -119,15 +119,6 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
 class EmbeddedPage:
     """A page of a train that turns, within another page: a notebook shows it as it is.
 
-    Parameters
-    ----------
-    train : GearTrain
-        What turns.
-    state : str, optional
-        One of its states; by default all, to be chosen among.
-    height : int
-        Of the frame [px].
-
     Examples
     --------
     >>> import geartrain
@@ -136,8 +127,11 @@ class EmbeddedPage:
     """
 
     train: GearTrain
+    """What turns."""
     state: str | None = None
+    """One of its states; by default all, to be chosen among."""
     height: int = 620
+    """Of the frame [px]."""
 
     def _repr_html_(self) -> str:
         # the script counts by the letter: what shows this may join lines, widen tabs and read formulas

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import call
-from places import DOCS
 
 from geartrain import GearTrainError, load
 from geartrain.spherical import GearSphere, from_polyhedron
@@ -29,16 +28,6 @@ def test_the_set_of_the_document_has_its_printed_numbers() -> None:
     assert found["cones"]["5"] == pytest.approx(23.522418447732, abs=1e-12)
     assert found["cones"]["3"] == pytest.approx(13.854949692918, abs=1e-12)
     assert found["angles"]["5-3"] == pytest.approx(degrees(atan(3 - sqrt(5))), abs=1e-13)
-
-
-def test_every_key_is_documented() -> None:
-    text = (DOCS / "json.md").read_text(encoding="utf-8")
-    part = text[text.index("## sphere --json") :]
-    part = part[: part.index("\n## ", 5)]
-    found = data("icosidodecahedron", "--teeth", "5=12,3=6")
-    best = json.loads(call("sphere", "octahedron", "--suggest", 12, "--json").stdout)
-    for key in [*found, *found["sizing"], *found["sizing"]["meshes"][0], *best, *best["solutions"][0]]:
-        assert f"`{key}`" in part, key
 
 
 def test_canaries() -> None:

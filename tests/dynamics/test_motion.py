@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import pytest
 from commands import call
-from places import DOCS
 from scipy.optimize import brentq, fsolve
 
 from geartrain import GearTrainError, load
@@ -528,23 +527,6 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
     # 133 arcs, the first cut in two by the ends of the run; those that pass 0 on the dial are broken there
     assert 134 <= len(starts) < 150
-
-
-def test_every_key_of_the_json_is_documented() -> None:
-    arguments = ("motion", "moon-triangular", "--turns", 1, "--samples", 501, "--output", "moon", "--json")
-    data = json.loads(call(*arguments, "--estimates", "--spectrum", "--phases", 2).stdout)
-    text = (DOCS / "json.md").read_text(encoding="utf-8")
-    part = text[text.index("## motion --json") :]
-    part = part[: part.index("\n## ", 5)]
-    moon = data["outputs"]["moon"]
-    nested = [
-        *moon["estimates"],
-        *moon["estimates"]["superposed"],
-        *moon["spectrum"][0],
-        *moon["spectrum"][0]["pairs"][0],
-    ]
-    for key in [*data, *moon, *nested, *data["phases"], *moon["transmission_error"], *moon["speed"]]:
-        assert f"`{key}`" in part, key
 
 
 def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:

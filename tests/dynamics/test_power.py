@@ -19,7 +19,6 @@ from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
 from models import torque_figures
-from places import ROOT
 
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics import PowerFlow, PowerNode, Torques, find_power_flow
@@ -473,22 +472,6 @@ def test_a_report_on_a_train_that_locks_itself_is_still_sound(tmp_path: Path) ->
     done = call("report", path)
     assert done.exit_code == 0
     assert "self-locking" in done.output
-
-
-def test_every_key_is_documented() -> None:
-    text = (ROOT / "docs" / "json.md").read_text(encoding="utf-8")
-    part = text[text.index("## torques --json") :]
-    part = part[: part.index("\n## ", 5)]
-    train = load(REVERSE)
-    data = torque_figures(train, "R").to_dict()
-    assert "`torques`" in text[: text.index("## compare --json")]
-    for key in [*data, *data["flow"], *data["flow"]["loops"][0], *data["flow"]["streams"][0]]:
-        assert f"`{key}`" in part, key
-    train = load(CLOCK)
-    data = torque_figures(train).to_dict()
-    for key in (*data["losses"][0], "impact"):
-        assert f"`{key}`" in part, key
-    assert json.loads(json.dumps(data, allow_nan=False)) == data
 
 
 # ------------------------------------------------------------------------------------------------------------- pictures

@@ -14,7 +14,7 @@ from commands import HEAVY, LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator, SchemaError
 from sampling import all_but
 
-from geartrain.report import answer_schema
+from geartrain.report import answer_schema, describe_answer
 
 ANSWERS = answer_schema()["$defs"]
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
@@ -275,3 +275,22 @@ def test_an_answer_that_lacks_a_key_or_has_a_strange_one_is_seen(files: Path) ->
             holds("solve", less)
     with pytest.raises(AssertionError):
         holds("solve", {**whole, "verdict": {}})
+
+
+def test_every_key_has_a_meaning() -> None:
+    silent = {
+        f"{question}: {key}"
+        for question in ANSWERS
+        for key, _, meaning in describe_answer(question).sections[0].tables[0].rows
+        if not meaning and not key.endswith((".errors.*.value", ".errors.*.exact", "errors.*.value", "errors.*.exact"))
+    }
+    assert silent == set()
+
+
+def test_the_keys_of_a_command_are_printed() -> None:
+    lines = call("schema", "mesh", "pin").output.splitlines()
+    assert [line.split()[0] for line in lines if line.startswith("transmission_error")] == [
+        "transmission_error",
+        *(f"transmission_error.{key}" for key in ("peak_to_peak", "rms", "mean")),
+    ]
+    assert "did you mean 'motion'?" in str(call("schema", "moton").exception)

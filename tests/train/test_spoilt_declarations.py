@@ -12,7 +12,6 @@ import pytest
 import yaml
 from mutants import mutant
 from places import DATA
-from sampling import seeds_of
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.report import collect_report
@@ -22,9 +21,8 @@ KEPT: dict[str, dict[str, Any]] = json.loads((DATA / "spoilt_declarations.json")
 
 
 @pytest.fixture
-def mutants(request: pytest.FixtureRequest) -> Iterable[tuple[str, dict[str, Any]]]:
-    seeds = seeds_of(request.config, "--first-mutant", "--mutants")
-    return chain(KEPT.items(), ((str(seed), mutant(seed)) for seed in seeds))
+def mutants(mutant_seeds: range) -> Iterable[tuple[str, dict[str, Any]]]:
+    return chain(KEPT.items(), ((str(seed), mutant(seed)) for seed in mutant_seeds))
 
 
 @pytest.fixture(autouse=True)

@@ -286,12 +286,10 @@ Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driver, s
 
 @dataclass(frozen=True)
 class PairFrictionOption:
-    """What `--friction` says.
-
-    coefficient   0 where a law is given
-    """
+    """What `--friction` says."""
 
     coefficient: float
+    """0 where a law is given."""
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:

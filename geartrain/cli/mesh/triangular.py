@@ -74,15 +74,13 @@ _PAIR = ("friction", "z1", "z2")
 
 @dataclass(frozen=True)
 class TriangularOptions:
-    """A pair as options describe it; any of them can be varied.
-
-    own      of the form, by the names of its fields
-    module   m; None where it is not given
-    """
+    """A pair as options describe it; any of them can be varied."""
 
     teeth: tuple[int, int]
     own: FormOptions
+    """Of the form, by the names of its fields."""
     module: float | None
+    """M; None where it is not given."""
     friction: str
     driver: int
     backwards: bool

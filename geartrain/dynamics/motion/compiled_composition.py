@@ -79,51 +79,54 @@ class FedBackLaw:
 
 
 class CompositionOrder(NamedTuple):
-    """The solved order, step by step. Links stand in rows, which later links take again; ranges begin at `..._start`.
-
-    own           rows of the links of a step
-    known         rows of the links that they follow, by `from_known`, (own, known) flat
-    sources       numbers of the first source of a step, and one beyond the last; by `from_sources`, (own, sources) flat
-    seen          of each output: rows of the links of which it is the sum, with their signs
-    offset        what each output is ahead at every position (rad)
-    """
+    """The solved order, step by step. Links stand in rows, which later links take again; ranges begin at
+    `..._start`."""
 
     own_start: Ints
     own: Ints
+    """Rows of the links of a step."""
     known_start: Ints
     known: Ints
+    """Rows of the links that they follow, by `from_known`, (own, known) flat."""
     from_known_start: Ints
     from_known: Floats
     sources: Ints
+    """Numbers of the first source of a step, and one beyond the last; by `from_sources`, (own, sources) flat."""
     from_sources_start: Ints
     from_sources: Floats
     seen_start: Ints
     seen: Ints
+    """Of each output: rows of the links of which it is the sum, with their signs."""
     seen_sign: Floats
     offset: Floats
+    """What each output is ahead at every position (rad)."""
 
 
 class ComposedSources(NamedTuple):
-    """The sources in the order of the steps; the number of one is that of its law.
-
-    factor, high, low, rest   cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks
-    start, mean               forward angle (rad) and mean speed of the driver
-    row, sign                 (sources, 2): driver and carrier, row -1 where no error reaches one
-    sense, ratio              of the driven side, and of the law
-    gain                      what the source adds to its own driver, where its law is a `FedBackLaw`, else 0
-    """
+    """The sources in the order of the steps; the number of one is that of its law."""
 
     factor: Floats
+    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
     high: Floats
+    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
     low: Floats
+    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
     rest: Floats
+    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
     start: Floats
+    """Forward angle (rad) and mean speed of the driver."""
     mean: Floats
+    """Forward angle (rad) and mean speed of the driver."""
     row: Ints
+    """(sources, 2): driver and carrier, row -1 where no error reaches one."""
     sign: Floats
+    """(sources, 2): driver and carrier, row -1 where no error reaches one."""
     sense: Floats
+    """Of the driven side, and of the law."""
     ratio: Floats
+    """Of the driven side, and of the law."""
     gain: Floats
+    """What the source adds to its own driver, where its law is a `FedBackLaw`, else 0."""
 
 
 class CompositionArrays(NamedTuple):

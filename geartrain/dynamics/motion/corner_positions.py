@@ -40,23 +40,17 @@ _NEAR = 1e-11  # of a period beyond a step, in which its corners are sought too:
 class CornerPositions(NamedTuple):
     """Where the input stands as pairs pass corners of their laws, in ascending order.
 
-    Attributes
-    ----------
-    turns : array of float, (n,)
-        Turns of the input.
-    pair : array of int, (n,)
-        Which pair is at a corner there, as an index into `pairs`.
-    pairs : tuple of str
-        Names of pairs and couplings.
-
     See Also
     --------
     Motion.corner_positions : what gives these.
     """
 
     turns: Floats
+    """Turns of the input. Shape (n,)."""
     pair: Indices
+    """Which pair is at a corner there, as an index into `pairs`. Shape (n,)."""
     pairs: tuple[str, ...]
+    """Names of pairs and couplings."""
 
     def names(self) -> list[str]:
         """The pair at each position, by name."""

@@ -32,28 +32,26 @@ PLAIN = 1  # period up to which a plain product tells where in it the driver sta
 
 @dataclass(frozen=True)
 class PairErrorSource:
-    """One pair that ripples.
-
-    law            of its driver's forward angle
-    pair           its index in the spread
-    driver_sense   1 or -1 where the driver's axis points against its parallels; `carrier_sense` likewise
-    cycles         periods of the law per turn of the input, on average and exactly; not negative
-    phase          the driver's forward angle (rad) at turn 0
-    forward        1, or -1 where the driver turns backwards on average
-    sense          of the driven side's mean relative motion, 1 or -1
-    set_back       how far the driver is ahead of its mean angle at turn 0 (rad): its teeth are counted from there
-    """
+    """One pair that ripples."""
 
     id: str
     law: TransmissionFunction
+    """Of its driver's forward angle."""
     pair: int
+    """Its index in the spread."""
     driver_sense: int
+    """1 or -1 where the driver's axis points against its parallels; `carrier_sense` likewise."""
     carrier_sense: int
     cycles: Fraction
+    """Periods of the law per turn of the input, on average and exactly; not negative."""
     phase: float
+    """The driver's forward angle (rad) at turn 0."""
     forward: int
+    """1, or -1 where the driver turns backwards on average."""
     sense: int
+    """Of the driven side's mean relative motion, 1 or -1."""
     set_back: float = 0.0
+    """How far the driver is ahead of its mean angle at turn 0 (rad): its teeth are counted from there."""
 
     @property
     def start(self) -> float:
@@ -102,41 +100,32 @@ class SeenLink(NamedTuple):
 class ErrorSamples(NamedTuple):
     """Errors of outputs at some positions of the input.
 
-    Attributes
-    ----------
-    turns : array of float, (n,)
-        Turns of the input.
-    error : array of float, (outputs, n)
-        Angle of each output less its mean motion [rad].
-    rate : array of float, (outputs, n)
-        Speed of each output less its mean, over the input's.
-    turned_back : frozenset of str
-        Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
-        which is that of the flanks in front, does not follow the play.
-
     See Also
     --------
     Motion.at, Motion.passages : what gives these.
     """
 
     turns: Floats
+    """Turns of the input. Shape (n,)."""
     error: Floats
+    """Angle of each output less its mean motion [rad]. Shape (outputs, n)."""
     rate: Floats
+    """Speed of each output less its mean, over the input's. Shape (outputs, n)."""
     turned_back: frozenset[str] = frozenset()
+    """Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
+    which is that of the flanks in front, does not follow the play."""
 
 
 @dataclass
 class ErrorComposition:
-    """Sources in a train, and the outputs that are asked for.
-
-    offsets       what each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that
-                  keep their ratio add their play alone, and pointers are set; none by default
-    """
+    """Sources in a train, and the outputs that are asked for."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
     outputs: tuple[SeenLink, ...]
     offsets: tuple[float, ...] = ()
+    """What each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that keep their
+    ratio add their play alone, and pointers are set; none by default."""
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:

@@ -44,15 +44,13 @@ _DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is
 
 @dataclass(frozen=True)
 class CoupledErrors:
-    """Pairs in parallel: names, laws, senses of the driven sides, and `gain`, (pairs, pairs).
-
-    gain   radians of driver m's forward angle per radian of pair n's driven error
-    """
+    """Pairs in parallel: names, laws, senses of the driven sides, and `gain`, (pairs, pairs)."""
 
     names: tuple[str, ...]
     laws: tuple[TransmissionFunction, ...]
     senses: Floats
     gain: Floats
+    """Radians of driver m's forward angle per radian of pair n's driven error."""
 
     def laws_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
         """Driven errors and their slopes over the drivers' angles, both signed, (pairs, n), at some positions."""
@@ -192,30 +190,28 @@ class ErrorPath(NamedTuple):
 
 
 class PropagationBlock(NamedTuple):
-    """Links solved together, from links known before and from the pairs whose rows these are.
-
-    links, known, pairs   indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients
-    """
+    """Links solved together, from links known before and from the pairs whose rows these are."""
 
     links: tuple[int, ...]
+    """Indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients."""
     known: tuple[int, ...]
+    """Indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients."""
     pairs: tuple[int, ...]
+    """Indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients."""
     from_known: Floats
     from_pairs: Floats
 
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """The solved order of a train: `parts` in order, over `links` and `pairs` by index.
-
-    joints   by pair, each made when it is first read
-    parts    as far as the wanted links depend on them: all others have no error here
-    """
+    """The solved order of a train: `parts` in order, over `links` and `pairs` by index."""
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
+    """By pair, each made when it is first read."""
     parts: tuple[PropagationBlock, ...]
+    """As far as the wanted links depend on them: all others have no error here."""
 
     @property
     def reached(self) -> frozenset[int]:

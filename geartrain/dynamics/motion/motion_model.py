@@ -75,17 +75,6 @@ class PointerCompositions:
 class TransmissionErrorCurve(Result):
     """The transmission error of one output, position by position.
 
-    Attributes
-    ----------
-    name : str
-        The output.
-    ratio : Fraction
-        Exact mean speed over the input's.
-    error : array of float, (n,)
-        Angle less its mean motion [rad].
-    speed : array of float, (n,)
-        Speed over the input's.
-
     See Also
     --------
     Motion.ripples : what gives these.
@@ -94,9 +83,13 @@ class TransmissionErrorCurve(Result):
     KEYS = (Key("", "tally"),)
 
     name: str
+    """The output."""
     ratio: Fraction
+    """Exact mean speed over the input's."""
     error: Floats
+    """Angle less its mean motion [rad]. Shape (n,)."""
     speed: Floats
+    """Speed over the input's. Shape (n,)."""
 
     @property
     def mean(self) -> float:

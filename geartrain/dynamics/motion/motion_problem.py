@@ -25,31 +25,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MotionProblem:
-    """What motion needs to know of a train in one case.
-
-    system    the labelled rows without redundant circuits
-    speeds    exact mean speeds; `lead` is the input whose angle is given
-    meshes    pairs with real teeth by name, as they are driven, each made when it is first read
-    drivers   who drives each pair and coupling, and how that is known
-    angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
-    shared    by pair and wheel, the other pairs of that wheel about the same line, and whether its contacts lie on
-              opposite sides
-    loops     loops that are redundant: real teeth in them contradict the rest
-    """
+    """What motion needs to know of a train in one case."""
 
     system: WillisSystem
+    """The labelled rows without redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
+    """Exact mean speeds; `lead` is the input whose angle is given."""
     frame: str
     lead: str
     meshes: Mapping[str, GearMesh]
+    """Pairs with real teeth by name, as they are driven, each made when it is first read."""
     pins: Sequence[PinMesh]
     drivers: Mapping[str, MeshDriver]
+    """Who drives each pair and coupling, and how that is known."""
     angles: Mapping[str, float] = field(default_factory=dict)
+    """Starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel."""
     phases: Mapping[str, float] = field(default_factory=dict)
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
+    """By pair and wheel, the other pairs of that wheel about the same line, and whether its contacts lie on opposite
+    sides."""
     loops: Sequence[Loop] = ()
+    """Loops that are redundant: real teeth in them contradict the rest."""
 
     @property
     def way(self) -> int:

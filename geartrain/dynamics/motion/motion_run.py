@@ -45,24 +45,16 @@ class HarmonicShare(NamedTuple):
     """A harmonic of a pair, and the amplitude (rad) it has in an output to first order."""
 
     pair: str
+    """The pair."""
     harmonic: int
+    """Number of the harmonic of its period."""
     amplitude: float
+    """Its amplitude in the output to first order [rad]."""
 
 
 @dataclass(frozen=True)
 class SpectrumLine(Result):
     """One line of the spectrum of an output's error, at an exact order of the input.
-
-    Attributes
-    ----------
-    order : Fraction
-        Periods per turn of the input.
-    shares : tuple of HarmonicShare
-        The pairs and harmonics that fall on this order, each with its amplitude to first order [rad].
-    expected : float
-        Amplitude to first order, all of them together in their phases [rad].
-    measured : float
-        Amplitude in the composed motion [rad].
 
     See Also
     --------
@@ -72,9 +64,13 @@ class SpectrumLine(Result):
     KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))
 
     order: Fraction
+    """Periods per turn of the input."""
     shares: tuple[HarmonicShare, ...]
+    """The pairs and harmonics that fall on this order, each with its amplitude to first order [rad]."""
     expected: float
+    """Amplitude to first order, all of them together in their phases [rad]."""
     measured: float
+    """Amplitude in the composed motion [rad]."""
 
 
 def find_spectrum(
@@ -176,29 +172,6 @@ class MotionRun(Tabular, Pictured):
 
     Results stand here as far as they were asked for, by `go`, `try_phases`, `estimate` and `analyse`.
 
-    Attributes
-    ----------
-    motion : Motion
-        The motion that is followed.
-    turns : float
-        Turns of the input, within 1e12 either way; negative turns go on the other flanks.
-    samples : int
-        Positions, 2 or more, both ends included.
-    tallies : list of RunningStatistics
-        Peaks and moments by output.
-    phased : list of list of RunningStatistics
-        The same for each set of random phases.
-    seed : int or None
-        Of these phases; None where none were drawn.
-    estimates : dict of str to ErrorEstimates
-        By output.
-    spectra : dict of str to list of SpectrumLine
-        By output, the strongest lines first.
-    done : int
-        Positions counted so far: fewer than `samples` in a run that was interrupted.
-    turned_back : set of str
-        Pairs whose driver was seen turning against its mean; the play between their flanks is not followed there.
-
     Raises
     ------
     QuestionError
@@ -217,15 +190,25 @@ class MotionRun(Tabular, Pictured):
     FIGURE = "motion_figure"
 
     motion: Motion
+    """The motion that is followed."""
     turns: float
+    """Turns of the input, within 1e12 either way; negative turns go on the other flanks."""
     samples: int
+    """Positions, 2 or more, both ends included."""
     tallies: list[RunningStatistics] = field(default_factory=list)
+    """Peaks and moments by output."""
     phased: list[list[RunningStatistics]] = field(default_factory=list)
+    """The same for each set of random phases."""
     seed: int | None = None
+    """Of these phases; None where none were drawn."""
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
+    """By output."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
+    """By output, the strongest lines first."""
     done: int = 0
+    """Positions counted so far: fewer than `samples` in a run that was interrupted."""
     turned_back: set[str] = field(default_factory=set)
+    """Pairs whose driver was seen turning against its mean; the play between their flanks is not followed there."""
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:

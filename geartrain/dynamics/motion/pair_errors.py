@@ -33,15 +33,13 @@ _HALVINGS = 54  # of four pitches: the driver's start is found from its driven w
 
 @dataclass(frozen=True)
 class PairErrors:
-    """The pairs of a train with their laws, as paths of error.
-
-    tolerance   laws are read from tables of this accuracy (in pitches); None asks the laws themselves
-    links       those whose errors are wanted: the teeth of pairs that they do not depend on are not made
-    """
+    """The pairs of a train with their laws, as paths of error."""
 
     train: MotionProblem
     tolerance: float | None
+    """Laws are read from tables of this accuracy (in pitches); None asks the laws themselves."""
     links: Collection[str]
+    """Those whose errors are wanted: the teeth of pairs that they do not depend on are not made."""
 
     @cached_property
     def index(self) -> Mapping[str, int]:

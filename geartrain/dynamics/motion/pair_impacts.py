@@ -31,23 +31,17 @@ if TYPE_CHECKING:
 class ToothImpact:
     """Collisions of the teeth of one pair, where its speed ratio leaps up: equation (7) of docs/motion.md.
 
-    Attributes
-    ----------
-    inertia : float
-        Of all that is struck, at the driven wheel [kg m^2].
-    rate : float
-        Pitches passed a second [1/s].
-    blows : tuple of float
-        Jumps of the driven wheel's speed [rad/s], those of one pitch.
-
     See Also
     --------
     geartrain.dynamics.find_tooth_impacts : gives these, by pair.
     """
 
     inertia: float
+    """Of all that is struck, at the driven wheel [kg m^2]."""
     rate: float
+    """Pitches passed a second [1/s]."""
     blows: tuple[float, ...]
+    """Jumps of the driven wheel's speed [rad/s], those of one pitch."""
 
     @property
     def power(self) -> float:
@@ -106,14 +100,7 @@ class PairOperation:
 
 @dataclass(frozen=True)
 class PairImpacts(Result):
-    """What collisions of one pair cost, and where its law is void, as far as `PairOperation` tells; None elsewhere.
-
-    inertia      kg m2, of all that turns with the driven wheel
-    rate         of the driver (turns per second)
-    handed       energy of one pitch (J) handed to the driven side; `dissipated`, and `work`, their sum
-    least_load   load torque (N m) that keeps the teeth in contact at this rate
-    void         driver's speed (turns per second) above which they part under the declared load
-    """
+    """What collisions of one pair cost, and where its law is void, as far as `PairOperation` tells; None elsewhere."""
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),
@@ -121,12 +108,19 @@ class PairImpacts(Result):
     )
 
     inertia: float
+    """kg m2, of all that turns with the driven wheel."""
     rate: float | None = None
+    """Of the driver (turns per second)."""
     handed: float | None = None
+    """Energy of one pitch (J) handed to the driven side; `dissipated`, and `work`, their sum."""
     dissipated: float | None = None
+    """Energy of one pitch dissipated by collisions [J]."""
     work: float | None = None
+    """Sum of the energies handed and dissipated in one pitch [J]."""
     least_load: float | None = None
+    """Load torque (N m) that keeps the teeth in contact at this rate."""
     void: float | None = None
+    """Driver's speed (turns per second) above which they part under the declared load."""
 
 
 def find_pair_impacts(law: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:

@@ -38,33 +38,16 @@ class SpeedSpan(NamedTuple):
     """Least and greatest speed over the mean (over the input's where that is 0), and the mean over the input's."""
 
     min: float
+    """Least speed over the mean; over the speed of the input where the mean is 0."""
     max: float
+    """Greatest speed over the mean; over the speed of the input where the mean is 0."""
     mean: float
+    """Mean speed over that of the input."""
 
 
 @dataclass
 class RunningStatistics(Result):
     """Peaks and moments of the error and speed of one output over all positions seen so far (Welford, Chan et al.).
-
-    Attributes
-    ----------
-    name : str
-        The output.
-    ratio : Fraction
-        Exact mean speed over the input's.
-    count : int
-        Positions seen.
-    centre : float
-        Mean of the error [rad].
-    square : float
-        Sum of the squared differences of the error from its mean [rad^2].
-    least, most : float
-        Extremes of the error [rad].
-    slow, fast : float
-        Extremes of the speed less its mean, over the input's.
-    error_within, speed_within : float or None
-        No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
-        searched to the end, which leaves a thousand millionth of the range, and None where no bound is known.
 
     See Also
     --------
@@ -79,16 +62,29 @@ class RunningStatistics(Result):
     )
 
     name: str
+    """The output."""
     ratio: Fraction
+    """Exact mean speed over the input's."""
     count: int = 0
+    """Positions seen."""
     centre: float = 0.0
+    """Mean of the error [rad]."""
     square: float = 0.0
+    """Sum of the squared differences of the error from its mean [rad^2]."""
     least: float = inf
+    """Extremes of the error [rad]."""
     most: float = -inf
+    """Extremes of the error [rad]."""
     slow: float = inf
+    """Extremes of the speed less its mean, over the input's."""
     fast: float = -inf
+    """Extremes of the speed less its mean, over the input's."""
     error_within: float | None = 0.0
+    """No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
+    searched to the end, which leaves a thousand millionth of the range, and None where no bound is known."""
     speed_within: float | None = 0.0
+    """No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
+    searched to the end, which leaves a thousand millionth of the range, and None where no bound is known."""
 
     def add(self, error: Floats, rate: Floats) -> None:
         """Count some more positions.

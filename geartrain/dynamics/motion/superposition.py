@@ -100,17 +100,6 @@ class SuperpositionEstimate(Result):
 class ErrorEstimates(Result):
     """Cheap estimates of one output's error beside the truth: equation (6) of docs/motion.md.
 
-    Attributes
-    ----------
-    true : RunningStatistics
-        The exact composition over the same positions.
-    bound : float
-        Sum over pairs of sensitivity times range: the range of the error is at most this [rad].
-    independent : float
-        Root mean square of the error if nothing relates the phases of the pairs [rad].
-    nominal, lagged : SuperpositionEstimate
-        Errors added up with each driver at its mean angle, and with the mean lag of all pairs before it counted in.
-
     See Also
     --------
     MotionRun.estimate : what gives these.
@@ -124,10 +113,15 @@ class ErrorEstimates(Result):
     )
 
     true: RunningStatistics
+    """The exact composition over the same positions."""
     bound: float
+    """Sum over pairs of sensitivity times range: the range of the error is at most this [rad]."""
     independent: float
+    """Root mean square of the error if nothing relates the phases of the pairs [rad]."""
     nominal: SuperpositionEstimate
+    """Errors added up with each driver at its mean angle, and with the mean lag of all pairs before it counted in."""
     lagged: SuperpositionEstimate
+    """Errors added up with each driver at its mean angle, and with the mean lag of all pairs before it counted in."""
 
     @property
     def bound_error(self) -> float:

@@ -170,16 +170,14 @@ class _InfluenceSolver:
 
 
 class FlowDirections(NamedTuple):
-    """What takes power that flows from a pair's first wheel to its second, and what takes it the other way.
-
-    shared   redundant pairs share the power in no certain way
-    note     what takes no power through this pair
-    """
+    """What takes power that flows from a pair's first wheel to its second, and what takes it the other way."""
 
     ahead: LoadGroup = NOTHING
     back: LoadGroup = NOTHING
     shared: bool = False
+    """Redundant pairs share the power in no certain way."""
     note: str = ""
+    """What takes no power through this pair."""
 
     def __bool__(self) -> bool:
         return bool(self.ahead.count or self.back.count or self.shared)

@@ -90,16 +90,14 @@ _ONE = Fraction(1)
 
 @dataclass(frozen=True)
 class MeanEfficiencies:
-    """Efficiencies of one pair with the first link driving, then with the second.
-
-    driver   where the torque of the driver is constant over a turn
-    load     where the torque of the driven side is
-    exact    as declared; False for means over teeth, which are floats to 15 digits
-    """
+    """Efficiencies of one pair with the first link driving, then with the second."""
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
+    """Where the torque of the driver is constant over a turn."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
+    """Where the torque of the driven side is."""
     exact: bool = True
+    """As declared; False for means over teeth, which are floats to 15 digits."""
 
     @property
     def differ(self) -> bool:
@@ -120,13 +118,7 @@ class MeanEfficiencies:
 
 @dataclass(frozen=True)
 class LoadCase:
-    """A train in one case, solved for its speeds: everything torques need to know of it.
-
-    speeds   of the links whose speed is determined
-    meshes   pairs with real teeth by name
-    forms    in a train that is free, the speeds of all links in terms of what is free; else empty
-    means    what pairs and couplings lose on the mean, by name, as far as it has been asked for
-    """
+    """A train in one case, solved for its speeds: everything torques need to know of it."""
 
     train: Train
     tree: Tree
@@ -134,10 +126,14 @@ class LoadCase:
     signs: Mapping[str, int]
     case: StateCase
     speeds: Mapping[str, Fraction]
+    """Of the links whose speed is determined."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
+    """Pairs with real teeth by name."""
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
+    """In a train that is free, the speeds of all links in terms of what is free; else empty."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """What pairs and couplings lose on the mean, by name, as far as it has been asked for."""
 
     @cached_property
     def gears(self) -> Mapping[str, GearPair]:

@@ -38,15 +38,14 @@ _MEAN = "the torques given are means over a turn"
 
 @dataclass(frozen=True)
 class SpeedBounds:
-    """Least and greatest speed of a bearing.
-
-    magnitude, most   mean and greatest of its magnitude, where one pair alone makes it uneven
-    """
+    """Least and greatest speed of a bearing."""
 
     low: float
     high: float
     magnitude: float | None = None
+    """Mean and greatest of its magnitude, where one pair alone makes it uneven."""
     most: float | None = None
+    """Mean and greatest of its magnitude, where one pair alone makes it uneven."""
 
     @property
     def turns_back(self) -> bool:
@@ -65,15 +64,13 @@ class SpeedBounds:
 
 @dataclass(frozen=True)
 class _Uneven:
-    """A pair whose speed ratio is not constant: its row has factor (tau - m) times the speed of its driver.
-
-    law      None where it is not known: a pin without dimensions, teeth that cannot turn
-    driver   seen from the carrier; `mean` is m
-    """
+    """A pair whose speed ratio is not constant: its row has factor (tau - m) times the speed of its driver."""
 
     id: str
     law: TransmissionFunction | None
+    """None where it is not known: a pin without dimensions, teeth that cannot turn."""
     driver: str
+    """Seen from the carrier; `mean` is m."""
     carrier: str
     factor: Fraction
     mean: Fraction

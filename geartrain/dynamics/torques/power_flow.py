@@ -26,35 +26,21 @@ PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
 class PowerNode(NamedTuple):
     """A place that power passes.
 
-    Attributes
-    ----------
-    kind : {"in", "shaft", "pair", "bearing", "out"}
-        What it is: power enters the train at `in` and leaves it at `out`.
-    name : str
-        Of the link (`in`, `out`, and a bearing, by the link that turns in it), of the pair, or of a shaft: links that
-        are locked together are one, `a + b`.
-
     See Also
     --------
     PowerFlow.nodes : all of them.
     """
 
     kind: PowerNodeKind
+    """What it is: power enters the train at `in` and leaves it at `out`."""
     name: str
+    """Of the link (`in`, `out`, and a bearing, by the link that turns in it), of the pair, or of a shaft: links that
+    are locked together are one, `a + b`."""
 
 
 @dataclass(frozen=True)
 class PowerStream(Result):
     """Power that flows from one node to the next.
-
-    Attributes
-    ----------
-    source, target : PowerNode
-        The ends.
-    power : Fraction
-        Above 0 [torque times the train's unit of speed].
-    circling : Fraction
-        The part of it that runs in closed loops.
 
     See Also
     --------
@@ -64,23 +50,18 @@ class PowerStream(Result):
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
     source: PowerNode
+    """The ends."""
     target: PowerNode
+    """The ends."""
     power: Fraction
+    """Above 0 [torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
+    """The part of it that runs in closed loops."""
 
 
 @dataclass(frozen=True)
 class RecirculatingPower(Result):
     """Nodes that feed each other in closed loops, and the power that runs round in them without leaving.
-
-    Attributes
-    ----------
-    nodes : tuple of PowerNode
-        The pairs and shafts of the loops.
-    power : Fraction
-        What runs round [torque times the train's unit of speed].
-    power_in : Fraction
-        What enters the train.
 
     See Also
     --------
@@ -90,8 +71,11 @@ class RecirculatingPower(Result):
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
 
     nodes: tuple[PowerNode, ...]
+    """The pairs and shafts of the loops."""
     power: Fraction
+    """What runs round [torque times the train's unit of speed]."""
     power_in: Fraction
+    """What enters the train."""
 
     @property
     def of_power_in(self) -> Fraction | None:
@@ -191,17 +175,6 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
 class PowerLoss(Result):
     """What a pair or bearing loses, beside what enters the train and what is lost in all.
 
-    Attributes
-    ----------
-    node : PowerNode
-        The pair, or the bearing.
-    power : Fraction
-        What it loses [torque times the train's unit of speed].
-    power_in : Fraction
-        What enters the train.
-    loss : Fraction
-        What is lost in all.
-
     See Also
     --------
     PowerFlow.shares : all of them.
@@ -213,9 +186,13 @@ class PowerLoss(Result):
     )
 
     node: PowerNode
+    """The pair, or the bearing."""
     power: Fraction
+    """What it loses [torque times the train's unit of speed]."""
     power_in: Fraction
+    """What enters the train."""
     loss: Fraction
+    """What is lost in all."""
 
     @property
     def of_power_in(self) -> Fraction | None:
@@ -234,17 +211,6 @@ class PowerFlow(Result):
 
     So every shaft gives on all it takes in, and every pair all but what it loses.
 
-    Attributes
-    ----------
-    power_in : Fraction
-        What enters the train [torque times the train's unit of speed].
-    streams : tuple of PowerStream
-        From `in` through shafts and pairs to `out`.
-    losses : mapping of PowerNode to Fraction
-        By pair and bearing, only where something is lost.
-    loops : tuple of RecirculatingPower
-        Circulating power, the greatest first.
-
     Examples
     --------
     >>> import geartrain
@@ -262,9 +228,13 @@ class PowerFlow(Result):
     KEYS = ("streams", "loops")
 
     power_in: Fraction = Fraction(0)
+    """What enters the train [torque times the train's unit of speed]."""
     streams: tuple[PowerStream, ...] = ()
+    """From `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
+    """By pair and bearing, only where something is lost."""
     loops: tuple[RecirculatingPower, ...] = ()
+    """Circulating power, the greatest first."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:

@@ -29,18 +29,16 @@ _GREAT = 10**12  # lambda of section 6: beside a load so many times as great, co
 
 @dataclass(frozen=True)
 class LoadedBalance:
-    """A balance with what stands behind its known torques: loads, and friction of bearings.
-
-    enough   as many torques are unknown as the train has freedoms; else the loads must balance of themselves
-    open     links whose speed is not determined
-    """
+    """A balance with what stands behind its known torques: loads, and friction of bearings."""
 
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
     loads: Mapping[str, Fraction]
     rubbing: Mapping[str, Fraction]
     enough: bool = True
+    """As many torques are unknown as the train has freedoms; else the loads must balance of themselves."""
     open: tuple[str, ...] = ()
+    """Links whose speed is not determined."""
 
     @property
     def names(self) -> str:
@@ -264,15 +262,13 @@ def find_ties(
 
 @dataclass(frozen=True)
 class UnknownLinks:
-    """The links whose torque is unknown.
-
-    enough     as many as the train has freedoms; with fewer the loads have to balance of themselves
-    undecided  why more are needed than it is plain which, where the loads do not
-    """
+    """The links whose torque is unknown."""
 
     links: tuple[str, ...]
     enough: bool = True
+    """As many as the train has freedoms; with fewer the loads have to balance of themselves."""
     undecided: TorqueVerdict | None = None
+    """Why more are needed than it is plain which, where the loads do not."""
 
 
 @dataclass(frozen=True)

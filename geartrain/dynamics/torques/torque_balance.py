@@ -27,21 +27,21 @@ _SCALES = 1_000_003, 1_414_213  # of the coefficients of a row, so that nothing 
 
 @dataclass(frozen=True)
 class LoadedPair:
-    """One gear pair or coupling as a path of power: equations (1), (2), (4) and (5) of docs/torques.md.
-
-    links, senses   i, j, k, and 1 or -1 for the sense of each link's axis
-    a, b            coefficients of its row
-    rolling         a (w_i - w_k), which is -b (w_j - w_k): 0 where the two do not roll on each other
-    forward         efficiency with i driving, `backward` with j driving; at most 1, 0 or less locks
-    """
+    """One gear pair or coupling as a path of power: equations (1), (2), (4) and (5) of docs/torques.md."""
 
     id: str
     links: tuple[str, str, str]
+    """I, j, k, and 1 or -1 for the sense of each link's axis."""
     senses: tuple[int, int, int]
+    """I, j, k, and 1 or -1 for the sense of each link's axis."""
     a: int
+    """Coefficients of its row."""
     b: int
+    """Coefficients of its row."""
     rolling: Fraction
+    """A (w_i - w_k), which is -b (w_j - w_k): 0 where the two do not roll on each other."""
     forward: Fraction = Fraction(1)
+    """Efficiency with i driving, `backward` with j driving; at most 1, 0 or less locks."""
     backward: Fraction = Fraction(1)
 
     def __post_init__(self) -> None:
@@ -93,19 +93,17 @@ class LoadedPair:
 
 @dataclass(frozen=True)
 class TorqueUnknown:
-    """One unknown torque, the same in all its meshes, and what a unit of it does to each row.
-
-    pieces   side of the first mesh that loses -> row -> coefficient; side 0 is without loss
-    sides    which of them are tried
-    turn     sign of that mesh's rolling
-    barred   no power can pass: the torque must vanish
-    """
+    """One unknown torque, the same in all its meshes, and what a unit of it does to each row."""
 
     pieces: Mapping[int, LinearForm]
+    """Side of the first mesh that loses -> row -> coefficient; side 0 is without loss."""
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
+    """Which of them are tried."""
     turn: int = 0
+    """Sign of that mesh's rolling."""
     barred: bool = False
+    """No power can pass: the torque must vanish."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
         """True if power flows the way `side` says, or not at all."""
@@ -251,19 +249,17 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques under one pattern: multipliers by mesh, external torques asked for, and on brakes and locks.
-
-    locks   by lock, the torque it exerts on its first link about the direction of the parallels; None where it is open
-    loose   meshes whose torque is not determined, as between planets; they count 0
-    open    links asked for or held whose external torque is not determined for that; left out
-    """
+    """Torques under one pattern: multipliers by mesh, external torques asked for, and on brakes and locks."""
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
     brakes: Mapping[str, Fraction]
     locks: tuple[Fraction | None, ...]
+    """By lock, the torque it exerts on its first link about the direction of the parallels; None where it is open."""
     loose: tuple[str, ...]
+    """Meshes whose torque is not determined, as between planets; they count 0."""
     open: tuple[str, ...]
+    """Links asked for or held whose external torque is not determined for that; left out."""
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:

@@ -20,25 +20,16 @@ class LinkTorque(Result):
     KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "asked")
 
     torque: Fraction
+    """External torque on the link."""
     power: Fraction | None
+    """Power that it puts into the train; None where the speed is not determined."""
     asked: bool
+    """True if the torque was requested, False if it was given."""
 
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
     """A brake on one link, or a lock of two, with the torques it exerts on them.
-
-    Attributes
-    ----------
-    links : tuple of str
-        The link that is held, or the two that turn together.
-    torques : tuple of Fraction or None
-        On each of the links about its own axis [N m, or plain]; None where they are open.
-    clutch : str or None
-        Its name, if it has one.
-    cause : tuple of str
-        The links that are declared to be held, where these follow from it: a rigid connection across several axes
-        closes every joint on its way.
 
     See Also
     --------
@@ -48,9 +39,14 @@ class HoldingTorque(Result):
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
 
     links: tuple[str, ...]
+    """The link that is held, or the two that turn together."""
     torques: tuple[Fraction, ...] | None
+    """On each of the links about its own axis [N m, or plain]; None where they are open."""
     clutch: str | None = None
+    """Its name, if it has one."""
     cause: tuple[str, ...] = ()
+    """The links that are declared to be held, where these follow from it: a rigid connection across several axes
+    closes every joint on its way."""
 
     @property
     def declared_cause(self) -> tuple[str, ...] | None:
@@ -67,22 +63,15 @@ class MemberTorques(NamedTuple):
     """Torques on the members of a gear pair or coupling."""
 
     first: Fraction
+    """On the first wheel."""
     second: Fraction
+    """On the second wheel."""
     carrier: Fraction
+    """On the carrier."""
 
 
 class BearingTorque(NamedTuple):
     """Friction of one bearing: equation (10) of docs/torques.md.
-
-    Attributes
-    ----------
-    link, carrier : str
-        The link that turns in the bearing, and the one that bears it.
-    torque, reaction : Fraction
-        On the link and on the carrier, each about its own axis [N m, or plain]; 0 where the bearing rests or its speed
-        is open, and on the frame.
-    loss : Fraction
-        Power it takes, 0 or more [torque times the train's unit of speed].
 
     See Also
     --------
@@ -90,37 +79,22 @@ class BearingTorque(NamedTuple):
     """
 
     link: str
+    """The link that turns in the bearing, and the one that bears it."""
     carrier: str
+    """The link that turns in the bearing, and the one that bears it."""
     torque: Fraction
+    """On the link and on the carrier, each about its own axis [N m, or plain]; 0 where the bearing rests or its
+    speed is open, and on the frame."""
     reaction: Fraction
+    """On the link and on the carrier, each about its own axis [N m, or plain]; 0 where the bearing rests or its
+    speed is open, and on the frame."""
     loss: Fraction
+    """Power it takes, 0 or more [torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
 class PairTorque(Result):
     """One gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md.
-
-    Attributes
-    ----------
-    id : str
-        Name of the pair.
-    driver : str
-        The wheel (or link) that drives in the carrier's frame; "" where no power flows.
-    links : tuple of str
-        First link, second link, carrier.
-    torques : tuple of Fraction
-        On these three, each about its own axis [N m, or plain].
-    multiplier : Fraction
-        The unknown x of the pair's row.
-    rolling : Fraction or None
-        a (w_i - w_k), so that -x times it is the power from the first link to the second; None where the wheels roll
-        on each other at a speed that is not determined.
-    share : Fraction
-        Part of the power that is left behind the pair, the carrier held; 1 without loss.
-    loose : bool
-        True where the balance does not determine the torque.
-    exact : bool
-        False where `share` is a mean over teeth, a float to 15 digits.
 
     See Also
     --------
@@ -136,14 +110,24 @@ class PairTorque(Result):
     )
 
     id: str
+    """Name of the pair."""
     driver: str
+    """The wheel (or link) that drives in the carrier's frame; "" where no power flows."""
     links: tuple[str, str, str]
+    """First link, second link, carrier."""
     torques: tuple[Fraction, Fraction, Fraction]
+    """On these three, each about its own axis [N m, or plain]."""
     multiplier: Fraction
+    """The unknown x of the pair's row."""
     rolling: Fraction | None
+    """A (w_i - w_k), so that -x times it is the power from the first link to the second; None where the wheels roll
+    on each other at a speed that is not determined."""
     share: Fraction
+    """Part of the power that is left behind the pair, the carrier held; 1 without loss."""
     loose: bool = False
+    """True where the balance does not determine the torque."""
     exact: bool = True
+    """False where `share` is a mean over teeth, a float to 15 digits."""
 
     @property
     def efficiency(self) -> Fraction | float:
@@ -190,26 +174,19 @@ class TorqueVerdict(Result):
 
     True where torques are given: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
 
-    Attributes
-    ----------
-    kind : str
-        One of these:
+    Kinds:
 
-        - `determined`: they follow, and nothing that is declared is left out.
-        - `incomplete`: they follow, but for what `Torques.left_out` names.
-        - `self-locking`: no torques balance the load, however great, while the train turns this way.
-        - `stalled`: none balance this load, which is too small to overcome the friction of bearings.
-        - `ambiguous`: several patterns of power flow do; the one that loses least is given.
-        - `indeterminate`: some tooth torques share a load in proportions that nothing declared decides.
-        - `contradictory`: declared shares of pairs do not go with the balance.
-        - `unbalanced`: the loads set the train moving, and no torque of the links asked for can hold them.
-        - `undecided`: it is not plain which torque is to be found.
-        - `unloaded`: no load and no friction of a bearing is declared.
-        - `still`: the train, or the link asked for, does not turn, or at a speed that is not determined.
-    text : str
-        The verdict in one sentence.
-    candidates : tuple of str
-        Links of which one might be asked for (`solve_for`), or would balance the loads; pairs that share a load openly.
+    - `determined`: they follow, and nothing that is declared is left out.
+    - `incomplete`: they follow, but for what `Torques.left_out` names.
+    - `self-locking`: no torques balance the load, however great, while the train turns this way.
+    - `stalled`: none balance this load, which is too small to overcome the friction of bearings.
+    - `ambiguous`: several patterns of power flow do; the one that loses least is given.
+    - `indeterminate`: some tooth torques share a load in proportions that nothing declared decides.
+    - `contradictory`: declared shares of pairs do not go with the balance.
+    - `unbalanced`: the loads set the train moving, and no torque of the links asked for can hold them.
+    - `undecided`: it is not plain which torque is to be found.
+    - `unloaded`: no load and no friction of a bearing is declared.
+    - `still`: the train, or the link asked for, does not turn, or at a speed that is not determined.
 
     Examples
     --------
@@ -219,8 +196,11 @@ class TorqueVerdict(Result):
     """
 
     kind: TorqueVerdictKind
+    """One of the kinds above."""
     text: str
+    """The verdict in a sentence."""
     candidates: tuple[str, ...] = ()
+    """Links whose torque may be requested (`solve_for`) or would balance the loads; pairs that share a load openly."""
 
     def __bool__(self) -> bool:
         return self.kind in ("determined", "incomplete", "ambiguous", "indeterminate")
@@ -230,23 +210,17 @@ class TorqueVerdict(Result):
 class NeglectedEffect(Result):
     """Something that is declared and does not stand in the torques given: the table in section 13 of docs/torques.md.
 
-    Attributes
-    ----------
-    what : str
-        What is left out, such as `friction of bearings` or `swing within a turn`.
-    where : tuple of str
-        The pairs or links concerned.
-    why : str
-        The reason in words.
-
     See Also
     --------
     Torques.left_out : where these stand.
     """
 
     what: str
+    """What is left out, such as `friction of bearings` or `swing within a turn`."""
     where: tuple[str, ...]
+    """The pairs or links concerned."""
     why: str
+    """The reason in words."""
 
     @property
     def counts(self) -> bool:
@@ -260,21 +234,17 @@ class NeglectedEffect(Result):
 class DrivenWay(NamedTuple):
     """Torques of a train driven at `source` while a unit of power leaves at `load`.
 
-    Attributes
-    ----------
-    torques : Torques
-        What answers; its `efficiency` is that of this way.
-    source, load : str
-        The links at which power enters and leaves.
-
     See Also
     --------
     geartrain.GearTrain.driven : gives the torques of one way.
     """
 
     torques: Torques
+    """What answers; its `efficiency` is that of this way."""
     source: str
+    """The links at which power enters and leaves."""
     load: str
+    """The links at which power enters and leaves."""
 
 
 @dataclass(frozen=True)
@@ -283,27 +253,6 @@ class Torques(FrozenFields, Tabular, Result):
 
     Torques are in N m where loads have units, else in the plain unit of the loads; powers are torques times the train's
     unit of speed. Power is positive into the train.
-
-    Attributes
-    ----------
-    state : str or None
-        The state; None for a train without states.
-    verdict : TorqueVerdict
-        Whether the torques follow from the loads. Where they do not, nothing but this and `left_out` is given.
-    asked : tuple of str
-        The links whose torque was found.
-    external : mapping of str to Fraction
-        Torque from outside on every link that has one: loads, what was asked for, brakes.
-    speeds : mapping of str to Fraction
-        Speeds of the links whose speed is determined.
-    pairs : mapping of str to PairTorque
-        Gear pairs and couplings by name.
-    bearings : tuple of BearingTorque
-        Friction of bearings; empty where it was not asked for.
-    held : tuple of HoldingTorque
-        Brakes and locks with the torques they exert.
-    left_out : tuple of NeglectedEffect
-        What is not counted.
 
     Examples
     --------
@@ -336,14 +285,23 @@ class Torques(FrozenFields, Tabular, Result):
     )
 
     state: str | None
+    """The state; None for a train without states."""
     verdict: TorqueVerdict
+    """Whether the torques follow from the loads. Where they do not, nothing but this and `left_out` is given."""
     asked: tuple[str, ...] = ()
+    """The links whose torque was found."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
+    """Torque from outside on every link that has one: loads, what was asked for, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
+    """Speeds of the links whose speed is determined."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
+    """Gear pairs and couplings by name."""
     bearings: tuple[BearingTorque, ...] = ()
+    """Friction of bearings; empty where it was not asked for."""
     held: tuple[HoldingTorque, ...] = ()
+    """Brakes and locks with the torques they exert."""
     left_out: tuple[NeglectedEffect, ...] = ()
+    """What is not counted."""
 
     @property
     def powers(self) -> Mapping[str, Fraction]:

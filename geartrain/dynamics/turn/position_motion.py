@@ -78,16 +78,14 @@ class FlankChoice(DerivedTransmission):
 
 
 class LinkMotion(NamedTuple):
-    """How links turn at some positions of the input.
-
-    turns    of the input, (n,)
-    speeds   of links about the direction of their parallels, over the magnitude of the input's, (links, n)
-    angles   by pair that is followed, forward angle of its law's driver (rad), (n,)
-    """
+    """How links turn at some positions of the input."""
 
     turns: Floats
+    """Of the input, (n,)."""
     speeds: Floats
+    """Of links about the direction of their parallels, over the magnitude of the input's, (links, n)."""
     angles: Mapping[str, Floats]
+    """By pair that is followed, forward angle of its law's driver (rad), (n,)."""
 
 
 class PositionMotion:

@@ -20,23 +20,17 @@ if TYPE_CHECKING:
 class TorqueExtreme(NamedTuple):
     """A torque, and where in the run it is needed.
 
-    Attributes
-    ----------
-    torque : float
-        At the link asked for, positive where it drives the way the link turns on average [N m, or plain].
-    turns : float
-        Turns of the input from the start of the run.
-    days : float or None
-        Time from the start of the run; None where the train's speeds are not by a time.
-
     See Also
     --------
     TorqueCycle.greatest, TorqueCycle.least, TorqueCycle.starting : where these stand.
     """
 
     torque: float
+    """At the link asked for, positive where it drives the way the link turns on average [N m, or plain]."""
     turns: float
+    """Turns of the input from the start of the run."""
     days: float | None = None
+    """Time from the start of the run; None where the train's speeds are not by a time."""
 
 
 class CycleFigures(NamedTuple):
@@ -56,20 +50,15 @@ class CycleFigures(NamedTuple):
 class PlaceInRun(NamedTuple):
     """Where in a run something is.
 
-    Attributes
-    ----------
-    turns : float
-        Turns of the input from the start of the run.
-    days : float or None
-        Time from there; None where the train's speeds are not by a time.
-
     See Also
     --------
     TorqueCycle.locked : where these stand.
     """
 
     turns: float
+    """Turns of the input from the start of the run."""
     days: float | None = None
+    """Time from there; None where the train's speeds are not by a time."""
 
 
 @dataclass(frozen=True)
@@ -77,19 +66,6 @@ class CycleEnergy(Result):
     """Energies over a run [J, or plain torque times radians].
 
     What goes in comes out or is lost: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
-
-    Attributes
-    ----------
-    put_in : float
-        What the unknown torques (the crank's) put in, over the stretches in which they do.
-    returned : float
-        What they take back where loads drive them.
-    taken_out : float
-        What loads take out, over the stretches in which they do.
-    loads_put_in : float
-        What loads put in.
-    mesh, pin, bearing : float
-        What is lost in gear pairs, in pins and slots, in bearings: 0 or more.
 
     See Also
     --------
@@ -102,12 +78,19 @@ class CycleEnergy(Result):
     )
 
     put_in: float
+    """What the unknown torques (the crank's) put in, over the stretches in which they do."""
     returned: float
+    """What they take back where loads drive them."""
     taken_out: float
+    """What loads take out, over the stretches in which they do."""
     loads_put_in: float
+    """What loads put in."""
     mesh: float
+    """What is lost in gear pairs, in pins and slots, in bearings: 0 or more."""
     pin: float
+    """What is lost in gear pairs, in pins and slots, in bearings: 0 or more."""
     bearing: float
+    """What is lost in gear pairs, in pins and slots, in bearings: 0 or more."""
 
     @property
     def net_in(self) -> float:
@@ -136,20 +119,6 @@ class CycleEnergy(Result):
 class PairCycle(Result):
     """One gear pair, coupling or bearing over a run.
 
-    Attributes
-    ----------
-    kind : str
-        `mesh`, `pin` or `bearing`.
-    loss : float
-        Energy lost [J, or plain torque times radians].
-    passed : float
-        Energy that its driving side put in, in its carrier's frame; of a bearing the same as the loss.
-    flank_changes : int
-        How often the torque through it changes its sense: each time the play of real teeth is crossed. In a run of
-        whole periods the change from its end to its start counts.
-    greatest : float
-        Greatest torque on its driven side at any position, whichever its sense [N m, or plain]; of a bearing 0.
-
     See Also
     --------
     TorqueCycle.parts : where these stand.
@@ -158,10 +127,16 @@ class PairCycle(Result):
     KEYS = ("kind", "loss", "passed", "flank_changes", "greatest")
 
     kind: str
+    """`mesh`, `pin` or `bearing`."""
     loss: float
+    """Energy lost [J, or plain torque times radians]."""
     passed: float
+    """Energy that its driving side put in, in its carrier's frame; of a bearing the same as the loss."""
     flank_changes: int = 0
+    """How often the torque through it changes its sense: each time the play of real teeth is crossed. In a run of
+    whole periods the change from its end to its start counts."""
     greatest: float = 0.0
+    """Greatest torque on its driven side at any position, whichever its sense [N m, or plain]; of a bearing 0."""
 
 
 @dataclass(frozen=True)
@@ -172,61 +147,6 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     those at which something turns back or changes its flank, and more where integrals ask for them; arrays over them
     are read-only. Where nothing balances the train is locked: the torque is NaN there. A torque of 1 N m over one turn
     of its own link is 2 pi J.
-
-    Attributes
-    ----------
-    state : str or None
-        The state; None for a train without states.
-    verdict : TorqueVerdict
-        Whether torques follow: `determined`; `incomplete` where something is left out; `ambiguous` where several
-        patterns of power flow balance somewhere; `self-locking` where nothing balances at some position. Where
-        redundant pairs share a load in no certain way it is `indeterminate`, and the least torques that balance are
-        given. Where the question itself has no answer it is the verdict of `Torques`, and nothing else is given.
-    link : str
-        The link whose torque is asked for.
-    newton_metres : bool
-        True where torques are in N m, False where they are in the plain unit of the loads.
-    span : float
-        Turns of the input in the run.
-    period : float or None
-        Turns after which everything stands as at the start; None where nothing ripples.
-    turns : array of float, (n,)
-        Positions of the input, in ascending order; the two sides of a jump stand at one position.
-    torque : array of float, (n,)
-        Torque at the link, positive where it drives the way the link turns on average (about its own axis, if it turns
-        nowhere on average); where several patterns balance, of the one that loses least [N m, or plain].
-    highest : array of float, (n,)
-        The same with the pattern that loses most.
-    standing : array of float, (n,)
-        The torque that starts the train at each position, static friction everywhere.
-    speeds : LabelledArray
-        Speeds of links over the input's, (link, position).
-    powers : LabelledArray
-        Power that each torque from outside puts in, over the speed of the input, (link, position) [N m, or plain].
-    losses : LabelledArray
-        Power lost over the speed of the input, (part, position) [N m, or plain].
-    mean : float or None
-        Mean of the torque over the run; None where the train locks.
-    greatest, least : TorqueExtreme or None
-        Of the torque, and of all patterns where several balance; the greatest is None where the train locks.
-    starting : TorqueExtreme or None
-        What starts the train at the worst position; None where it locks there.
-    energy : CycleEnergy or None
-        Over the run; None where the train locks.
-    parts : mapping of str to PairCycle
-        Gear pairs, couplings, and bearings by `bearing LINK`.
-    locked_share : float
-        Share of the run in which nothing balances.
-    held_share : float
-        Share of the run in which loads and link both put power in, and all of it is lost.
-    ambiguous_share : float
-        Share of the run in which several patterns balance.
-    locked : tuple of (PlaceInRun, PlaceInRun)
-        Beginning and end of each stretch in which nothing balances.
-    complete : bool
-        False where there were too many patterns of power flow to try them all.
-    left_out : tuple of NeglectedEffect
-        What is not counted.
 
     Examples
     --------
@@ -264,30 +184,60 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, Result):
     )
 
     state: str | None
+    """The state; None for a train without states."""
     verdict: TorqueVerdict
+    """Whether torques follow: `determined`; `incomplete` where something is left out; `ambiguous` where several
+    patterns of power flow balance somewhere; `self-locking` where nothing balances at some position. Where redundant
+    pairs share a load in no certain way it is `indeterminate`, and the least torques that balance are given. Where
+    the question itself has no answer it is the verdict of `Torques`, and nothing else is given."""
     link: str = ""
+    """The link whose torque is asked for."""
     newton_metres: bool = True
+    """True where torques are in N m, False where they are in the plain unit of the loads."""
     span: float = 0.0
+    """Turns of the input in the run."""
     period: float | None = None
+    """Turns after which everything stands as at the start; None where nothing ripples."""
     turns: Floats | None = None
+    """Positions of the input, in ascending order; the two sides of a jump stand at one position. Shape (n,)."""
     torque: Floats | None = None
+    """Torque at the link, positive where it drives the way the link turns on average (about its own axis, if it
+    turns nowhere on average); where several patterns balance, of the one that loses least [N m, or plain]. Shape
+    (n,)."""
     highest: Floats | None = None
+    """The same with the pattern that loses most. Shape (n,)."""
     standing: Floats | None = None
+    """The torque that starts the train at each position, static friction everywhere. Shape (n,)."""
     speeds: LabelledArray | None = None
+    """Speeds of links over the input's, (link, position)."""
     powers: LabelledArray | None = None
+    """Power that each torque from outside puts in, over the speed of the input, (link, position) [N m, or plain]."""
     losses: LabelledArray | None = None
+    """Power lost over the speed of the input, (part, position) [N m, or plain]."""
     mean: float | None = None
+    """Mean of the torque over the run; None where the train locks."""
     greatest: TorqueExtreme | None = None
+    """Of the torque, and of all patterns where several balance; the greatest is None where the train locks."""
     least: TorqueExtreme | None = None
+    """Of the torque, and of all patterns where several balance; the greatest is None where the train locks."""
     starting: TorqueExtreme | None = None
+    """What starts the train at the worst position; None where it locks there."""
     energy: CycleEnergy | None = None
+    """Over the run; None where the train locks."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
+    """Gear pairs, couplings, and bearings by `bearing LINK`."""
     locked_share: float = 0.0
+    """Share of the run in which nothing balances."""
     held_share: float = 0.0
+    """Share of the run in which loads and link both put power in, and all of it is lost."""
     ambiguous_share: float = 0.0
+    """Share of the run in which several patterns balance."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
+    """Beginning and end of each stretch in which nothing balances."""
     complete: bool = True
+    """False where there were too many patterns of power flow to try them all."""
     left_out: tuple[NeglectedEffect, ...] = ()
+    """What is not counted."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -34,36 +34,32 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in their forward senses.
-
-    barred   where no power can pass; None for nowhere
-    """
+    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in their forward
+    senses."""
 
     driven: Floats
     driver: Floats
     barred: Bools | None = None
+    """Where no power can pass; None for nowhere."""
 
 
 class PairForce(NamedTuple):
-    """Torques on a circuit's first and second link for a unit of the multiplier, about the parallels' direction, (n,).
-
-    barred   where no power can pass; None for nowhere
-    """
+    """Torques on a circuit's first and second link for a unit of the multiplier, about the parallels' direction,
+    (n,)."""
 
     first: Floats
     second: Floats
     barred: Bools | None
+    """Where no power can pass; None for nowhere."""
 
 
 class DriverState(NamedTuple):
-    """How a pair stands and turns at some positions, (n,) each.
-
-    S         forward angle of the law's driver (rad); empty where nothing of the pair depends on it
-    turning   its forward speed, seen from the carrier, over the input's
-    """
+    """How a pair stands and turns at some positions, (n,) each."""
 
     S: Floats
+    """Forward angle of the law's driver (rad); empty where nothing of the pair depends on it."""
     turning: Floats
+    """Its forward speed, seen from the carrier, over the input's."""
 
 
 class ContactLosses(ABC):
@@ -132,15 +128,13 @@ class BasicEfficiency(ContactLosses):
 
 @dataclass(frozen=True)
 class ToothFriction(ContactLosses):
-    """Friction of real teeth: each contact passes (1 + f out)/(1 + f into), f < 0 where its flanks slide back.
-
-    sliding   coefficient in motion, at any speed; or at a speed of sliding over that of the pitch line, and the
-              driver's speed over the input's
-    static    coefficient at rest
-    """
+    """Friction of real teeth: each contact passes (1 + f out)/(1 + f into), f < 0 where its flanks slide back."""
 
     sliding: float | Callable[[Floats, Floats], Floats]
+    """Coefficient in motion, at any speed; or at a speed of sliding over that of the pitch line, and the driver's
+    speed over the input's."""
     static: float
+    """Coefficient at rest."""
 
     @property
     def starts_harder(self) -> bool:
@@ -208,21 +202,19 @@ class PinFriction(ContactLosses):
 
 @dataclass(frozen=True)
 class PairContact:
-    """One gear pair or coupling as torque passes through it.
-
-    first    True where the law's driver is the circuit's first link
-    way      sense of its mean motion seen from the carrier, about the parallels' direction; `sense`, the driven side's
-    ratio    constant ratio, driven over driver without sign, where there is no source
-    source   of the error of its law; None for a pair of constant ratio, whose position does not matter
-    """
+    """One gear pair or coupling as torque passes through it."""
 
     circuit: Circuit
     first: bool
+    """True where the law's driver is the circuit's first link."""
     way: int
+    """Sense of its mean motion seen from the carrier, about the parallels' direction; `sense`, the driven side's."""
     sense: int
     ratio: float
+    """Constant ratio, driven over driver without sign, where there is no source."""
     losses: ContactLosses
     source: PairErrorSource | None = None
+    """Of the error of its law; None for a pair of constant ratio, whose position does not matter."""
 
     @property
     def name(self) -> str:

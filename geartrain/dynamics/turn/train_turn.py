@@ -37,14 +37,12 @@ if TYPE_CHECKING:
 
 @dataclass
 class FrictionStudy:
-    """A run to be told with other coefficients of friction.
-
-    certain   True where who drives each pair is the same with any friction that does not lock
-    """
+    """A run to be told with other coefficients of friction."""
 
     run: TurnRun
     of: str | None = None
     certain: bool = False
+    """True where who drives each pair is the same with any friction that does not lock."""
 
     def figures(self, friction: Mapping[str, FrictionInForce]) -> CycleFigures:
         """Figures of the run with other frictions of some pairs and couplings."""

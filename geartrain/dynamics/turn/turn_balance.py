@@ -39,14 +39,12 @@ ROUNDS = 6  # of finding flanks and speeds that agree
 
 @dataclass(frozen=True)
 class ColumnPieces:
-    """What a unit of one unknown torque does to each row, by the sign it has.
-
-    pieces   by side (1 and -1, or 0 where it does not matter), by row: (n,)
-    barred   by side, where it must vanish
-    """
+    """What a unit of one unknown torque does to each row, by the sign it has."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
+    """By side (1 and -1, or 0 where it does not matter), by row: (n,)."""
     barred: Mapping[int, Bools]
+    """By side, where it must vanish."""
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -56,15 +54,13 @@ class ColumnPieces:
 
 @dataclass
 class BalanceLayer:
-    """One solution at each position where there is one.
-
-    values   by column, (columns, n); `rows`, what is left of each row's torque, (rows, n)
-    valid    where everything balances
-    """
+    """One solution at each position where there is one."""
 
     values: Floats
+    """By column, (columns, n); `rows`, what is left of each row's torque, (rows, n)."""
     rows: Floats
     valid: Bools
+    """Where everything balances."""
 
     def copy(self) -> BalanceLayer:
         """The same in arrays of its own."""
@@ -236,70 +232,64 @@ _CHUNK = 8192  # positions worked on at once
 
 
 class PositionTorques(NamedTuple):
-    """Torques at some positions, (n,) last; powers and losses are over the speed of the input.
-
-    turns     of the input
-    valid     where something balances; `layers`, how many solutions there are
-    adrift    where no flanks agree with the torques that press on them
-    torque    on each link asked for, about its own axis, in the solution that loses least, (asked, n)
-    highest   the same in the one that loses most
-    speeds    of the links with a torque from outside, about their own axes, over the input's, (outside, n)
-    powers    what each of these torques puts in, (outside, n)
-    losses    of pairs, then bearings, (parts, n); `passed`, what the driving side of each puts in
-    pressed   multiplier of each pair: above 0 on its drive flanks, (pairs, n)
-    turning   forward speed of each pair's driver, over the input's, (pairs, n)
-    slipping  speed of each bearing over the input's, (bearings, n)
-    kinks     what changes its sign at kinks of which no law tells, (kinks, n)
-    """
+    """Torques at some positions, (n,) last; powers and losses are over the speed of the input."""
 
     turns: Floats
+    """Of the input."""
     valid: Bools
+    """Where something balances; `layers`, how many solutions there are."""
     adrift: Bools
+    """Where no flanks agree with the torques that press on them."""
     layers: Floats
     torque: Floats
+    """On each link asked for, about its own axis, in the solution that loses least, (asked, n)."""
     highest: Floats
+    """The same in the one that loses most."""
     speeds: Floats
+    """Of the links with a torque from outside, about their own axes, over the input's, (outside, n)."""
     powers: Floats
+    """What each of these torques puts in, (outside, n)."""
     losses: Floats
+    """Of pairs, then bearings, (parts, n); `passed`, what the driving side of each puts in."""
     passed: Floats
     pressed: Floats
+    """Multiplier of each pair: above 0 on its drive flanks, (pairs, n)."""
     turning: Floats
+    """Forward speed of each pair's driver, over the input's, (pairs, n)."""
     slipping: Floats
+    """Speed of each bearing over the input's, (bearings, n)."""
     kinks: Floats
+    """What changes its sign at kinks of which no law tells, (kinks, n)."""
 
 
 class _State(NamedTuple):
-    """A train at some positions: how links turn, how pairs stand, and what they do by side, of the first of equals.
-
-    resting   by bearing, where its link rests in the play between two flanks
-    """
+    """A train at some positions: how links turn, how pairs stand, and what they do by side, of the first of equals."""
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
     resting: Mapping[str, Bools]
+    """By bearing, where its link rests in the play between two flanks."""
     static: bool
 
 
 @dataclass
 class TurnBalance:
-    """A train under load, to be asked at positions.
-
-    balance    of mean torques, whose order of solution holds at every position
-    contacts   by pair, in the order of the circuits
-    loads      by link, about its own axis; `bearings`, friction and drag by link
-    complete   False where not all patterns of power flow were tried
-    on_done    called with the number of positions that have been worked out since
-    """
+    """A train under load, to be asked at positions."""
 
     setting: LoadCase
     motion: PositionMotion
     balance: TorqueBalance
+    """Of mean torques, whose order of solution holds at every position."""
     contacts: Mapping[str, PairContact]
+    """By pair, in the order of the circuits."""
     loads: Mapping[str, float]
+    """By link, about its own axis; `bearings`, friction and drag by link."""
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
+    """False where not all patterns of power flow were tried."""
     on_done: Callable[[int], object] | None = None
+    """Called with the number of positions that have been worked out since."""
 
     @property
     def pairs(self) -> tuple[str, ...]:

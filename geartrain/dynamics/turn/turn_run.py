@@ -45,14 +45,12 @@ FAINT = 1e-9
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run of the input, (cells,): what is asked for is smooth within each.
-
-    aside   how far from the ends of a cell its limits there are taken (turns)
-    """
+    """Cells of a run of the input, (cells,): what is asked for is smooth within each."""
 
     low: Floats
     high: Floats
     aside: float
+    """How far from the ends of a cell its limits there are taken (turns)."""
 
     @property
     def turns(self) -> Floats:

@@ -19,15 +19,6 @@ class BuildFinding(Result):
 
     `check`, reports, pictures and exports all tell it in the words of its problem.
 
-    Attributes
-    ----------
-    rule : str
-        Which rule, as docs/buildability.md lists them: `M1`, `P2`.
-    level : {"error", "note"}
-        An error cannot be built; a note can, and is unwise or open.
-    problem : Problem
-        Place, what, why, and what to do that cures it.
-
     Examples
     --------
     >>> from geartrain.errors import Problem
@@ -45,8 +36,11 @@ class BuildFinding(Result):
     )
 
     rule: str
+    """Which rule, as docs/buildability.md lists them: `M1`, `P2`."""
     level: BuildLevel
+    """An error cannot be built; a note can, and is unwise or open."""
     problem: Problem
+    """Place, what, why, and what to do that cures it."""
 
     @property
     def is_error(self) -> bool:

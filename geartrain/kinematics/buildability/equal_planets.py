@@ -31,30 +31,32 @@ Measure = Literal["", "plain", "m"]
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """A gear pair as its carrier sees it. Pairs hold what belongs to its first and second wheel.
-
-    name, carrier    the pair, and the link that keeps its centre distance
-    wheels, links    their ids
-    axes             labels of the axes they turn on, as seen from the carrier
-    parts            their counts: ids of free wheels, or fixed numbers
-    sense            1 where they turn against each other as seen from the carrier (about positive senses), else -1
-    ring             index of the wheel that is a ring; None for an external pair
-    spur, worm       both wheels are spur wheels; one is a worm
-    measure, module  the module of both, 1 of no measure where none is declared; None where several are declared
-    """
+    """A gear pair as its carrier sees it. Pairs hold what belongs to its first and second wheel."""
 
     name: str
+    """The pair, and the link that keeps its centre distance."""
     carrier: str
+    """The pair, and the link that keeps its centre distance."""
     wheels: tuple[str, str]
+    """Their ids."""
     links: tuple[str, str]
+    """Their ids."""
     axes: tuple[str, str]
+    """Labels of the axes they turn on, as seen from the carrier."""
     parts: tuple[CountRef, CountRef]
+    """Their counts: ids of free wheels, or fixed numbers."""
     sense: int
+    """1 where they turn against each other as seen from the carrier (about positive senses), else -1."""
     ring: int | None
+    """Index of the wheel that is a ring; None for an external pair."""
     spur: bool
+    """Both wheels are spur wheels; one is a worm."""
     worm: bool
+    """Both wheels are spur wheels; one is a worm."""
     measure: Measure
+    """The module of both, 1 of no measure where none is declared; None where several are declared."""
     module: Fraction | None
+    """The module of both, 1 of no measure where none is declared; None where several are declared."""
 
     @property
     def is_free(self) -> bool:
@@ -70,17 +72,15 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """A planet of a set, with its meshes; those that mesh with each other form a tree whose root is the first.
-
-    inward    the mesh with the planet inward of it; None for the first
-    central   meshes with wheels on the carrier's own axis, by the names of those
-    outward   meshes with planets outward of this one, in the same order for sets that are alike
-    """
+    """A planet of a set, with its meshes; those that mesh with each other form a tree whose root is the first."""
 
     link: str
     inward: AssemblyMesh | None
+    """The mesh with the planet inward of it; None for the first."""
     central: tuple[AssemblyMesh, ...]
+    """Meshes with wheels on the carrier's own axis, by the names of those."""
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
+    """Meshes with planets outward of this one, in the same order for sets that are alike."""
 
     def walk(self) -> Iterator[Planet]:
         """This planet, and all outward of it."""
@@ -118,17 +118,15 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; most often one.
-
-    planets  the first of them, the root of their tree; None where they mesh in a loop
-    links    all of them
-    copies   further sets that mesh with the same central wheels alike: equal planets declared one by one
-    """
+    """Planets of one carrier that mesh with each other; most often one."""
 
     carrier: str
     planets: Planet | None
+    """The first of them, the root of their tree; None where they mesh in a loop."""
     links: tuple[str, ...]
+    """All of them."""
     copies: tuple[PlanetSet, ...] = ()
+    """Further sets that mesh with the same central wheels alike: equal planets declared one by one."""
 
     @property
     def title(self) -> str:
@@ -138,15 +136,14 @@ class PlanetSet:
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """A train whose free wheels have some of their allowed counts, and the counts that are free.
-
-    tree, circuits   its turning pairs; its gear pairs and couplings
-    """
+    """A train whose free wheels have some of their allowed counts, and the counts that are free."""
 
     train: Train
     free: frozenset[str]
     tree: Tree
+    """Its turning pairs; its gear pairs and couplings."""
     circuits: tuple[Circuit, ...]
+    """Its turning pairs; its gear pairs and couplings."""
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
@@ -328,18 +325,16 @@ def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = No
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Whole numbers, or arrays of them, one a candidate.
-
-    count    the number or array that a count of a contact stands for
-    gcd      greatest common divisor
-    bezout   the same g of a and b, and u, v with u a + v b = g
-    reduced  what is kept of a number that matters modulo the number of planets only
-    """
+    """Whole numbers, or arrays of them, one a candidate."""
 
     count: Callable[[CountRef], Any]
+    """The number or array that a count of a contact stands for."""
     gcd: Callable[[Any, Any], Any]
+    """Greatest common divisor."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
+    """The same g of a and b, and u, v with u a + v b = g."""
     reduced: Callable[[Any], Any]
+    """What is kept of a number that matters modulo the number of planets only."""
 
 
 def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:

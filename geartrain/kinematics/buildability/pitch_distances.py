@@ -142,22 +142,21 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """A gear pair with what its declaration says of sizes. Pairs hold what belongs to the first and the second wheel.
-
-    axes      labels, as the carrier sees them
-    parallel  True if those have one direction
-    ring      index of the wheel that is a ring; None for an external pair
-    form      its teeth, its own or the train's; None where none are declared, or ideal ones
-    """
+    """A gear pair with what its declaration says of sizes. Pairs hold what belongs to the first and the second
+    wheel."""
 
     name: str
     place: str
     wheels: tuple[str, str]
     declared: tuple[Wheel, Wheel]
     axes: tuple[str, str]
+    """Labels, as the carrier sees them."""
     parallel: bool
+    """True if those have one direction."""
     ring: int | None
+    """Index of the wheel that is a ring; None for an external pair."""
     form: ToothForm | None
+    """Its teeth, its own or the train's; None where none are declared, or ideal ones."""
 
     @property
     def counts(self) -> tuple[int, int]:

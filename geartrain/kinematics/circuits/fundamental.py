@@ -28,23 +28,6 @@ class Circuit(NamedTuple):
     For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot (or holes)
     with a = 1 and j the pin with b = -m, m the winding number, equations (13) to (15).
 
-    Attributes
-    ----------
-    id : str
-        Name of the pair or coupling.
-    kind : {"gear", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel"}
-        What closes the circuit.
-    i, j : str
-        Links of its two wheels, or of the slot and the pin.
-    carrier : str
-        The link k that holds both axes (transfer vertex; Freudenstein and Yang 1972).
-    a, b : int
-        Coefficients; a is above 0.
-    wheels : tuple of str
-        Ids of the two wheels; of a coupling empty texts.
-    note : str
-        What is a convention in its sense; mostly empty.
-
     Examples
     --------
     >>> import geartrain
@@ -54,14 +37,23 @@ class Circuit(NamedTuple):
     """
 
     id: str
+    """Name of the pair or coupling."""
     kind: str
+    """What closes the circuit."""
     i: str
+    """Links of its two wheels, or of the slot and the pin."""
     j: str
+    """Links of its two wheels, or of the slot and the pin."""
     carrier: str
+    """The link k that holds both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
+    """Coefficients; a is above 0."""
     b: int
+    """Coefficients; a is above 0."""
     wheels: tuple[str, str]
+    """Ids of the two wheels; of a coupling empty texts."""
     note: str = ""
+    """What is a convention in its sense; mostly empty."""
 
     @property
     def swings(self) -> bool:

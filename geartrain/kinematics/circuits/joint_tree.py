@@ -30,15 +30,13 @@ from geartrain.train import StateCase, Train, Wheel
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """The turning pairs as a tree rooted at the frame.
-
-    parent  link -> (link nearer the frame, axis label), as declared
-    top     link -> the link of the same axis nearest the frame, which bears it
-    """
+    """The turning pairs as a tree rooted at the frame."""
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
+    """Link -> (link nearer the frame, axis label), as declared."""
     top: Mapping[str, str]
+    """Link -> the link of the same axis nearest the frame, which bears it."""
 
     def axis(self, link: str) -> str | None:
         """The label of the joint nearest the frame; None for the frame itself."""
@@ -402,12 +400,10 @@ JointOnLine = tuple[str, str, tuple[str, ...]]
 
 @dataclass(frozen=True, slots=True)
 class Rigid:
-    """One prescription that makes two links one body: what it names, and the joints on the way between them.
-
-    links   one link that is fixed, or two that are locked together
-    """
+    """One prescription that makes two links one body: what it names, and the joints on the way between them."""
 
     links: tuple[str, ...]
+    """One link that is fixed, or two that are locked together."""
     joints: tuple[JointOnLine, ...]
 
     @property

@@ -34,16 +34,14 @@ _VALUES = (2, 3, 5, 7, 11, 13)
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """A whole number times powers of variables times sums, which have no variable in common.
-
-    content   0 for a polynomial without terms
-    powers    by variable
-    sums      each of two terms or more, terms of highest powers first
-    """
+    """A whole number times powers of variables times sums, which have no variable in common."""
 
     content: int
+    """0 for a polynomial without terms."""
     powers: Exponents
+    """By variable."""
     sums: tuple[tuple[Term, ...], ...]
+    """Each of two terms or more, terms of highest powers first."""
 
     @classmethod
     def of(cls, terms: Sequence[Term], point: Sequence[int], known: Sequence[Laurent] = ()) -> FactoredPolynomial:
@@ -150,15 +148,6 @@ _LATEX = _Style(
 class ClosedForm(Result):
     """A rational function of tooth counts in lowest terms, and its value at the declared ones.
 
-    Attributes
-    ----------
-    formula : Formula
-        Its numerator and denominator, exactly.
-    counts : mapping of str to int
-        Declared count by wheel, of all wheels in it at least.
-    known : tuple
-        Sums that may be factors of it: wheels, and terms with exponents parallel to them.
-
     See Also
     --------
     OutputFormula : What an output is, made of these.
@@ -167,8 +156,11 @@ class ClosedForm(Result):
     KEYS = ("text", "latex", "value", Key("wheels", "formula.wheels"))
 
     formula: Formula
+    """Its numerator and denominator, exactly."""
     counts: Mapping[str, int] = field(repr=False)
+    """Declared count by wheel, of all wheels in it at least."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
+    """Sums that may be factors of it: wheels, and terms with exponents parallel to them."""
 
     def __str__(self) -> str:
         """As text."""

@@ -37,13 +37,11 @@ class TooLongError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Laurent:
-    """A sum of rational coefficients times monomials in `width` variables. Equal polynomials compare equal.
-
-    terms   exponents -> coefficient, none of them 0
-    """
+    """A sum of rational coefficients times monomials in `width` variables. Equal polynomials compare equal."""
 
     width: int
     terms: Mapping[Exponents, Fraction]
+    """Exponents -> coefficient, none of them 0."""
 
     @classmethod
     def constant(cls, value: Fraction | int, width: int) -> Laurent:

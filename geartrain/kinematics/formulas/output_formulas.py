@@ -43,22 +43,20 @@ class SymbolicValue:
 
 @dataclass(frozen=True, slots=True)
 class SymbolicSolution:
-    """The unknowns of a system as functions.
-
-    pivots        (column, rest): column = -rest, rest free of all columns taken before it
-    values        what the core gives for its columns; columns left free count as 0
-    determinants  of the core's blocks
-    span          the core's rows at a point taken at random, in echelon form: leading column -> row
-    conditions    (row, function): what must vanish for the system to hold, and the row it is left of
-    """
+    """The unknowns of a system as functions."""
 
     width: int
     point: Sequence[int]
     pivots: Sequence[tuple[int, Row]]
+    """(column, rest): column = -rest, rest free of all columns taken before it."""
     values: Mapping[int, SymbolicValue]
+    """What the core gives for its columns; columns left free count as 0."""
     determinants: Sequence[Laurent]
+    """Of the core's blocks."""
     span: Mapping[int, _Residues]
+    """The core's rows at a point taken at random, in echelon form: leading column -> row."""
     conditions: Sequence[tuple[int, Laurent]]
+    """(row, function): what must vanish for the system to hold, and the row it is left of."""
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
         """A linear form of the unknowns; None where the system leaves it free."""
@@ -361,22 +359,21 @@ Counts = tuple[int, ...]
 class Formulas(Mapping[str, Formula], Result):
     """The outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
 
-    outputs        output name -> its speed in the train's unit (or the difference, for `relative_to`), exactly
-    conditions     functions that must all be 0 for the train to turn: loops that close, links driven or held in more
-                   ways than one. `label` says what each comes from. A constant other than 0 says that the train never
-                   turns. The outputs hold where all conditions do.
-    exclusions     functions that must not be 0: where one is, the train is locked or free though the outputs have
-                   values, because the factor is cancelled in them
-    undetermined   outputs that the inputs do not determine, whatever the counts
-
     A loop closes or holds its wheels still. Only the first is followed here, so a train that is to run with a loop of
     free wheels that does not close has no formulas; a loop of fixed counts is followed either way.
     """
 
     outputs: Mapping[str, Formula]
+    """Output name -> its speed in the train's unit (or the difference, for `relative_to`), exactly."""
     conditions: tuple[Formula, ...]
+    """Functions that must all be 0 for the train to turn: loops that close, links driven or held in more ways than
+    one. `label` says what each comes from. A constant other than 0 says that the train never turns. The outputs hold
+    where all conditions do."""
     exclusions: tuple[Formula, ...]
+    """Functions that must not be 0: where one is, the train is locked or free though the outputs have values,
+    because the factor is cancelled in them."""
     undetermined: tuple[str, ...]
+    """Outputs that the inputs do not determine, whatever the counts."""
 
     def __getitem__(self, name: str) -> Formula:
         return self.outputs[name]

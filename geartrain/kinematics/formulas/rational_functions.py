@@ -24,18 +24,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGroup(Result):
-    """Wheels of one class: the function sees only x, the product of their counts to the powers `exponents`.
-
-    wheels      in the order declared
-    exponents   not 0; usually 1 or -1, the first positive
-    degree      greatest power of x in the function's numerator or denominator; 1 makes it a Moebius function of x
-    """
+    """Wheels of one class: the function sees only x, the product of their counts to the powers `exponents`."""
 
     KEYS = (Key("exponents", "by_wheel"), "degree")
 
     wheels: tuple[str, ...]
+    """In the order declared."""
     exponents: Exponents
+    """Not 0; usually 1 or -1, the first positive."""
     degree: int
+    """Greatest power of x in the function's numerator or denominator; 1 makes it a Moebius function of x."""
 
     @property
     def by_wheel(self) -> dict[str, int]:
@@ -65,14 +63,12 @@ class MonomialGroup(Result):
 
 @dataclass(frozen=True, slots=True)
 class MonomialGrouping:
-    """Polynomials rewritten in as few monomials as they allow, up to one common monomial.
-
-    members     for each group, variable -> its exponent in the group's monomial
-    rewritten   the polynomials in the groups' monomials, all powers >= 0
-    """
+    """Polynomials rewritten in as few monomials as they allow, up to one common monomial."""
 
     members: tuple[Mapping[int, int], ...]
+    """For each group, variable -> its exponent in the group's monomial."""
     rewritten: tuple[Laurent, ...]
+    """The polynomials in the groups' monomials, all powers >= 0."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
         """A polynomial in the groups' monomials as one in the first variables."""
@@ -176,23 +172,23 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
 class Formula:
     """A rational function of tooth counts, reduced: numerator and denominator have no factor in common.
 
-    label         the output it gives, or what a condition comes from
-    wheels        the free wheels it depends on, in the order declared
-    numerator     terms whose exponents are parallel to `wheels`, all >= 0; coefficients are whole, with no common
-    denominator   divisor over both; the first coefficient of the denominator is positive
-    groups        the coarsest classes of wheels such that it depends on each class through one monomial only
-    upper, lower  numerator and denominator once more, with exponents parallel to `groups`, all >= 0
-
     A denominator without terms is 0: a function that has no value anywhere, which `fixed` may leave.
     """
 
     label: str
+    """The output it gives, or what a condition comes from."""
     wheels: tuple[str, ...]
+    """The free wheels it depends on, in the order declared."""
     numerator: tuple[Term, ...]
+    """Terms whose exponents are parallel to `wheels`, all >= 0; coefficients are whole, with no common."""
     denominator: tuple[Term, ...]
+    """Divisor over both; the first coefficient of the denominator is positive."""
     groups: tuple[MonomialGroup, ...]
+    """The coarsest classes of wheels such that it depends on each class through one monomial only."""
     upper: tuple[Term, ...]
+    """Numerator and denominator once more, with exponents parallel to `groups`, all >= 0."""
     lower: tuple[Term, ...]
+    """Numerator and denominator once more, with exponents parallel to `groups`, all >= 0."""
 
     @property
     def constant(self) -> Fraction | None:

@@ -22,41 +22,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """What one input adds to an output.
-
-    Attributes
-    ----------
-    input : str
-        Link that is driven.
-    speed : Fraction
-        Its declared speed [unit of the train].
-    ratio : ClosedForm
-        Output over input while all other inputs stand still.
-    """
+    """What one input adds to an output."""
 
     KEYS = ("input", "speed", "ratio")
 
     input: str
+    """Link that is driven."""
     speed: Fraction
+    """Its declared speed [unit of the train]."""
     ratio: ClosedForm
+    """Output over input while all other inputs stand still."""
 
 
 @dataclass(frozen=True)
 class OutputFormula(Result):
     """The speed of an output: the sum over all inputs of a ratio times the input's speed.
-
-    Attributes
-    ----------
-    output : str
-        Name of the output.
-    state : str or None
-        The state.
-    shares : tuple of InputShare
-        By input; without those on which the output does not depend.
-    conditions : tuple of str
-        Equations between counts without which the train does not turn: loops that close.
-    poles : tuple of str
-        Equations between counts at which the output is locked, or free.
 
     See Also
     --------
@@ -66,10 +46,15 @@ class OutputFormula(Result):
     KEYS = ("output", "state", "text", "latex", "value", "shares", "conditions", "poles")
 
     output: str
+    """Name of the output."""
     state: str | None
+    """The state."""
     shares: tuple[InputShare, ...]
+    """By input; without those on which the output does not depend."""
     conditions: tuple[str, ...] = ()
+    """Equations between counts without which the train does not turn: loops that close."""
     poles: tuple[str, ...] = ()
+    """Equations between counts at which the output is locked, or free."""
 
     def __str__(self) -> str:
         """As text."""

@@ -27,17 +27,15 @@ def inverse(gain: Gain) -> Gain:
 
 @dataclass(frozen=True)
 class GainGraph:
-    """Nodes 0..size-1 and meshes between them, by position.
-
-    ends    of each mesh; two meshes may join the same nodes
-    gains   mesh -> speed of its second end over that of its first, where that is not 1
-    firm    what cannot be disengaged (pins in slots)
-    """
+    """Nodes 0..size-1 and meshes between them, by position."""
 
     size: int
     ends: Sequence[tuple[int, int]]
+    """Of each mesh; two meshes may join the same nodes."""
     gains: Mapping[int, Gain]
+    """Mesh -> speed of its second end over that of its first, where that is not 1."""
     firm: frozenset[int] = frozenset()
+    """What cannot be disengaged (pins in slots)."""
 
     @cached_property
     def at(self) -> list[list[int]]:
@@ -76,18 +74,16 @@ class GainGraph:
 
 
 class GainWalk(NamedTuple):
-    """A breadth-first walk: nodes as reached, the mesh and node each was reached by (-1 at a root), and speeds.
-
-    breaking   meshes that contradict the walk -> by how much, from first end to second
-    chords     all other meshes that close a loop
-    """
+    """A breadth-first walk: nodes as reached, the mesh and node each was reached by (-1 at a root), and speeds."""
 
     order: list[int]
     parent: list[int]
     entry: list[int]
     speed: list[Gain]
     breaking: dict[int, Gain]
+    """Meshes that contradict the walk -> by how much, from first end to second."""
     chords: list[int]
+    """All other meshes that close a loop."""
 
     def above(self, node: int) -> int | None:
         """The node from which another was reached; None for a root."""

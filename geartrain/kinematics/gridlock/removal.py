@@ -21,7 +21,9 @@ class RemovalBound(Result):
     KEYS = ("sharing", "loops")
 
     loops: tuple[Loop, ...]
+    """Loops that do not close."""
     sharing: int
+    """The most loops to which one mesh belongs."""
 
     @property
     def at_least(self) -> int:
@@ -40,21 +42,6 @@ class RemovalBound(Result):
 class MeshRemoval(Result):
     """Meshes to disengage so that every loop closes and all links held by them can move; none of them could stay.
 
-    Attributes
-    ----------
-    meshes : tuple of str
-        Ids of the pairs.
-    method : {"one", "loops", "matching", "search", "greedy"}
-        one: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh. matching,
-        search: exact, by matching the odd regions of a planar set (a T-join) or by branch and bound. greedy: a good set
-        without a proof that it is the least.
-    at_least : int
-        A proved lower bound on how many meshes must go.
-    choices : tuple of str
-        Where one mesh is enough: all that would do.
-    proofs : tuple of RemovalBound
-        Loops that prove the bound; empty where it rests on the method alone.
-
     See Also
     --------
     Gridlock : an example
@@ -63,10 +50,17 @@ class MeshRemoval(Result):
     KEYS = ("meshes", "method", "least", "at_least", "choices", "proofs")
 
     meshes: tuple[str, ...]
+    """Ids of the pairs."""
     method: RemovalMethod
+    """One: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh. matching,
+    search: exact, by matching the odd regions of a planar set (a T-join) or by branch and bound. greedy: a good set
+    without a proof that it is the least."""
     at_least: int
+    """A proved lower bound on how many meshes must go."""
     choices: tuple[str, ...] = ()
+    """Where one mesh is enough: all that would do."""
     proofs: tuple[RemovalBound, ...] = ()
+    """Loops that prove the bound; empty where it rests on the method alone."""
 
     @property
     def least(self) -> bool:
@@ -100,32 +94,23 @@ class MeshRemoval(Result):
 class LockedSubgraph(Result):
     """One component that its meshes lock to its carrier, and what frees it.
 
-    Attributes
-    ----------
-    carrier : str
-        The link from which the component is seen, and with which alone it can turn.
-    loop : Loop
-        A loop that does not close.
-    links : tuple of str
-        All links of the component.
-    meshes : int
-        How many meshes are between them.
-    by : {"sign", "ratio"}
-        sign: every loop comes back at the same speed, some reversed. ratio: some at another speed.
-    release : MeshRemoval
-        What frees this component alone.
-
     See Also
     --------
     Gridlock : an example
     """
 
     carrier: str
+    """The link from which the component is seen, and with which alone it can turn."""
     loop: Loop
+    """A loop that does not close."""
     links: tuple[str, ...]
+    """All links of the component."""
     meshes: int
+    """How many meshes are between them."""
     by: Literal["sign", "ratio"]
+    """Sign: every loop comes back at the same speed, some reversed. ratio: some at another speed."""
     release: MeshRemoval
+    """What frees this component alone."""
 
     def __str__(self) -> str:
         loop = self.loop
@@ -141,15 +126,6 @@ class LockedSubgraph(Result):
 @dataclass(frozen=True, slots=True)
 class Gridlock(Result):
     """Whether the meshes of a train let it move, brakes and inputs left aside, and if not, how to free it.
-
-    Attributes
-    ----------
-    jams : tuple of LockedSubgraph
-        Components with a loop that does not close, equation (21) of docs/theory.md.
-    held : tuple of str
-        Links that meshes about several carriers hold still together, though each loop closes.
-    release : MeshRemoval or None
-        What frees the whole train; None if it moves, or if nothing was found.
 
     Notes
     -----
@@ -173,8 +149,11 @@ class Gridlock(Result):
     KEYS = ("moves", "jams", "held", "release")
 
     jams: tuple[LockedSubgraph, ...] = ()
+    """Components with a loop that does not close, equation (21) of docs/theory.md."""
     held: tuple[str, ...] = ()
+    """Links that meshes about several carriers hold still together, though each loop closes."""
     release: MeshRemoval | None = None
+    """What frees the whole train; None if it moves, or if nothing was found."""
 
     @property
     def moves(self) -> bool:

@@ -420,18 +420,16 @@ class LoopPacking(NamedTuple):
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes that free a network.
-
-    at_least   a proved lower bound; a set of that size is least
-    choices    for a single mesh: all that would do
-    bounds     what proves the bound, where loops do
-    """
+    """Meshes that free a network."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
+    """A proved lower bound; a set of that size is least."""
     choices: list[int]
+    """For a single mesh: all that would do."""
     bounds: list[LoopPacking]
+    """What proves the bound, where loops do."""
 
 
 def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:

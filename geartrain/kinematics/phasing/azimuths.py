@@ -32,29 +32,29 @@ class UnplacedPair:
     """A gear pair or coupling that has no known place, and why."""
 
     name: str
+    """Of the pair."""
     why: str
+    """Why its place is not known."""
 
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """The gear pairs whose place is known. All arrays have a row a pair and a column for each of its two wheels.
-
-    circuits   the pairs; a wheel on the frame is a link of its own here, free to be mounted as it must
-    azimuth    direction from the wheel's axis to the pitch point (turns, counterclockwise about its positive sense)
-    slack      how far off the azimuth may be (turns)
-    family     contacts of one wheel with one number stand at known parts of a turn from each other
-    part       those parts, from the first of the family
-    guessed    families in which a part was recognised from rounded positions
-    left_out   pairs and couplings without a known place
-    """
+    """The gear pairs whose place is known. All arrays have a row a pair and a column for each of its two wheels."""
 
     circuits: tuple[Circuit, ...]
+    """The pairs; a wheel on the frame is a link of its own here, free to be mounted as it must."""
     azimuth: Floats
+    """Direction from the wheel's axis to the pitch point (turns, counterclockwise about its positive sense)."""
     slack: Floats
+    """How far off the azimuth may be (turns)."""
     family: Sequence[tuple[int, int]]
+    """Contacts of one wheel with one number stand at known parts of a turn from each other."""
     part: Sequence[tuple[Fraction, Fraction]]
+    """Those parts, from the first of the family."""
     guessed: frozenset[int] = frozenset()
+    """Families in which a part was recognised from rounded positions."""
     left_out: tuple[UnplacedPair, ...] = ()
+    """Pairs and couplings without a known place."""
 
     @cached_property
     def teeth(self) -> Floats:
@@ -117,18 +117,18 @@ _Z: IntegerVector = (0, 0, 1)
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """An axis in whole numbers.
-
-    way, unsure    its declared direction, and how far off that may be (rad)
-    sense          the way, turned into the direction about which its links count as positive
-    place, error   a point of it, in parts of one length for all, and how far off that may be; None if not declared
-    """
+    """An axis in whole numbers."""
 
     way: IntegerVector
+    """Its declared direction, and how far off that may be (rad)."""
     unsure: float
+    """Its declared direction, and how far off that may be (rad)."""
     sense: IntegerVector
+    """The way, turned into the direction about which its links count as positive."""
     place: IntegerVector | None
+    """A point of it, in parts of one length for all, and how far off that may be; None if not declared."""
     error: Fraction
+    """A point of it, in parts of one length for all, and how far off that may be; None if not declared."""
 
 
 @collector_paused()

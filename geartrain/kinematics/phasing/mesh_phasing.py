@@ -49,17 +49,14 @@ class DivisibilityCondition(NamedTuple):
     """`modulus` divides the sum of tooth numbers, each times its factor."""
 
     modulus: int
+    """Divides the weighted sum of the tooth counts."""
     factors: Mapping[str, int]
+    """Weight of each tooth count, by wheel."""
 
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
     """Conditions on the tooth numbers of a set: in each a modulus divides a sum of multiples of tooth numbers.
-
-    Attributes
-    ----------
-    conditions : tuple of DivisibilityCondition
-        Modulus, and the factor of each kind's tooth number in the sum that it divides.
 
     See Also
     --------
@@ -70,6 +67,7 @@ class DivisibilityRule(Result):
     KEYS = ("text", "conditions")
 
     conditions: tuple[DivisibilityCondition, ...]
+    """Modulus, and the factor of each kind's tooth number in the sum that it divides."""
 
     @property
     def text(self) -> str:
@@ -234,28 +232,6 @@ def _sum(terms: Mapping[str, int], short: bool) -> str:
 class LoopPhase(Result):
     """What one loop of meshes asks of its teeth, and what it gets: equations (2) and (3) of docs/closure.md.
 
-    Attributes
-    ----------
-    gears : tuple of str
-        Wheels in order; two wheels of one link between which the loop goes over are joined by `+`.
-    meshes : tuple of str
-        Pairs in order, the last one closes the loop. Where `together`, pairs of several loops in no order.
-    weights : tuple of int
-        Whole numbers with which the equations of the pairs add up; 1 and -1 but for compound wheels.
-    residue : Fraction or float
-        What the sum is off a whole number [pitch], from -1/2 to 1/2; a Fraction where it is exact.
-    slack : float
-        How far off the residue may be [pitch]; 0 where it is exact.
-    how : {"exact", "recognised", "numeric"}
-        recognised: exact, with angles taken for fractions that rounded positions allow.
-    inside : mapping of str to Fraction or float, or None
-        For each gear the part of a turn, with its sign, by which its tooth number enters the sum; None where wheels are
-        compound.
-    retime : mapping of str to float
-        By how much to turn a wheel on its arbor, counterclockwise [pitch], to close the loop: any one of them.
-    together : bool
-        True for what several loops must fulfil only together.
-
     See Also
     --------
     MeshPhasing : an example
@@ -264,14 +240,24 @@ class LoopPhase(Result):
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
+    """Wheels in order; two wheels of one link between which the loop goes over are joined by `+`."""
     meshes: tuple[str, ...]
+    """Pairs in order, the last one closes the loop. Where `together`, pairs of several loops in no order."""
     weights: tuple[int, ...]
+    """Whole numbers with which the equations of the pairs add up; 1 and -1 but for compound wheels."""
     residue: Fraction | float
+    """What the sum is off a whole number [pitch], from -1/2 to 1/2; a Fraction where it is exact."""
     slack: float
+    """How far off the residue may be [pitch]; 0 where it is exact."""
     how: ResidueKnowledge
+    """Recognised: exact, with angles taken for fractions that rounded positions allow."""
     inside: Mapping[str, Fraction | float] | None
+    """For each gear the part of a turn, with its sign, by which its tooth number enters the sum; None where wheels
+    are compound."""
     retime: Mapping[str, float]
+    """By how much to turn a wheel on its arbor, counterclockwise [pitch], to close the loop: any one of them."""
     together: bool = False
+    """True for what several loops must fulfil only together."""
 
     @property
     def kind(self) -> PhaseKind:
@@ -377,17 +363,6 @@ class MeshPhasing(Result):
 
     Equations (1) to (4) of docs/closure.md. True unless some loop misses or cannot be told.
 
-    Attributes
-    ----------
-    problem : PhaseSystem
-        The phases of all meshes.
-    plays : mapping of str to float
-        Play of pairs whose teeth know it [pitch].
-    alike : callable
-        Gives wheel -> name under which its tooth number stands in `rule`.
-    unjudged : int
-        Loops of the train that go through a pair or pin without a known place.
-
     Examples
     --------
     Two planets of 18 teeth opposite each other between 24 and 60: 2 divides 24 + 60, and they go in (docs/closure.md).
@@ -420,9 +395,13 @@ class MeshPhasing(Result):
     )
 
     problem: PhaseSystem = field(repr=False)
+    """The phases of all meshes."""
     plays: Mapping[str, float] = field(default_factory=dict)
+    """Play of pairs whose teeth know it [pitch]."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
+    """Gives wheel -> name under which its tooth number stands in `rule`."""
     unjudged: int = 0
+    """Loops of the train that go through a pair or pin without a known place."""
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:

@@ -29,14 +29,12 @@ Row = Mapping[int, int]
 
 
 class PhaseCycle(NamedTuple):
-    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], nodes[0] after the last mesh.
-
-    weights   whole numbers without a common divisor, with which the equations of the meshes add up to 0 on the left
-    """
+    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], nodes[0] after the last mesh."""
 
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
+    """Whole numbers without a common divisor, with which the equations of the meshes add up to 0 on the left."""
 
     @property
     def row(self) -> dict[int, int]:
@@ -279,20 +277,18 @@ _SAME = 1e-6  # pitch: errors that are alike, so that every tooth stays in its g
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Meshes whose equations add up to 0 on the left: their constants must add up to a whole number of pitches.
-
-    cycle     the loop; None where loops only together fulfil it
-    row       the weight of each mesh
-    residue   the sum less the nearest whole number (pitches): a Fraction where it is exact
-    slack     how far off it may be (pitches)
-    guessed   True if an exact residue rests on angles that were recognised in rounded positions
-    """
+    """Meshes whose equations add up to 0 on the left: their constants must add up to a whole number of pitches."""
 
     cycle: PhaseCycle | None
+    """The loop; None where loops only together fulfil it."""
     row: Mapping[int, int]
+    """The weight of each mesh."""
     residue: Fraction | float
+    """The sum less the nearest whole number (pitches): a Fraction where it is exact."""
     slack: float
+    """How far off it may be (pitches)."""
     guessed: bool
+    """True if an exact residue rests on angles that were recognised in rounded positions."""
 
     @property
     def kind(self) -> PhaseKind:

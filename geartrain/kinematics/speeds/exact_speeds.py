@@ -381,19 +381,17 @@ class FreeForms:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Exact speeds of a train in one case, and the verdict.
-
-    speeds      link -> speed, in the order declared; only links that are determined
-    ratios      link -> input -> speed over that input, the others at rest
-    signs       -1 for links whose axis points against its parallels
-    loose       every link as a form of what stayed free; None where all is determined, or nothing is
-    """
+    """Exact speeds of a train in one case, and the verdict."""
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
+    """Link -> speed, in the order declared; only links that are determined."""
     ratios: Mapping[str, Mapping[str, Fraction]]
+    """Link -> input -> speed over that input, the others at rest."""
     signs: Mapping[str, int]
+    """-1 for links whose axis points against its parallels."""
     loose: FreeForms | None = None
+    """Every link as a form of what stayed free; None where all is determined, or nothing is."""
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Speed of a link seen from another, about the first one's axis; None where it is not determined.

@@ -147,21 +147,6 @@ class FloatSpeeds(FrozenFields):
 
     `floats[link]` is the speed of a link in the first case; `RangeError` where float64 does not hold it.
 
-    Attributes
-    ----------
-    speeds : LabelledArray
-        Axes (link, case) [the train's unit], to be multiplied by 2**exponents.
-    estimate : LabelledArray
-        Absolute error to expect of each speed, axes and unit as those of `speeds`.
-    residual : LabelledArray
-        Axes (row, case): by what part of its terms each row of the matrix is off, |b - A x| over |A| |x|, in twice the
-        precision [1].
-    condition : mapping of str to float
-        Component-wise condition number cond(A, x) of the first case, equation (25), of each link it was asked for; 1 or
-        more, infinite of a link at rest. Made when read.
-    exponents : LabelledArray
-        Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate.
-
     Notes
     -----
     The step is equation (23), its residual in twice the precision; the estimate is (24). Every speed comes within a
@@ -177,10 +162,17 @@ class FloatSpeeds(FrozenFields):
     """
 
     speeds: LabelledArray
+    """Axes (link, case) [the train's unit], to be multiplied by 2**exponents."""
     estimate: LabelledArray
+    """Absolute error to expect of each speed, axes and unit as those of `speeds`."""
     residual: LabelledArray
+    """Axes (row, case): by what part of its terms each row of the matrix is off, |b - A x| over |A| |x|, in twice
+    the precision [1]."""
     condition: Mapping[str, float]
+    """Component-wise condition number cond(A, x) of the first case, equation (25), of each link it was asked for; 1
+    or more, infinite of a link at rest. Made when read."""
     exponents: LabelledArray
+    """Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate."""
 
     def __getitem__(self, link: str) -> float:
         speed = self.number(link)

@@ -18,33 +18,6 @@ from geartrain.numerics.results import Key, Result
 class Mobility(Result):
     """Degrees of freedom by count and by exact rank, and what makes them differ; docs/theory.md, (16), (17), (20).
 
-    Attributes
-    ----------
-    links : int
-        Links, the frame among them.
-    turning_pairs : int
-        Turning pairs j_R.
-    gear_pairs : int
-        Gear pairs.
-    couplings : int
-        Pins in slots; with the gear pairs they are j_G.
-    by_rank : int
-        Links less one less the rank of all circuits: always right.
-    redundant : int
-        How many circuits add nothing.
-    loops : tuple of Loop
-        Loops of product 1 that circuits close which add nothing; the first 1000.
-    shared : tuple of str
-        Links at which components meet in equations that add nothing.
-    locked : tuple of Loop
-        Loops that do not close, and hold their component on its carrier; the first 1000.
-    still : tuple of str
-        Links that stand still whatever drives the train.
-    idle : tuple of str
-        Ids of circuits whose wheels never roll on each other.
-    certain : bool
-        False where the rank was taken modulo two primes (exact but for accidents of 1e-36).
-
     Examples
     --------
     Four wheels in a ring, one of whose meshes is redundant:
@@ -67,17 +40,29 @@ class Mobility(Result):
     )
 
     links: int
+    """Links, the frame among them."""
     turning_pairs: int
+    """Turning pairs j_R."""
     gear_pairs: int
+    """Gear pairs."""
     couplings: int
+    """Pins in slots; with the gear pairs they are j_G."""
     by_rank: int
+    """Links less one less the rank of all circuits: always right."""
     redundant: int
+    """How many circuits add nothing."""
     loops: tuple[Loop, ...]
+    """Loops of product 1 that circuits close which add nothing; the first 1000."""
     shared: tuple[str, ...]
+    """Links at which components meet in equations that add nothing."""
     locked: tuple[Loop, ...]
+    """Loops that do not close, and hold their component on its carrier; the first 1000."""
     still: tuple[str, ...]
+    """Links that stand still whatever drives the train."""
     idle: tuple[str, ...]
+    """Ids of circuits whose wheels never roll on each other."""
     certain: bool = True
+    """False where the rank was taken modulo two primes (exact but for accidents of 1e-36)."""
 
     @property
     def by_count(self) -> int:

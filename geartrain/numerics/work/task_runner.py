@@ -90,15 +90,6 @@ def run(
 class Execution:
     """How the independent tasks of a long question are done; the default does them in this process and keeps nothing.
 
-    Attributes
-    ----------
-    executor : concurrent.futures.Executor or None
-        What runs the tasks; None for this process. `open_executor` makes one.
-    journal : Journal or None
-        Where finished work is kept, to be taken up again.
-    tell : callable or None
-        Called with (tasks done, tasks in all), at most ten times a second and at the end.
-
     Examples
     --------
     >>> told = []
@@ -109,8 +100,11 @@ class Execution:
     """
 
     executor: Executor | None = None
+    """What runs the tasks; None for this process. `open_executor` makes one."""
     journal: Journal | None = None
+    """Where finished work is kept, to be taken up again."""
     tell: ProgressReport | None = None
+    """Called with (tasks done, tasks in all), at most ten times a second and at the end."""
 
     def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
         """Results in the order of the tasks, as `geartrain.numerics.run`.
@@ -358,17 +352,16 @@ class RemoteFailure:
 
     A process pool takes an exception it cannot unpickle for a dead worker, and an exception whose `__init__` takes
     other arguments than its text comes back garbled.
-
-    kind      its class, where it is a `GearTrainError`
-    problems  its problems, likewise
-    pickled   any other exception; empty where it cannot be pickled faithfully
-    trace     the traceback there
     """
 
     trace: str
+    """The traceback there."""
     kind: type[GearTrainError] | None = None
+    """Its class, where it is a `GearTrainError`."""
     problems: tuple[Problem, ...] = ()
+    """Its problems, likewise."""
     pickled: bytes = b""
+    """Any other exception; empty where it cannot be pickled faithfully."""
 
     def error(self) -> Exception:
         """The exception again, with the traceback of its worker as a note."""

@@ -30,35 +30,32 @@ WORM = Fraction(5)  # pitch radius of a worm over its axial module: slender, but
 
 @dataclass(frozen=True, slots=True)
 class AxisLine:
-    """An axis as declared.
-
-    direction  unit vector
-    group      the same number for all parallels
-    bearers    the link that bears it, the link that bears that one's axis, and so on to the frame
-    pivots     the axes about which they turn, all but the frame
-    given      its declared point (mm)
-    """
+    """An axis as declared."""
 
     label: str
     direction: Vector
+    """Unit vector."""
     group: int
+    """The same number for all parallels."""
     bearers: tuple[str, ...]
+    """The link that bears it, the link that bears that one's axis, and so on to the frame."""
     pivots: tuple[str, ...]
+    """The axes about which they turn, all but the frame."""
     given: Vector | None
+    """Its declared point (mm)."""
 
 
 @dataclass(frozen=True)
 class Parallels:
-    """Parallel axes, as they are planned and stacked.
-
-    up     unit vector along them: heights count along it, z upwards or what is nearest to it
-    x, y   unit vectors across: a point of the plan has its coordinates along them
-    """
+    """Parallel axes, as they are planned and stacked."""
 
     lines: tuple[AxisLine, ...]
     up: Vector
+    """Unit vector along them: heights count along it, z upwards or what is nearest to it."""
     x: Vector
+    """Unit vectors across: a point of the plan has its coordinates along them."""
     y: Vector
+    """Unit vectors across: a point of the plan has its coordinates along them."""
 
     @classmethod
     def of(cls, lines: Sequence[AxisLine]) -> Parallels:
@@ -103,21 +100,19 @@ class ContactSide:
 
 @dataclass(frozen=True, slots=True)
 class PitchContact:
-    """A gear pair: wheels with their axes, and how they touch.
-
-    kind            side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its
-                    first wheel is the worm) about others
-    stretch         how much farther apart than touching pitch circles declared teeth want the axes, as a factor
-    worm_sense      1 where both axes of a worm and its wheel turn the pitch point the same way for positive angles, -1
-                    where against each other; 0 of other pairs
-    """
+    """A gear pair: wheels with their axes, and how they touch."""
 
     name: str
     wheels: tuple[str, str]
     axes: tuple[str, str]
     kind: ContactKind
+    """Side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its first wheel
+    is the worm) about others."""
     stretch: Fraction = Fraction(1)
+    """How much farther apart than touching pitch circles declared teeth want the axes, as a factor."""
     worm_sense: int = 0
+    """1 where both axes of a worm and its wheel turn the pitch point the same way for positive angles, -1 where
+    against each other; 0 of other pairs."""
 
     @property
     def parallel(self) -> bool:
@@ -138,15 +133,13 @@ class PitchContact:
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """A pin in a slot: links and axes of the pin and of the slot, and the distance (mm) of these if declared.
-
-    encloses   True if the pin's circle encloses the slot's axis, so that the two axes stand close together
-    """
+    """A pin in a slot: links and axes of the pin and of the slot, and the distance (mm) of these if declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]
     offset: Fraction | None
     encloses: bool
+    """True if the pin's circle encloses the slot's axis, so that the two axes stand close together."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
@@ -172,28 +165,26 @@ class DialEnds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeclaredGeometry:
-    """Lines by label; gear pairs and couplings in the order declared.
-
-    axis       of every wheel, those first that mesh
-    wheels     link and declaration of every wheel
-    thickness  of those that declare one (mm)
-    discs      of lanterns: how far (modules) their discs reach beyond the pitch circle
-    front      the side of z from which the train is looked at: 1 or -1
-    dial_ends  of links that run to a dial
-    driven     the axis of the first input, which gets the origin where no position is declared
-    """
+    """Lines by label; gear pairs and couplings in the order declared."""
 
     lines: Mapping[str, AxisLine]
     axis: Mapping[str, str]
+    """Of every wheel, those first that mesh."""
     contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
+    """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
+    """Of those that declare one (mm)."""
     strays: tuple[StrayMesh, ...]
     front: int
+    """The side of z from which the train is looked at: 1 or -1."""
     dial_ends: Mapping[str, DialEnds]
+    """Of links that run to a dial."""
     driven: str | None
+    """The axis of the first input, which gets the origin where no position is declared."""
     discs: Mapping[str, float]
+    """Of lanterns: how far (modules) their discs reach beyond the pitch circle."""
 
     def link(self, wheel: str) -> str:
         """The link that carries a wheel."""

@@ -352,20 +352,19 @@ _ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Where all stands (mm).
-
-    geometry   with the wheels as broad as they were made
-    points     of axes; centres, of wheels
-    stacks     of each group of parallels
-    main, up   the group of parallels with most wheels, and its direction upwards
-    """
+    """Where all stands (mm)."""
 
     geometry: SizedGeometry
+    """With the wheels as broad as they were made."""
     points: Mapping[str, Vector]
+    """Of axes; centres, of wheels."""
     centres: Mapping[str, Vector]
     stacks: Sequence[WheelStack]
+    """Of each group of parallels."""
     main: int
+    """The group of parallels with most wheels, and its direction upwards."""
     up: Vector
+    """The group of parallels with most wheels, and its direction upwards."""
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:

@@ -47,30 +47,28 @@ class PlanDisc:
 
 @dataclass(frozen=True)
 class PlanProblem:
-    """What is asked of a plan.
-
-    labels     axes
-    bearers    the link that bears each
-    pivots     axes of carriers, which are placed before what they carry
-    fixed      points that are given
-    distances  of pairs of axes (mm)
-    discs      wheels of each axis, as far as they stand upright
-    mates      pairs of wheels that mesh
-    rows       pairs of axes that must stand in a row, and its direction
-    sides      directions in which an axis has a wheel across, best on the outside
-    places     axis -> the number of places round its pivot at which its teeth meet both its mates
-    """
+    """What is asked of a plan."""
 
     labels: Sequence[str]
+    """Axes."""
     bearers: Mapping[str, str]
+    """The link that bears each."""
     pivots: Mapping[str, str]
+    """Axes of carriers, which are placed before what they carry."""
     fixed: Mapping[str, Point]
+    """Points that are given."""
     distances: Mapping[tuple[str, str], float]
+    """Of pairs of axes (mm)."""
     discs: Mapping[str, Sequence[PlanDisc]]
+    """Wheels of each axis, as far as they stand upright."""
     mates: frozenset[frozenset[str]]
+    """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
+    """Pairs of axes that must stand in a row, and its direction."""
     sides: Mapping[str, Point] = field(default_factory=dict)
+    """Directions in which an axis has a wheel across, best on the outside."""
     places: Mapping[str, int] = field(default_factory=dict)
+    """Axis -> the number of places round its pivot at which its teeth meet both its mates."""
 
     def radius(self, label: str) -> float:
         """That an axis needs for its widest wheel (mm)."""
@@ -296,17 +294,15 @@ class _Rank(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """An axis, by number, to be put in.
-
-    placed  those that stand by then
-    tied    those of them at a given distance
-    bounds  those to which a chain of axes still to come must reach
-    """
+    """An axis, by number, to be put in."""
 
     axis: int
     placed: Indices
+    """Those that stand by then."""
     tied: tuple[DistanceBound, ...]
+    """Those of them at a given distance."""
     bounds: tuple[DistanceBound, ...]
+    """Those to which a chain of axes still to come must reach."""
 
 
 class PlanOrder:

@@ -108,41 +108,37 @@ def _fill(found: SweptDistances, members: Sequence[_Swept], places: Mapping[str,
 
 @dataclass(frozen=True, slots=True)
 class WheelBlock:
-    """A wheel in a stack (mm).
-
-    axis         index of its axis; link, that of its arbor
-    stack        number of the wheels that keep their heights to each other: those that mesh
-    offset       its height in its stack; low and high, how far it reaches along the direction from there
-    inner        of a ring, the radius within which all is free
-    outer        the radius that it needs
-    across       it stands across, and meshes with a wheel of this stack
-    trace        of a wheel across that keeps its place: the ends of its trace in plan, on both sides of which `outer`
-                 is taken; None of others
-    """
+    """A wheel in a stack (mm)."""
 
     wheel: str
     axis: int
+    """Index of its axis; link, that of its arbor."""
     link: str
     stack: int
+    """Number of the wheels that keep their heights to each other: those that mesh."""
     offset: float
+    """Its height in its stack; low and high, how far it reaches along the direction from there."""
     low: float
     high: float
     inner: float
+    """Of a ring, the radius within which all is free."""
     outer: float
+    """The radius that it needs."""
     across: bool = False
+    """It stands across, and meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
+    """Of a wheel across that keeps its place: the ends of its trace in plan, on both sides of which `outer` is
+    taken; None of others."""
 
 
 @dataclass(frozen=True)
 class PlanOverlap:
-    """What stands in whose way, in plan.
-
-    clash    (blocks, blocks): two that must not share a height
-    pierce   (links and pins, blocks): wheels that an arbor, or a pin, would go through at their height
-    """
+    """What stands in whose way, in plan."""
 
     clash: Flags
+    """(blocks, blocks): two that must not share a height."""
     pierce: Flags
+    """(links and pins, blocks): wheels that an arbor, or a pin, would go through at their height."""
 
 
 def find_plan_overlap(

@@ -149,27 +149,23 @@ _TEETH_MEET = 1e-6  # of a pitch: nearer, teeth meet
 
 @dataclass(frozen=True, slots=True)
 class PitchSide:
-    """The pitch point of a pair as one of its wheels sees it.
-
-    angle  of the pitch point about the wheel's axis, from the axis' reference (rad)
-    """
+    """The pitch point of a pair as one of its wheels sees it."""
 
     wheel: str
     teeth: int
     angle: float
+    """Of the pitch point about the wheel's axis, from the axis' reference (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class PitchPoint:
-    """The pitch point of a pair.
-
-    sense  1 where positive angles about both axes turn the pitch point the same way, -1 where against each other
-    """
+    """The pitch point of a pair."""
 
     name: str
     first: PitchSide
     second: PitchSide
     sense: int
+    """1 where positive angles about both axes turn the pitch point the same way, -1 where against each other."""
 
     def seen_from(self, wheel: str) -> tuple[PitchSide, PitchSide]:
         """A wheel of the pair, and its mate."""
@@ -275,59 +271,26 @@ _PARALLEL = 1e-9  # of the cosine: directions are rounded to floats
 class AxisPlace:
     """An axis in the zero pose.
 
-    Attributes
-    ----------
-    label : str
-        Its name in the declaration.
-    point : tuple of float
-        A point of it [mm].
-    direction : tuple of float
-        Unit vector as declared: speeds of its links are positive about it.
-    how : {"given", "found", "free"}
-        Given in the declaration, found from wheels that mesh, or free: put where there is room.
-    carrier : str
-        The link that bears it, the frame or a carrier.
-
     See Also
     --------
     lay_out : gives it, in `Layout.axes`.
     """
 
     label: str
+    """Its name in the declaration."""
     point: Vector
+    """A point of it [mm]."""
     direction: Vector
+    """Unit vector as declared: speeds of its links are positive about it."""
     how: How
+    """Given in the declaration, found from wheels that mesh, or free: put where there is room."""
     carrier: str
+    """The link that bears it, the frame or a carrier."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelPlace:
     """A wheel on its axis in the zero pose.
-
-    Attributes
-    ----------
-    wheel, link, axis : str
-        Its name, the link that carries it and the axis it turns about.
-    centre : tuple of float
-        Middle of its pitch circle, on its axis [mm].
-    radius : float
-        Of its pitch circle [mm]; at the wide end of a bevel wheel.
-    module : float
-        Pitch diameter over tooth count [mm].
-    thickness : float
-        Of its rim along the axis [mm].
-    given : bool
-        True if the declaration gives the module of this wheel, or of one that it meshes with.
-    cone : float
-        Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel.
-    facing : int
-        Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 of a cylinder.
-    layer : int or None
-        Number of the level it stands in, 0 nearest the origin, growing along the axis; None off the main axes.
-    turn : float
-        Angle of its first tooth about its axis' direction from `reference`, so that teeth mesh [rad].
-    reference : tuple of float
-        Unit vector across the axis from which `turn` is counted.
 
     See Also
     --------
@@ -335,18 +298,31 @@ class WheelPlace:
     """
 
     wheel: str
+    """Its name, the link that carries it and the axis it turns about."""
     link: str
+    """Its name, the link that carries it and the axis it turns about."""
     axis: str
+    """Its name, the link that carries it and the axis it turns about."""
     centre: Vector
+    """Middle of its pitch circle, on its axis [mm]."""
     radius: float
+    """Of its pitch circle [mm]; at the wide end of a bevel wheel."""
     module: float
+    """Pitch diameter over tooth count [mm]."""
     thickness: float
+    """Of its rim along the axis [mm]."""
     given: bool = False
+    """True if the declaration gives the module of this wheel, or of one that it meshes with."""
     cone: float = 0.0
+    """Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel."""
     facing: int = 0
+    """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 of a cylinder."""
     layer: int | None = 0
+    """Number of the level it stands in, 0 nearest the origin, growing along the axis; None off the main axes."""
     turn: float = 0.0
+    """Angle of its first tooth about its axis' direction from `reference`, so that teeth mesh [rad]."""
     reference: Vector = (1.0, 0.0, 0.0)
+    """Unit vector across the axis from which `turn` is counted."""
 
     @property
     def span(self) -> tuple[float, float]:
@@ -358,30 +334,22 @@ class WheelPlace:
 class Layout:
     """All axes and wheels of a train in space.
 
-    Attributes
-    ----------
-    axes : mapping of str to AxisPlace
-        By label.
-    wheels : mapping of str to WheelPlace
-        By name.
-    notices : tuple of Problem
-        What could not be placed as declared, or collides: what, why and what to do.
-    front : int
-        The side of z from which the train is looked at: 1 or -1.
-    apart : mapping of str to float
-        Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
-        other.
-
     See Also
     --------
     lay_out : gives it.
     """
 
     axes: Mapping[str, AxisPlace]
+    """By label."""
     wheels: Mapping[str, WheelPlace]
+    """By name."""
     notices: tuple[Problem, ...] = ()
+    """What could not be placed as declared, or collides: what, why and what to do."""
     front: int = 1
+    """The side of z from which the train is looked at: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
+    """Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
+    other."""
 
     def axis_distance(self, first: str, second: str) -> float | None:
         """How far apart the axes of two wheels are, where they are parallel.

@@ -150,18 +150,16 @@ _MODULE = Fraction(1)  # mm, where nothing of a train has a size
 
 @dataclass(frozen=True, slots=True)
 class WheelModules:
-    """Modules of a train, and the distances that follow.
-
-    cluster    wheel -> number of the group of wheels it meshes with, directly or through others
-    module     wheel -> module (mm)
-    declared   wheels of clusters where the declaration gives it
-    distances  pairs of axes -> how far apart they must be (mm), the mean of what their pairs ask for
-    """
+    """Modules of a train, and the distances that follow."""
 
     cluster: Mapping[str, int]
+    """Wheel -> number of the group of wheels it meshes with, directly or through others."""
     module: Mapping[str, float]
+    """Wheel -> module (mm)."""
     declared: frozenset[str]
+    """Wheels of clusters where the declaration gives it."""
     distances: Mapping[tuple[str, str], float]
+    """Pairs of axes -> how far apart they must be (mm), the mean of what their pairs ask for."""
 
 
 def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
@@ -317,16 +315,14 @@ _WORM = 12.0  # modules of a worm's length
 
 @dataclass(frozen=True, slots=True)
 class Seat:
-    """Where a wheel of a crossing pair sits.
-
-    far    way (mm) along its axis' direction from the point where the axes meet, or pass nearest, to its centre
-    cone   half angle of its pitch cone (rad)
-    out    unit vector across its axis to the pitch point
-    """
+    """Where a wheel of a crossing pair sits."""
 
     far: float
+    """Way (mm) along its axis' direction from the point where the axes meet, or pass nearest, to its centre."""
     cone: float
+    """Half angle of its pitch cone (rad)."""
     out: Vector
+    """Unit vector across its axis to the pitch point."""
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
@@ -377,24 +373,22 @@ def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class WheelSize:
-    """Sizes of a wheel (mm).
-
-    radius      of its pitch circle
-    module      transverse: its diameter over tooth count
-    thickness   of its rim along the axis
-    inner       within it all is free inside a ring; 0 of other wheels
-    outer       the radius it needs
-    slot        its middle over that of the lowest wheel of its level, where that is divided into slots
-    plain       its thickness were it not broad enough to meet several mates
-    """
+    """Sizes of a wheel (mm)."""
 
     radius: float
+    """Of its pitch circle."""
     module: float
+    """Transverse: its diameter over tooth count."""
     thickness: float
+    """Of its rim along the axis."""
     inner: float
+    """Within it all is free inside a ring; 0 of other wheels."""
     outer: float
+    """The radius it needs."""
     slot: float = 0.0
+    """Its middle over that of the lowest wheel of its level, where that is divided into slots."""
     plain: float = 0.0
+    """Its thickness were it not broad enough to meet several mates."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
         """The same wheel, as broad as it must be to stand in some slots, counted from below."""
@@ -420,15 +414,13 @@ class CrossingSide:
 
 @dataclass(frozen=True)
 class SizedGeometry:
-    """The declared geometry with sizes.
-
-    crossing   each pair whose axes are not parallel, twice: as its first wheel sees it, and as its second
-    """
+    """The declared geometry with sizes."""
 
     declared: DeclaredGeometry
     modules: WheelModules
     sizes: Mapping[str, WheelSize]
     crossing: tuple[CrossingSide, ...]
+    """Each pair whose axes are not parallel, twice: as its first wheel sees it, and as its second."""
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:

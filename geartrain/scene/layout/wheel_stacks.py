@@ -37,23 +37,21 @@ _SEARCHED = 80  # stacks up to which every place is tried
 
 @dataclass(frozen=True)
 class StackProblem:
-    """What is to be stacked.
-
-    overlap   of the blocks in plan
-    arbors    links that carry wheels; the rows of `overlap.pierce`
-    ends      of arbors that run out of the stack to a dial
-    plates    arbor -> the wheel on which its axis is carried round
-    pins      wheels with a pin and with its slot; rows of `overlap.pierce` after those of arbors
-    still     the link that stands still: where it has several wheels on an axis, they are as an arbor that does
-    """
+    """What is to be stacked."""
 
     blocks: Sequence[WheelBlock]
     overlap: PlanOverlap
+    """Of the blocks in plan."""
     arbors: Sequence[str]
+    """Links that carry wheels; the rows of `overlap.pierce`."""
     ends: Mapping[str, DialEnds]
+    """Of arbors that run out of the stack to a dial."""
     plates: Mapping[str, str]
+    """Arbor -> the wheel on which its axis is carried round."""
     pins: Sequence[tuple[str, str]] = ()
+    """Wheels with a pin and with its slot; rows of `overlap.pierce` after those of arbors."""
     still: str = ""
+    """The link that stands still: where it has several wheels on an axis, they are as an arbor that does."""
 
     @property
     def count(self) -> int:
@@ -357,19 +355,17 @@ def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
 
 @dataclass(frozen=True)
 class WheelStack:
-    """The wheels of some parallel axes, one above the other.
-
-    up      direction in which heights grow
-    gap     (mm) that is kept free between levels
-    swept   distances of the axes
-    given   stack -> height (mm) that is set by what stands already
-    """
+    """The wheels of some parallel axes, one above the other."""
 
     up: Vector
+    """Direction in which heights grow."""
     problem: StackProblem
     gap: float
+    """(mm) that is kept free between levels."""
     swept: SweptDistances
+    """Distances of the axes."""
     given: Mapping[int, float]
+    """Stack -> height (mm) that is set by what stands already."""
 
     def heights(self) -> dict[str, float]:
         """Heights of upright wheels: as given, all other stacks moved along with the first that is."""

@@ -64,27 +64,25 @@ class ColumnMember:
 
 @dataclass(frozen=True, slots=True)
 class AxisColumn:
-    """All that stands on an axis.
-
-    core       diameter (mm) of the arbor or the stud in the middle, which goes from `low` to `high`
-    pivot      diameter (mm) of an arbor's pivots
-    members    from the innermost; of a through arbor the first is the core
-    hit        discs of other axes in the way, with the gap to them (mm, below `APART`)
-    tangled    two links of which neither can be inside the other
-    on         of a stud that stands on the end of another one, the axis of that; `topped`, of the other
-    """
+    """All that stands on an axis."""
 
     axis: str
     at: Point
     bearing: AxisBearing
     core: float
+    """Diameter (mm) of the arbor or the stud in the middle, which goes from `low` to `high`."""
     pivot: float
+    """Diameter (mm) of an arbor's pivots."""
     low: float
     high: float
     members: tuple[ColumnMember, ...]
+    """From the innermost; of a through arbor the first is the core."""
     hit: tuple[tuple[StackDisc, float], ...] = ()
+    """Discs of other axes in the way, with the gap to them (mm, below `APART`)."""
     tangled: tuple[str, str] | None = None
+    """Two links of which neither can be inside the other."""
     on: str = ""
+    """Of a stud that stands on the end of another one, the axis of that; `topped`, of the other."""
     topped: bool = False
 
     @property
@@ -105,26 +103,24 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """An axis with its discs, those of other axes, and what reaches out to dials.
-
-    ends    link -> whether it goes out below and above the stack
-    span    of the whole stack, with room for dials
-    core    diameter of the arbor (mm) if it is given
-    pivot   of its pivots (mm) if that is
-    head    how far a stud goes on beyond what it bears (mm)
-    """
+    """An axis with its discs, those of other axes, and what reaches out to dials."""
 
     axis: str
     at: Point
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[bool, bool]]
+    """Link -> whether it goes out below and above the stack."""
     span: tuple[float, float]
+    """Of the whole stack, with room for dials."""
     frame: str
     process: Process
     core: float | None = None
+    """Diameter of the arbor (mm) if it is given."""
     pivot: float | None = None
+    """Of its pivots (mm) if that is."""
     head: float = SHAKE + HEAD
+    """How far a stud goes on beyond what it bears (mm)."""
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
@@ -324,18 +320,16 @@ def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> 
 
 @dataclass(frozen=True, slots=True)
 class CoaxialLink:
-    """What one link has in one piece on an axis, and how far it reaches (to a dial, or a plate).
-
-    hubs    heights at which something holds it or is held by it: of its discs, and of the plate that holds what stands
-    discs   on it; `ends`, whether it goes out below and above the stack
-    """
+    """What one link has in one piece on an axis, and how far it reaches (to a dial, or a plate)."""
 
     link: str
     hubs: tuple[float, ...]
+    """Heights at which something holds it or is held by it: of its discs, and of the plate that holds what stands."""
     low: float
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
+    """On it; `ends`, whether it goes out below and above the stack."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:

@@ -21,20 +21,18 @@ _BLADE = 0.1  # mm of metal between two holes, or round the foot of a stud
 
 @dataclass(frozen=True, slots=True)
 class TurningPlate:
-    """A plate to be put into a gap of the stack: where it turns, and what it bears.
-
-    disc    as what it sweeps; its height is that of its gap
-    spots   axes that it bears (carrier), or none (disc of a ring)
-    ring    the ring wheel that it holds
-    round   whether it is as wide all round as what it sweeps
-    flange  whether it is what brakes and clutches take hold of, on a shaft that bears nothing else
-    """
+    """A plate to be put into a gap of the stack: where it turns, and what it bears."""
 
     disc: StackDisc
+    """As what it sweeps; its height is that of its gap."""
     spots: tuple[str, ...] = ()
+    """Axes that it bears (carrier), or none (disc of a ring)."""
     ring: str = ""
+    """The ring wheel that it holds."""
     round: bool = False
+    """Whether it is as wide all round as what it sweeps."""
     flange: bool = False
+    """Whether it is what brakes and clutches take hold of, on a shaft that bears nothing else."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,21 +34,19 @@ KIND = "wall"
 
 @dataclass(frozen=True, slots=True)
 class FlexibleCup:
-    """A thin wheel and the link of its cup.
-
-    name    of the coupling that says that both turn alike
-    link    with the bottom of the cup; `slot`, with the wheel
-    wheel   its name
-    at      of the cup's axis across the stack (mm)
-    reach   outside radius of the wall; `wall`, how thick it is (mm)
-    """
+    """A thin wheel and the link of its cup."""
 
     name: str
+    """Of the coupling that says that both turn alike."""
     link: str
+    """With the bottom of the cup; `slot`, with the wheel."""
     slot: str
     wheel: str
+    """Its name."""
     at: Point
+    """Of the cup's axis across the stack (mm)."""
     reach: float
+    """Outside radius of the wall; `wall`, how thick it is (mm)."""
     wall: float
 
     def part(self, plate: tuple[float, float], wheel: StackDisc) -> TurnedPart:
@@ -80,45 +78,44 @@ _OVER = 1.0  # mm that a washer is wider than its eccentric
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """The wave that bends a thin wheel: how far it rises (mm), how many lobes it has, and the wall of the wheel (mm).
-
-    towards   angle of the first lobe across the stack (rad)
-    length    of the wall that joins the wheel to its cup (mm), for which there is room beside
-    """
+    """The wave that bends a thin wheel: how far it rises (mm), how many lobes it has, and the wall of the wheel
+    (mm)."""
 
     rise: float
     lobes: int
     wall: float
     towards: float
+    """Angle of the first lobe across the stack (rad)."""
     length: float
+    """Of the wall that joins the wheel to its cup (mm), for which there is room beside."""
 
 
 @dataclass(frozen=True, slots=True)
 class Eccentric:
-    """A disc on the arbor of a link.
-
-    name, link   its own, and whose it is
-    axis, at     of the arbor, across the stack (mm)
-    centre       of the disc (mm)
-    radius       of the disc (mm)
-    wheels       that turn on it
-    carried      label of the axis on which these turn
-    middle       radius (mm) of the hole in the middle of these, which turn on several; 0 where they turn on this alone
-    coupling     of cranks side by side, which it is
-    wave         what it bends, where it is no round disc
-    """
+    """A disc on the arbor of a link."""
 
     name: str
+    """Its own, and whose it is."""
     link: str
+    """Its own, and whose it is."""
     axis: str
+    """Of the arbor, across the stack (mm)."""
     at: Point
+    """Of the arbor, across the stack (mm)."""
     centre: Point
+    """Of the disc (mm)."""
     radius: float
+    """Of the disc (mm)."""
     wheels: tuple[str, ...]
+    """That turn on it."""
     carried: str
+    """Label of the axis on which these turn."""
     middle: float = 0.0
+    """Radius (mm) of the hole in the middle of these, which turn on several; 0 where they turn on this alone."""
     coupling: str = ""
+    """Of cranks side by side, which it is."""
     wave: Wave | None = None
+    """What it bends, where it is no round disc."""
 
     @property
     def offset(self) -> float:
@@ -215,17 +212,15 @@ _HALF_THIN = 0.02  # mm: a plate in a gap before it has its thickness
 
 @dataclass(frozen=True, slots=True)
 class PinCircle:
-    """Pins that work in round holes, as they are declared.
-
-    name       of their coupling
-    link       that bears them, `slot` the one with the holes
-    radius     of the circle on which they stand; `pin` and `hole`, diameters (mm)
-    """
+    """Pins that work in round holes, as they are declared."""
 
     name: str
+    """Of their coupling."""
     link: str
+    """That bears them, `slot` the one with the holes."""
     slot: str
     radius: float
+    """Of the circle on which they stand; `pin` and `hole`, diameters (mm)."""
     pin: float
     hole: float
 
@@ -242,22 +237,21 @@ class PinCircle:
 
 @dataclass(frozen=True, slots=True)
 class StandingPins:
-    """Pins where they stand.
-
-    name, link   of the pins and of what bears them
-    seat         the plate that turns in which they stand; nothing where that is the nearer plate of the frame
-    wheel        through which they reach, from the plate to its far face
-    spots        their middles across the stack; `radius`, their own (mm)
-    joined       whether they are fixed in the wheel too, and do not work in its holes
-    """
+    """Pins where they stand."""
 
     name: str
+    """Of the pins and of what bears them."""
     link: str
+    """Of the pins and of what bears them."""
     seat: str
+    """The plate that turns in which they stand; nothing where that is the nearer plate of the frame."""
     wheel: str
+    """Through which they reach, from the plate to its far face."""
     spots: tuple[Point, ...]
+    """Their middles across the stack; `radius`, their own (mm)."""
     radius: float
     joined: bool = False
+    """Whether they are fixed in the wheel too, and do not work in its holes."""
 
     def parts(self, plate: tuple[float, float], wheel: StackDisc, joint: str) -> Iterator[TurnedPart]:
         """All of them, from the far face of their plate to that of the wheel."""

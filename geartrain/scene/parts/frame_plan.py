@@ -54,17 +54,15 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs: a stud between the plates, on
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis.
-
-    outside   1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not
-    cost      obstacles on all axes, with wheels across that a plate would cut; then studs and arbors that pass a plate
-    """
+    """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
+    """1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not."""
     cost: tuple[int, int]
+    """Obstacles on all axes, with wheels across that a plate would cut; then studs and arbors that pass a plate."""
 
 
 def best_places(
@@ -161,19 +159,17 @@ _DIAL = 6.0  # mm that an arbor stands out towards a dial
 
 @dataclass(frozen=True)
 class FramePlan:
-    """Where all parts of a mechanism stand, heights along the plates' normal; lengths in mm.
-
-    stack       wheels as laid out
-    thickness   of plates
-    core        diameter of all arbors, if it is given
-    ends        link -> whether it goes out to a dial below and above the stack
-    """
+    """Where all parts of a mechanism stand, heights along the plates' normal; lengths in mm."""
 
     stack: FrameStack
+    """Wheels as laid out."""
     process: Process
     thickness: float
+    """Of plates."""
     core: float | None
+    """Diameter of all arbors, if it is given."""
     ends: Mapping[str, tuple[bool, bool]]
+    """Link -> whether it goes out to a dial below and above the stack."""
 
     # --------------------------------------------------------------------------------------------------- as laid out
 
@@ -522,16 +518,14 @@ BETWEEN = HEAD_ROOM  # mm between a plate that turns and its neighbours
 
 @dataclass(frozen=True, slots=True)
 class StackHeights:
-    """Where everything stands once plates are in.
-
-    starts   lower face of each slab as laid out; shifts: how far it moves up (mm)
-    plates   faces of the plates that turn, by name
-    """
+    """Where everything stands once plates are in."""
 
     starts: tuple[float, ...]
+    """Lower face of each slab as laid out; shifts: how far it moves up (mm)."""
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
+    """Faces of the plates that turn, by name."""
 
     def shift(self, height: float) -> float:
         """How far what stands at a height moves up."""

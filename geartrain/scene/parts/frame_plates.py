@@ -38,32 +38,24 @@ class Hole:
 
 @dataclass(frozen=True, slots=True)
 class FlatPlate:
-    """A plate across the stack.
-
-    Attributes
-    ----------
-    link, name : str
-        The link it belongs to and its name.
-    outline : Contour
-        Its edge, in the coordinates of the stack [mm].
-    holes : tuple of Hole
-        All of them.
-    low, high : float
-        Its faces along the normal [mm].
-    at : tuple of float
-        What its own coordinates are counted from [mm].
-    windows : tuple of Contour
-        For wheels across that go through it, and for brackets [mm].
-    """
+    """A plate across the stack."""
 
     link: str
+    """The link it belongs to and its name."""
     name: str
+    """The link it belongs to and its name."""
     outline: Contour
+    """Its edge, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
+    """All of them."""
     low: float
+    """Its faces along the normal [mm]."""
     high: float
+    """Its faces along the normal [mm]."""
     at: Point = (0.0, 0.0)
+    """What its own coordinates are counted from [mm]."""
     windows: tuple[Contour, ...] = ()
+    """For wheels across that go through it, and for brackets [mm]."""
 
     @property
     def contours(self) -> tuple[Contour, ...]:
@@ -89,19 +81,17 @@ def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
 
 @dataclass(frozen=True)
 class FramePlates:
-    """Plates, pillars and posts of a plan.
-
-    feet   of dials, and the cock of a pendulum, each in one of the plates
-    mortises  of brackets, round which a plate reaches, by the name of its side
-    standing  pins that plates bear
-    barrel    from which a weight hangs
-    """
+    """Plates, pillars and posts of a plan."""
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
+    """Of dials, and the cock of a pendulum, each in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
+    """Of brackets, round which a plate reaches, by the name of its side."""
     standing: tuple[StandingPins, ...] = ()
+    """Pins that plates bear."""
     barrel: Barrel | None = None
+    """From which a weight hangs."""
 
     @cached_property
     def pillar(self) -> float:

@@ -55,17 +55,15 @@ _RIM = 2.0  # modules round the teeth of a ring that is not
 
 @dataclass(frozen=True, slots=True)
 class AcrossWheel:
-    """A wheel about an axis that does not stand upright: between which heights it reaches, and circles that hold it.
-
-    section   of one that the frame bears at right angles to the normal: its middle across the stack, the way of its
-              axis there, its height, how far it reaches, and half its thickness (mm)
-    """
+    """A wheel about an axis that does not stand upright: between which heights it reaches, and circles that hold it."""
 
     name: str
     low: float
     high: float
     circles: tuple[tuple[Point, float], ...]
     section: tuple[Point, Point, float, float, float] | None = None
+    """Of one that the frame bears at right angles to the normal: its middle across the stack, the way of its axis
+    there, its height, how far it reaches, and half its thickness (mm)."""
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
         """Its way through a plate, if it goes into one."""

@@ -13,34 +13,24 @@ from geartrain.errors import Problem, QuestionError, suggest
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A way to make flat parts and what turns in them; lengths in mm.
-
-    Attributes
-    ----------
-    name : str
-        laser, cnc, fdm or hand.
-    kerf : float
-        Width that the cut takes away; half of it is added to every outline.
-    web : float
-        The thinnest wall or land that holds.
-    running, press : float
-        Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says).
-    play : float
-        Of teeth along the pitch circle [modules].
-    wall : float
-        The thinnest wall of a pipe.
-    joint : str
-        How wheels are held on arbors.
-    """
+    """A way to make flat parts and what turns in them; lengths in mm."""
 
     name: str
+    """Laser, cnc, fdm or hand."""
     kerf: float
+    """Width that the cut takes away; half of it is added to every outline."""
     web: float
+    """The thinnest wall or land that holds."""
     running: float
+    """Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says)."""
     press: float
+    """Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says)."""
     play: float
+    """Of teeth along the pitch circle [modules]."""
     wall: float
+    """The thinnest wall of a pipe."""
     joint: str
+    """How wheels are held on arbors."""
 
 
 PROCESSES = {

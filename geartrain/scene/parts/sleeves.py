@@ -168,21 +168,22 @@ _LONGEST_BARREL = 10.0  # mm
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """A drum fixed to a wheel, whose collet it is.
-
-    link, wheel   the link, and the wheel beside which it is
-    at            of its axis across the stack (mm)
-    low, high     its ends along the normal (mm)
-    radius, bore  outside and inside radius (mm)
-    """
+    """A drum fixed to a wheel, whose collet it is."""
 
     link: str
+    """The link, and the wheel beside which it is."""
     wheel: str
+    """The link, and the wheel beside which it is."""
     at: Point
+    """Of its axis across the stack (mm)."""
     low: float
+    """Its ends along the normal (mm)."""
     high: float
+    """Its ends along the normal (mm)."""
     radius: float
+    """Outside and inside radius (mm)."""
     bore: float
+    """Outside and inside radius (mm)."""
 
     @property
     def part(self) -> TurnedPart:

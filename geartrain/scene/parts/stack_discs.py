@@ -23,42 +23,32 @@ _SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """A wheel, or a plate that turns, as what it sweeps; lengths in mm.
-
-    Attributes
-    ----------
-    name, link, axis : str
-        Its name, the link it belongs to and its axis.
-    at : tuple of float
-        Its axis across the stack.
-    low, high : float
-        Its faces.
-    outer : float
-        Of its teeth, or its rim.
-    inner : float
-        Radius that is free inside: of a ring's teeth; 0 of any other.
-    root : float
-        Of its teeth.
-    hub : bool
-        True if it sits on the arbor of its link; a ring does not.
-    carrier : tuple of float or None
-        The axis about which its own is carried round, if it is.
-    apart : bool
-        True of an arm that a bar beside the axis joins to its link, round what stands between them.
-    """
+    """A wheel, or a plate that turns, as what it sweeps; lengths in mm."""
 
     name: str
+    """Its name, the link it belongs to and its axis."""
     link: str
+    """Its name, the link it belongs to and its axis."""
     axis: str
+    """Its name, the link it belongs to and its axis."""
     at: Point
+    """Its axis across the stack."""
     low: float
+    """Its faces."""
     high: float
+    """Its faces."""
     outer: float
+    """Of its teeth, or its rim."""
     inner: float = 0.0
+    """Radius that is free inside: of a ring's teeth; 0 of any other."""
     root: float = 0.0
+    """Of its teeth."""
     hub: bool = True
+    """True if it sits on the arbor of its link; a ring does not."""
     carrier: Point | None = None
+    """The axis about which its own is carried round, if it is."""
     apart: bool = False
+    """True of an arm that a bar beside the axis joins to its link, round what stands between them."""
 
     @property
     def middle(self) -> float:
@@ -117,14 +107,12 @@ _WEB = 1.0  # mm of plate at the least between a window and the edge, and betwee
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """A rectangle in a plate.
-
-    middle   of it, across the stack (mm)
-    way      unit vector along its length; `length`, half of that, and `width`, half of that (mm)
-    """
+    """A rectangle in a plate."""
 
     middle: Point
+    """Of it, across the stack (mm)."""
     way: Point
+    """Unit vector along its length; `length`, half of that, and `width`, half of that (mm)."""
     length: float
     width: float
 

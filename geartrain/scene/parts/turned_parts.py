@@ -43,29 +43,22 @@ class Band:
 
 @dataclass(frozen=True, slots=True)
 class TurnedPart:
-    """A body of revolution.
-
-    Attributes
-    ----------
-    link, name, kind : str
-        The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post.
-    at : tuple of float
-        Its axis across the stack [mm].
-    bands : tuple of Band
-        From below; where one does not begin at the end of the one before, a pinion cut from the same piece stands.
-    joint : str
-        What it is joined to, and how.
-    through : tuple of str
-        Wheels and turning plates that have a hole for it.
-    """
+    """A body of revolution."""
 
     link: str
+    """The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post."""
     name: str
+    """The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post."""
     kind: str
+    """The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post."""
     at: Point
+    """Its axis across the stack [mm]."""
     bands: tuple[Band, ...]
+    """From below; where one does not begin at the end of the one before, a pinion cut from the same piece stands."""
     joint: str = ""
+    """What it is joined to, and how."""
     through: tuple[str, ...] = ()
+    """Wheels and turning plates that have a hole for it."""
 
     @property
     def ends(self) -> tuple[float, float]:

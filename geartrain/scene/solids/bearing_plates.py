@@ -43,21 +43,19 @@ class EngravedText:
 
 @dataclass(frozen=True, slots=True)
 class FlatDrawing:
-    """One part.
-
-    title   what it is, in a line
-    cut     closed curves to cut: the outer one first, then holes
-    pitch   what guides and is not cut: pitch circles, the edge of a sheet
-    marks   letters that are engraved
-    lines   chords that are engraved, (n, 2) each
-    """
+    """One part."""
 
     title: str
+    """What it is, in a line."""
     cut: tuple[Contour, ...]
+    """Closed curves to cut: the outer one first, then holes."""
     pitch: tuple[Contour, ...] = ()
+    """What guides and is not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
+    """Letters that are engraved."""
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
+    """Chords that are engraved, (n, 2) each."""
 
     @property
     def box(self) -> tuple[Floats, Floats]:

@@ -183,15 +183,13 @@ _FLAT = 1e-6
 
 @dataclass(frozen=True)
 class Bracket:
-    """What bears one end of an arbor.
-
-    body   that it bears; `reach`, how far along the arbor's direction its outer face stands (mm)
-    side   of the frame's plate in which it stands, through the `mortise` there
-    """
+    """What bears one end of an arbor."""
 
     body: int
+    """That it bears; `reach`, how far along the arbor's direction its outer face stands (mm)."""
     reach: float
     side: str
+    """Of the frame's plate in which it stands, through the `mortise` there."""
     mortise: Passage
     part: SolidPart
 

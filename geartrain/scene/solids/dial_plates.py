@@ -41,25 +41,18 @@ _SAME = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class DialCircle:
-    """The scales of all dials about one axis.
-
-    Attributes
-    ----------
-    at : tuple of float
-        Its middle, in the coordinates of the stack [mm].
-    radius, hole : float
-        Of all that is engraved; diameter of the hole for the arbors of its pointers [mm].
-    scales : mapping of str to DialScale
-        By dial.
-    radii : mapping of str to float
-        By dial, of its scale [mm].
-    """
+    """The scales of all dials about one axis."""
 
     at: Point
+    """Its middle, in the coordinates of the stack [mm]."""
     radius: float
+    """Of all that is engraved; diameter of the hole for the arbors of its pointers [mm]."""
     hole: float
+    """Of all that is engraved; diameter of the hole for the arbors of its pointers [mm]."""
     scales: dict[str, DialScale]
+    """By dial."""
     radii: dict[str, float]
+    """By dial, of its scale [mm]."""
 
     def lines(self) -> Iterator[Floats]:
         """What is engraved, letters too, about its middle."""
@@ -76,29 +69,22 @@ class DialCircle:
 
 @dataclass(frozen=True, slots=True)
 class DialPlate:
-    """A plate with all dials of one side.
-
-    Attributes
-    ----------
-    name : str
-        "dial", and the names of the dials.
-    low, high : float
-        Its faces along the plates' normal [mm].
-    circles : tuple of DialCircle
-        Its dials, by axis.
-    feet : tuple of TurnedPart
-        Pins on which it stands before a plate of the frame.
-    right, up : tuple of float
-        Unit vectors of one who reads it, in the coordinates of the stack.
-    """
+    """A plate with all dials of one side."""
 
     name: str
+    """"dial", and the names of the dials."""
     low: float
+    """Its faces along the plates' normal [mm]."""
     high: float
+    """Its faces along the plates' normal [mm]."""
     circles: tuple[DialCircle, ...]
+    """Its dials, by axis."""
     feet: tuple[TurnedPart, ...]
+    """Pins on which it stands before a plate of the frame."""
     right: Point
+    """Unit vectors of one who reads it, in the coordinates of the stack."""
     up: Point
+    """Unit vectors of one who reads it, in the coordinates of the stack."""
 
     @property
     def at(self) -> Point:

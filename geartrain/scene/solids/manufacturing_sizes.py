@@ -35,24 +35,6 @@ _NEAR = 1.3  # how much thicker or thinner than 2.5 modules a sheet may be
 class ManufacturingSizes:
     """Sizes in which a train is made; None leaves one to the layout.
 
-    Parameters
-    ----------
-    module : float, optional
-        Pitch diameter over tooth count [mm], above 0; only where the declaration gives no sizes of its own.
-    thickness : float, optional
-        Of wheels and plates [mm], above 0.
-    bore : float, optional
-        Diameter of the arbors [mm]; 0: neither arbors nor plates, and wheels without holes.
-    backlash : float, optional
-        Play on the pitch circle of every pair that does not declare its own [mm], 0 or more; by default a twentieth
-        of the module.
-    process : str, optional
-        How it is made: laser, cnc, fdm or hand; sets kerf, fits, and the play where none is given.
-    arms : int, optional
-        Arms of wheels that have room for windows between them, 3 or more; without it webs are whole.
-    sheet : (float, float), optional
-        Width and height of the sheets that flat parts are laid out on [mm], above 0; without it they are not.
-
     Raises
     ------
     QuestionError
@@ -65,12 +47,20 @@ class ManufacturingSizes:
     """
 
     module: float | None = None
+    """Pitch diameter over tooth count [mm], above 0; only where the declaration gives no sizes of its own."""
     thickness: float | None = None
+    """Of wheels and plates [mm], above 0."""
     bore: float | None = None
+    """Diameter of the arbors [mm]; 0: neither arbors nor plates, and wheels without holes."""
     backlash: float | None = None
+    """Play on the pitch circle of every pair that does not declare its own [mm], 0 or more; by default a twentieth
+    of the module."""
     process: str | None = None
+    """How it is made: laser, cnc, fdm or hand; sets kerf, fits, and the play where none is given."""
     arms: int | None = None
+    """Arms of wheels that have room for windows between them, 3 or more; without it webs are whole."""
     sheet: tuple[float, float] | None = None
+    """Width and height of the sheets that flat parts are laid out on [mm], above 0; without it they are not."""
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` for what is no size."""

@@ -48,15 +48,6 @@ _GAP = 1.0  # mm between a plate and what turns before it
 class SolidModel:
     """A train with all that exports ask for, each made once when it is first asked for.
 
-    Parameters
-    ----------
-    train : GearTrain
-        Loaded or declared.
-    making : ManufacturingSizes
-        Sizes it is made in.
-    state : str, optional
-        One of its states; by default the first.
-
     Raises
     ------
     QuestionError
@@ -72,8 +63,11 @@ class SolidModel:
     """
 
     train: GearTrain
+    """Loaded or declared."""
     making: ManufacturingSizes
+    """Sizes it is made in."""
     state: str | None = None
+    """One of its states; by default the first."""
 
     def __post_init__(self) -> None:
         """Every one of equal planets is made."""

@@ -22,43 +22,32 @@ if TYPE_CHECKING:
 class SolidPart:
     """One solid of a body: a point p of it stands at turn p + place.
 
-    Attributes
-    ----------
-    body : int
-        Index of its body in the scene.
-    name : str
-        Of the wheel, or what it belongs to.
-    kind : str
-        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
-        pin, rod, bob or weight.
-    turn, place : array of float, (3, 3) and (3,)
-        Rotation and shift [mm] that put it into the zero pose.
-    status : str
-        Of a wheel as declared: surviving, reconstructed, ...
-    contours : tuple of Contour
-        Its flat shape, from which the solid is made; empty where it has none.
-    height : float
-        Thickness over the flat shape [mm].
-    turned : TurnedPart or None
-        What it is turned to, about its own z, if it is a body of revolution.
-    drawn : Solid or None
-        Its surface where that follows from neither of these: helical teeth, and likenesses.
-
     See Also
     --------
     SolidModel : gives it, in `parts`.
     """
 
     body: int
+    """Index of its body in the scene."""
     name: str
+    """Of the wheel, or what it belongs to."""
     kind: str
+    """Wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin,
+    rod, bob or weight."""
     turn: Floats
+    """Rotation and shift [mm] that put it into the zero pose."""
     place: Floats
+    """Rotation and shift [mm] that put it into the zero pose."""
     status: str = ""
+    """Of a wheel as declared: surviving, reconstructed, ..."""
     contours: tuple[Contour, ...] = ()
+    """Its flat shape, from which the solid is made; empty where it has none."""
     height: float = 0.0
+    """Thickness over the flat shape [mm]."""
     turned: TurnedPart | None = None
+    """What it is turned to, about its own z, if it is a body of revolution."""
     drawn: Solid | None = None
+    """Its surface where that follows from neither of these: helical teeth, and likenesses."""
 
     @cached_property
     def solid(self) -> Solid:

@@ -155,15 +155,13 @@ _GAP = 1.0  # mm between a plate and what turns before it
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """All of a scene that no plate bears; pins that stand in plates are parts of these.
-
-    cut      couplings that are cut into wheels
-    wheels   flat shapes by name
-    """
+    """All of a scene that no plate bears; pins that stand in plates are parts of these."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
+    """Couplings that are cut into wheels."""
     wheels: Mapping[str, Blank]
+    """Flat shapes by name."""
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:

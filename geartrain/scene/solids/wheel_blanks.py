@@ -131,22 +131,17 @@ _THIN = 0.4  # mm that a wheel has beside its bore at least, if it is more than 
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A wheel to cut: its axle at the origin, its first tooth on the x axis; lengths in mm.
-
-    kind       external, ring or pins
-    form       of its teeth, in words
-    contours   the outer one first, then holes
-    helix      angle of its teeth from the axis (rad), of a right hand above 0
-    arms       that windows leave; 0 where its web is whole
-    pins       of a ring whose teeth are pins, parts of their own: they lie in its inside (modules)
-    """
+    """A wheel to cut: its axle at the origin, its first tooth on the x axis; lengths in mm."""
 
     wheel: str
     link: str
     teeth: int
     kind: str
+    """External, ring or pins."""
     form: str
+    """Of its teeth, in words."""
     contours: tuple[Contour, ...]
+    """The outer one first, then holes."""
     module: float
     pitch_radius: float
     tip_radius: float
@@ -154,8 +149,11 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
+    """Angle of its teeth from the axis (rad), of a right hand above 0."""
     arms: int = 0
+    """That windows leave; 0 where its web is whole."""
     pins: LanternPins | None = None
+    """Of a ring whose teeth are pins, parts of their own: they lie in its inside (modules)."""
 
     @property
     def twist(self) -> float:
@@ -165,15 +163,13 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut.
-
-    uncut   why by wheel; `flat`, the wheels whose teeth stand straight in a plane, cut or not
-    """
+    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     plays: tuple[PairPlay, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
+    """Why by wheel; `flat`, the wheels whose teeth stand straight in a plane, cut or not."""
     flat: frozenset[str]
 
 

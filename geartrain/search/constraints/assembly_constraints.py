@@ -321,14 +321,14 @@ class CentreDistanceMatch:
 
 @dataclass(frozen=True)
 class LoopPhasing:
-    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each).
-
-    train, tree, circuits  with some counts; those of `wheels` are put in
-    """
+    """Loops whose teeth meet, judged for every candidate on its own (about a millisecond each)."""
 
     train: Train
+    """With some counts; those of `wheels` are put in."""
     tree: Tree
+    """With some counts; those of `wheels` are put in."""
     circuits: tuple[Circuit, ...]
+    """With some counts; those of `wheels` are put in."""
     wheels: tuple[str, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
@@ -345,13 +345,11 @@ class LoopPhasing:
 
 @dataclass(frozen=True)
 class DeclaredPositions:
-    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet.
-
-    shift   half modules that profile shift bridges
-    """
+    """The declared positions of a train, as facts: wheels must reach each other there, and teeth meet."""
 
     fitting: TrainAssembly
     shift: int = 0
+    """Half modules that profile shift bridges."""
 
     @cached_property
     def closure(self) -> MeshPhasing:

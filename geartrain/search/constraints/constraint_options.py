@@ -19,39 +19,6 @@ Read = TypeVar("Read")
 class ConstraintOptions:
     """Constraints on tooth counts besides ratios. By default only that wheels between the same axes fit.
 
-    Attributes
-    ----------
-    coaxial : bool, optional
-        Spur wheels of one module between the same two axes have one centre distance; where no module is declared they
-        are taken to have one. None asks for it but where declared counts, none of them to be searched for, break it
-        already: then modules differ, or teeth are shifted.
-    shift : int
-        Half modules by which such distances may differ, for profile shift bridges them.
-    planets : int or mapping of str to int, optional
-        Equal planets, equally spaced, on every carrier that moves planets; or carrier -> number. Equal are also the
-        ways in which wheels stand on their arbors.
-    clearance : Fraction, optional
-        Room between the tips of neighbouring planets [modules]: strictly more than this.
-    undercut : Quantity, optional
-        Pressure angle, above 0 and below 90 deg: no external spur wheel is undercut by a rack.
-    interference : Quantity, optional
-        Pressure angle: tips of spur wheels keep to the involute of their mates, in rings to their gaps too.
-    addendum : Fraction
-        Of external wheels and of the rack [modules].
-    ring_addendum : Fraction, optional
-        Of rings [modules]; None for that of external wheels. Rings are often cut shorter: at 1 and 20 deg 18 teeth in
-        60 interfere.
-    least, most_teeth : int, optional
-        Bounds on the teeth of every free wheel, inclusive; worms are not asked.
-    largest_radius : Quantity, optional
-        Of the pitch circle of every free wheel: a length, or a plain number of modules; worms are not asked.
-    different : bool
-        No free wheel has as many teeth as another wheel; equal planets may.
-    hunting : bool
-        Teeth of wheels that mesh have no common divisor.
-    closure : bool
-        The teeth of every loop meet at the declared positions of axes, where wheels reach each other.
-
     See Also
     --------
     search_train : takes them.
@@ -63,19 +30,37 @@ class ConstraintOptions:
     """
 
     coaxial: bool | None = None
+    """Spur wheels of one module between the same two axes have one centre distance; where no module is declared they
+    are taken to have one. None asks for it but where declared counts, none of them to be searched for, break it
+    already: then modules differ, or teeth are shifted."""
     shift: int = 0
+    """Half modules by which such distances may differ, for profile shift bridges them."""
     planets: int | Mapping[str, int] | None = None
+    """Equal planets, equally spaced, on every carrier that moves planets; or carrier -> number. Equal are also the
+    ways in which wheels stand on their arbors."""
     clearance: Fraction | None = None
+    """Room between the tips of neighbouring planets [modules]: strictly more than this."""
     undercut: Quantity | None = None
+    """Pressure angle, above 0 and below 90 deg: no external spur wheel is undercut by a rack."""
     interference: Quantity | None = None
+    """Pressure angle: tips of spur wheels keep to the involute of their mates, in rings to their gaps too."""
     addendum: Fraction = Fraction(1)
+    """Of external wheels and of the rack [modules]."""
     ring_addendum: Fraction | None = None
+    """Of rings [modules]; None for that of external wheels. Rings are often cut shorter: at 1 and 20 deg 18 teeth in
+    60 interfere."""
     least: int | None = None
+    """Bounds on the teeth of every free wheel, inclusive; worms are not asked."""
     most_teeth: int | None = None
+    """Bounds on the teeth of every free wheel, inclusive; worms are not asked."""
     largest_radius: Quantity | None = None
+    """Of the pitch circle of every free wheel: a length, or a plain number of modules; worms are not asked."""
     different: bool = False
+    """No free wheel has as many teeth as another wheel; equal planets may."""
     hunting: bool = False
+    """Teeth of wheels that mesh have no common divisor."""
     closure: bool = False
+    """The teeth of every loop meet at the declared positions of axes, where wheels reach each other."""
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON, quantities as written; rules that are off are left out."""

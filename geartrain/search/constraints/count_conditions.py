@@ -40,16 +40,14 @@ class CandidateTest(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """A rule that counts meet exactly: sum of coefficient times count, plus a constant, is 0.
-
-    name          the reason, for a reader
-    coefficients  free wheel -> whole number, none of them 0; at least one wheel
-    constant      what the wheels with fixed counts add
-    """
+    """A rule that counts meet exactly: sum of coefficient times count, plus a constant, is 0."""
 
     name: str
+    """The reason, for a reader."""
     coefficients: Mapping[str, int]
+    """Free wheel -> whole number, none of them 0; at least one wheel."""
     constant: int
+    """What the wheels with fixed counts add."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -79,16 +77,14 @@ class CountEquation:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """A rule that refuses candidates.
-
-    name    the reason, for a reader; several conditions may share one
-    wheels  the free wheels it is about, at least one
-    test    what decides
-    """
+    """A rule that refuses candidates."""
 
     name: str
+    """The reason, for a reader; several conditions may share one."""
     wheels: tuple[str, ...]
+    """The free wheels it is about, at least one."""
     test: CandidateTest
+    """What decides."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
         """True for the candidates that pass, (candidates,), read-only. Columns of other wheels are not looked at."""

@@ -25,22 +25,20 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """A central wheel.
-
-    link      its link
-    wheel     its wheel
-    mesh      the planet wheel it meets
-    sign      of its speed against the planets' reference wheel, carrier held
-    step      the planet wheel P in f = sign P / z; empty where all of a kind have the same, which then cancels
-    internal  True for a ring
-    """
+    """A central wheel."""
 
     link: str
+    """Its link."""
     wheel: str
+    """Its wheel."""
     mesh: str
+    """The planet wheel it meets."""
     sign: int
+    """Of its speed against the planets' reference wheel, carrier held."""
     step: str = ""
+    """The planet wheel P in f = sign P / z; empty where all of a kind have the same, which then cancels."""
     internal: bool = False
+    """True for a ring."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +46,11 @@ class EpicyclicMode:
     """A way to use a set: which member is driven, which drives, which is held."""
 
     input: str
+    """The member that drives."""
     output: str
+    """The member that is driven."""
     held: str
+    """The member that is held."""
 
     @property
     def key(self) -> str:
@@ -67,30 +68,30 @@ def mode_key(mode: EpicyclicMode) -> str:
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicKind(Result):
-    """A kind of epicyclic set.
-
-    members     its central wheels
-    planets     the wheels of each planet link
-    between     meshes of planets with each other
-    free        wheels whose counts are chosen freely; coaxiality gives those of the other central wheels
-    idle        planet wheels that change no ratio and stand under no equation: they take the least count that fits
-    with_carrier  True if the carrier may be driven, drive or be held in `modes`
-    mirrored    link -> link: exchanging these gives the same set again, so half of the modes say all
-    bevel       True if the planets' axes cross the central one
-    """
+    """A kind of epicyclic set."""
 
     KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
     name: str
+    """Name by which it is requested."""
     title: str
+    """Name in words."""
     members: tuple[CentralWheel, ...]
+    """Its central wheels."""
     planets: tuple[tuple[str, ...], ...]
+    """The wheels of each planet link."""
     free: tuple[str, ...]
+    """Wheels whose counts are chosen freely; coaxiality gives those of the other central wheels."""
     between: tuple[tuple[str, str], ...] = ()
+    """Meshes of planets with each other."""
     idle: tuple[str, ...] = ()
+    """Planet wheels that change no ratio and stand under no equation: they take the least count that fits."""
     with_carrier: bool = True
+    """True if the carrier may be driven, drive or be held in `modes`."""
     mirrored: tuple[tuple[str, str], ...] = ()
+    """Link -> link: exchanging these gives the same set again, so half of the modes say all."""
     bevel: bool = False
+    """True if the planets' axes cross the central one."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -261,25 +262,6 @@ SetOrder = Literal["error", "total", "largest"]
 class EpicyclicSet(CountSizes, Result):
     """Tooth counts of an epicyclic set in one mode.
 
-    Attributes
-    ----------
-    kind : str
-        Name of the kind of set, such as "planetary".
-    mode : EpicyclicMode
-        Which link drives, which is driven, which is held.
-    teeth : mapping of str to int
-        Wheel -> count.
-    ratio : Fraction
-        Speed of the input over that of the output, exact; negative where they turn against each other.
-    error : Fraction
-        Magnitude of the ratio, as it was asked for, over the wanted one, less 1; exact.
-    planets : int
-        The number asked for.
-    places : int
-        At how many equally spaced places identical planets can stand; 0 for anywhere.
-    room : float
-        Between the tips of neighbouring planets, equally spaced [modules]; negative where they overlap.
-
     See Also
     --------
     find_sets : finds them.
@@ -303,13 +285,21 @@ class EpicyclicSet(CountSizes, Result):
     )
 
     kind: str
+    """Name of the kind of set, such as "planetary"."""
     mode: EpicyclicMode
+    """Which link drives, which is driven, which is held."""
     teeth: Mapping[str, int]
+    """Wheel -> count."""
     ratio: Fraction
+    """Speed of the input over that of the output, exact; negative where they turn against each other."""
     error: Fraction
+    """Magnitude of the ratio, as it was asked for, over the wanted one, less 1; exact."""
     planets: int
+    """The number asked for."""
     places: int
+    """At how many equally spaced places identical planets can stand; 0 for anywhere."""
     room: float
+    """Between the tips of neighbouring planets, equally spaced [modules]; negative where they overlap."""
 
     @property
     def counts(self) -> Collection[int]:
@@ -351,27 +341,6 @@ class EpicyclicSet(CountSizes, Result):
 class SetFindings(Result):
     """The best sets of a kind, best first.
 
-    Attributes
-    ----------
-    kind : str
-        Name of the kind.
-    wanted : Fraction
-        Magnitude of the ratio.
-    ratio_is : {"input/output", "output/input"}
-        What `wanted` is.
-    modes : tuple of EpicyclicMode
-        The modes that were looked at.
-    tolerance : Fraction, optional
-        Greatest relative error.
-    complete : bool
-        True: all sets within the bounds were looked at.
-    count : int
-        Sets within the tolerance, over all modes; all that run where no tolerance was asked.
-    solutions : tuple of EpicyclicSet
-        The best of them.
-    shortfall : Shortfall
-        What became of the others; a set in each mode counts as one candidate.
-
     See Also
     --------
     find_sets : gives it.
@@ -390,14 +359,23 @@ class SetFindings(Result):
     )
 
     kind: str
+    """Name of the kind."""
     wanted: Fraction
+    """Magnitude of the ratio."""
     ratio_is: RatioIs
+    """What `wanted` is."""
     modes: tuple[EpicyclicMode, ...]
+    """The modes that were looked at."""
     tolerance: Fraction | None
+    """Greatest relative error."""
     complete: bool
+    """True: all sets within the bounds were looked at."""
     count: int
+    """Sets within the tolerance, over all modes; all that run where no tolerance was asked."""
     solutions: tuple[EpicyclicSet, ...]
+    """The best of them."""
     shortfall: Shortfall
+    """What became of the others; a set in each mode counts as one candidate."""
 
     def __bool__(self) -> bool:
         return bool(self.solutions)

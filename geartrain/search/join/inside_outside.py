@@ -73,22 +73,20 @@ def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
 
 @dataclass(frozen=True, eq=False)
 class RecordedNode:
-    """A node of a join's plan.
-
-    size       rows: settings of what this node and those below look at
-    parents    row of each transition, ascending
-    places     which value it sets, of `values`
-    values     those of the item that occur
-    misfit     what the graded demands decided here add to each transition; None where none is decided
-    children   nodes below, and for each of them the row that each transition leads to
-    """
+    """A node of a join's plan."""
 
     size: int
+    """Rows: settings of what this node and those below look at."""
     parents: Ints
+    """Row of each transition, ascending."""
     places: Ints
+    """Which value it sets, of `values`."""
     values: RecordedItem
+    """Those of the item that occur."""
     misfit: Floats | None
+    """What the graded demands decided here add to each transition; None where none is decided."""
     children: tuple[tuple[RecordedNode, Ints], ...]
+    """Nodes below, and for each of them the row that each transition leads to."""
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:

@@ -38,24 +38,22 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """One item of the plan, set when all above it are.
-
-    item        which
-    interface   items above that this node or one below it looks at
-    guide       the constraint that says which values to look at; -1: all
-    checks      further constraints that are complete with this item, in the order they are asked
-    prunes      polynomial constraints of which two or more items are open yet: rows that they surely refuse end here
-    children    what is set next; no two of them share a constraint
-    reach       all constraints of this node and those below
-    """
+    """One item of the plan, set when all above it are."""
 
     item: int
+    """Which."""
     interface: tuple[int, ...]
+    """Items above that this node or one below it looks at."""
     guide: int
+    """The constraint that says which values to look at; -1: all."""
     checks: tuple[int, ...]
+    """Further constraints that are complete with this item, in the order they are asked."""
     prunes: tuple[int, ...]
+    """Polynomial constraints of which two or more items are open yet: rows that they surely refuse end here."""
     children: tuple[PlanNode, ...]
+    """What is set next; no two of them share a constraint."""
     reach: tuple[int, ...]
+    """All constraints of this node and those below."""
 
     def decided(self) -> Iterator[int]:
         """The constraints that are complete with this node, then with those below."""
@@ -74,25 +72,23 @@ class PlanNode:
 
 @dataclass(frozen=True)
 class JoinProblem:
-    """Everything a worker needs to know of a join. Plain data and rules: it can be pickled.
-
-    domains   wheel -> its counts, ascending
-    rules     constraints on counts; these, then `asked`, are numbered in this order
-    late      rules that are asked last, of assignments of all wheels
-    recipes   the items
-    plan      the tree; its root is the first item
-    steps     about how many partial assignments the join will look at
-    weights   wheel -> a whole weight for each count, where assignments are weighed and not counted
-    """
+    """Everything a worker needs to know of a join. Plain data and rules: it can be pickled."""
 
     domains: Domains
+    """Wheel -> its counts, ascending."""
     asked: tuple[IntervalConstraint, ...]
     rules: tuple[CountConstraint, ...]
+    """Constraints on counts; these, then `asked`, are numbered in this order."""
     late: tuple[CountConstraint, ...]
+    """Rules that are asked last, of assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]
+    """The items."""
     plan: PlanNode
+    """The tree; its root is the first item."""
     steps: float
+    """About how many partial assignments the join will look at."""
     weights: Weights = field(default_factory=dict)
+    """Wheel -> a whole weight for each count, where assignments are weighed and not counted."""
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
@@ -284,13 +280,11 @@ _EXACT = 1e-7  # the width, in logarithms, that one exact value stands for
 
 @dataclass(frozen=True, slots=True)
 class SelectivitySample:
-    """Assignments drawn at random, always the same ones.
-
-    columns   wheel -> counts, (drawn,)
-    """
+    """Assignments drawn at random, always the same ones."""
 
     domains: Domains
     columns: Mapping[str, Ints]
+    """Wheel -> counts, (drawn,)."""
 
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:

@@ -197,16 +197,16 @@ class PolynomialInequality:
 
 @dataclass(frozen=True)
 class SolutionWindow:
-    """For each row the run of an item's values that may meet a case, and the run within it that surely does.
-
-    start, end             outer: values before `start` and from `end` on surely fail
-    sure_start, sure_end   inner; empty where sure_end <= sure_start
-    """
+    """For each row the run of an item's values that may meet a case, and the run within it that surely does."""
 
     start: Ints
+    """Outer: values before `start` and from `end` on surely fail."""
     end: Ints
+    """Outer: values before `start` and from `end` on surely fail."""
     sure_start: Ints
+    """Inner; empty where sure_end <= sure_start."""
     sure_end: Ints
+    """Inner; empty where sure_end <= sure_start."""
 
     def clipped(self, first: int, last: int) -> SolutionWindow:
         """Cut to the values from `first` up to `last`, exclusive; ends are never before starts."""
@@ -333,23 +333,22 @@ _SHORT = 4096
 
 @dataclass(frozen=True, slots=True)
 class RelaxedInequality:
-    """An inequality with some items open.
-
-    sense        of the inequality
-    rest         what the items that are set make of each term
-    lows, highs  what the open items make of each term at the least and at the greatest, (terms,)
-    points       what they make of each term at each corner, (terms, corners); None where each term is taken by itself
-    slack        rounding of the sum, over the sum with all signs plus
-    scale        the polynomial's
-    """
+    """An inequality with some items open."""
 
     sense: int
+    """Of the inequality."""
     rest: tuple[SignPolynomial, ...]
+    """What the items that are set make of each term."""
     lows: Floats
+    """What the open items make of each term at the least and at the greatest, (terms,)."""
     highs: Floats
+    """What the open items make of each term at the least and at the greatest, (terms,)."""
     points: Floats | None
+    """What they make of each term at each corner, (terms, corners); None where each term is taken by itself."""
     slack: float
+    """Rounding of the sum, over the sum with all signs plus."""
     scale: int
+    """The polynomial's."""
 
     def possible(self, rows: PartialAssignments) -> Bools:
         """False where the inequality surely fails for all values of the open items."""
@@ -408,15 +407,13 @@ def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[
 
 @dataclass(frozen=True)
 class PolynomialConstraint:
-    """A demand: at least one case holds, that is, all of its inequalities. No two cases hold at once.
-
-    name       what is demanded, in words
-    function   numerator and denominator of what the demand is on, where its value is asked for too
-    """
+    """A demand: at least one case holds, that is, all of its inequalities. No two cases hold at once."""
 
     name: str
+    """What is demanded, in words."""
     cases: tuple[tuple[PolynomialInequality, ...], ...]
     function: tuple[SignPolynomial, SignPolynomial] | None = None
+    """Numerator and denominator of what the demand is on, where its value is asked for too."""
 
     @cached_property
     def items(self) -> tuple[int, ...]:

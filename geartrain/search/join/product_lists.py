@@ -33,13 +33,12 @@ _REMEMBERED = 20_000_000  # values in all lists that are kept
 
 @dataclass(frozen=True, slots=True)
 class ItemRecipe:
-    """What an item is made of, in plain data.
-
-    top, bottom   wheels whose counts are multiplied above and below, each with its power (1 or more)
-    """
+    """What an item is made of, in plain data."""
 
     top: tuple[tuple[str, int], ...]
+    """Wheels whose counts are multiplied above and below, each with its power (1 or more)."""
     bottom: tuple[tuple[str, int], ...] = ()
+    """Wheels whose counts are multiplied above and below, each with its power (1 or more)."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -111,21 +110,19 @@ class ListCache(Generic[Made]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """What the counts of one wheel make of the products of the wheels before it.
-
-    choices    index of the count, in parallel to the next two
-    children   product after
-    parents    product before
-    size       how many products there are after
-    before     the wheels before it; None for the empty product
-    """
+    """What the counts of one wheel make of the products of the wheels before it."""
 
     wheel: str
     choices: Ints
+    """Index of the count, in parallel to the next two."""
     children: Ints
+    """Product after."""
     parents: Ints
+    """Product before."""
     size: int
+    """How many products there are after."""
     before: ProductStep | None
+    """The wheels before it; None for the empty product."""
 
     def chain(self) -> Iterator[ProductStep]:
         """This step, then those before it."""

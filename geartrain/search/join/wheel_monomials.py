@@ -52,18 +52,16 @@ class Function(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class IntervalConstraint:
-    """A demand on a function: its value lies in one of the intervals, which do not touch.
-
-    name    the demand in words
-    strict  True: not on their ends either
-    graded  True: it matters where within the intervals the value lies, so that all wheels of the function must be known
-    """
+    """A demand on a function: its value lies in one of the intervals, which do not touch."""
 
     name: str
+    """The demand in words."""
     function: Function
     intervals: tuple[Interval, ...]
     strict: bool = False
+    """True: not on their ends either."""
     graded: bool = False
+    """True: it matters where within the intervals the value lies, so that all wheels of the function must be known."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,16 +31,14 @@ _MOST_STEPS = 4000  # of one tree; a first complete choice is always found
 
 @dataclass(frozen=True)
 class PeriodTargets:
-    """The periods wanted, in turns of the first arbor, and how far each may be missed.
-
-    names       as asked
-    periods     exact, positive
-    tolerances  greatest relative error of each speed, exact, below 1
-    """
+    """The periods wanted, in turns of the first arbor, and how far each may be missed."""
 
     names: tuple[str, ...]
+    """As asked."""
     periods: tuple[Fraction, ...]
+    """Exact, positive."""
     tolerances: tuple[Fraction, ...]
+    """Greatest relative error of each speed, exact, below 1."""
 
     @cached_property
     def bounds(self) -> tuple[tuple[Fraction, Fraction], ...]:
@@ -114,17 +112,16 @@ def members(bits: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class PairRatios:
-    """The distinct ratios driven over driver of two wheels, in ascending order.
-
-    counts  admissible tooth counts, ascending
-    driven, driver  (n,) the ratio in lowest terms
-    logs    (n,) its natural logarithm
-    """
+    """The distinct ratios driven over driver of two wheels, in ascending order."""
 
     counts: tuple[int, ...]
+    """Admissible tooth counts, ascending."""
     driven: Ints
+    """(n,) the ratio in lowest terms."""
     driver: Ints
+    """(n,) the ratio in lowest terms."""
     logs: Floats
+    """(n,) its natural logarithm."""
     _choices: dict[tuple[int, int], tuple[tuple[int, int], ...]] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
@@ -185,18 +182,16 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """From one arbor, the second arbors that have aims one pair further.
-
-    asked  the aims looked for, as bits
-    first  (m,) index of the ratio to the second arbor
-    next   (m, aims) index of the ratio from there to each aim, -1 where there is none
-    sets   (m,) the aims reached, as bits
-    """
+    """From one arbor, the second arbors that have aims one pair further."""
 
     asked: int
+    """The aims looked for, as bits."""
     first: Ints
+    """(m,) index of the ratio to the second arbor."""
     next: Ints
+    """(m, aims) index of the ratio from there to each aim, -1 where there is none."""
     sets: Ints
+    """(m,) the aims reached, as bits."""
 
 
 def reach(table: PairRatios, aims: PeriodTargets, log_period: float, asked: int) -> ReachablePeriods:
@@ -305,20 +300,20 @@ class _Search:
 
 @dataclass(frozen=True, slots=True)
 class TreeArbor:
-    """One arbor of a tree.
-
-    aim             the period it shows, by number; -1: none
-    parent          the arbor that drives it, by place in the tree; -1 for the first
-    driven, driver  ratio of its pair in lowest terms
-    n, d            its period in turns of the first arbor, in lowest terms
-    """
+    """One arbor of a tree."""
 
     aim: int
+    """The period it shows, by number; -1: none."""
     parent: int
+    """The arbor that drives it, by place in the tree; -1 for the first."""
     driven: int
+    """Ratio of its pair in lowest terms."""
     driver: int
+    """Ratio of its pair in lowest terms."""
     n: int
+    """Its period in turns of the first arbor, in lowest terms."""
     d: int
+    """Its period in turns of the first arbor, in lowest terms."""
 
     @property
     def period(self) -> Fraction:

@@ -48,29 +48,20 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """One arbor of an orrery.
-
-    Attributes
-    ----------
-    name : str
-        The period it shows, or `arbor 1`, `arbor 2`...; the caller names the first.
-    period : Fraction
-        Turns of the first arbor in one of its own, exact and positive.
-    sense : {-1, 1}
-        1 with the first arbor, -1 against it: every pair is external and reverses.
-    wheels : tuple of int
-        Tooth counts of its wheels, ascending, all different.
-    shows : bool
-        True if it shows a period that was asked for.
-    """
+    """One arbor of an orrery."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
+    """The period it shows, or `arbor 1`, `arbor 2`...; the caller names the first."""
     period: Fraction
+    """Turns of the first arbor in one of its own, exact and positive."""
     sense: int
+    """1 with the first arbor, -1 against it: every pair is external and reverses."""
     wheels: tuple[int, ...]
+    """Tooth counts of its wheels, ascending, all different."""
     shows: bool
+    """True if it shows a period that was asked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,33 +69,18 @@ class OrreryPair(Result):
     """One gear pair: teeth of the driver on arbor `parent`, and of the driven wheel on arbor `child`."""
 
     driver: int
+    """Teeth of the driving wheel."""
     driven: int
+    """Teeth of the driven wheel."""
     parent: str
+    """Arbor of the driving wheel."""
     child: str
+    """Arbor of the driven wheel."""
 
 
 @dataclass(frozen=True, slots=True)
 class Orrery(Result):
     """A tree of gear pairs that shows every period asked for.
-
-    Attributes
-    ----------
-    periods : mapping of str to Fraction
-        Name -> period asked for [turns of the first arbor].
-    tolerances : mapping of str to Fraction
-        Name -> greatest relative error asked for.
-    arbors : tuple of OrreryArbor
-        The first arbor first, every other after the one that drives it.
-    pairs : tuple of OrreryPair
-        In the order of the driven arbors.
-    errors : mapping of str to Fraction
-        Name -> speed over wanted speed, less 1, exact; positive is fast.
-    least_pairs : int
-        No tree of fewer pairs shows all the periods: proved by walking all of them.
-    least_wheels : int
-        Fewer wheels than this are impossible: proved.
-    ended : {"proved", "effort", "time", "interrupted"}
-        Why the search ended.
 
     See Also
     --------
@@ -123,13 +99,21 @@ class Orrery(Result):
     )
 
     periods: Mapping[str, Fraction]
+    """Name -> period asked for [turns of the first arbor]."""
     tolerances: Mapping[str, Fraction]
+    """Name -> greatest relative error asked for."""
     arbors: tuple[OrreryArbor, ...]
+    """The first arbor first, every other after the one that drives it."""
     pairs: tuple[OrreryPair, ...]
+    """In the order of the driven arbors."""
     errors: Mapping[str, Fraction]
+    """Name -> speed over wanted speed, less 1, exact; positive is fast."""
     least_pairs: int
+    """No tree of fewer pairs shows all the periods: proved by walking all of them."""
     least_wheels: int
+    """Fewer wheels than this are impossible: proved."""
     ended: str
+    """Why the search ended."""
 
     @property
     def wheels(self) -> int:
@@ -430,16 +414,14 @@ def _nothing(search: _Sharing, ended: str) -> QuestionError:
 
 @dataclass(frozen=True, slots=True)
 class PartialTree:
-    """A part-built tree: what is left to show, and what the tree costs.
-
-    wheels  the fewest its pairs need
-    bulk    sum of the logarithms of its ratios' terms: small terms have many multiples, thus more chances to share
-    """
+    """A part-built tree: what is left to show, and what the tree costs."""
 
     tree: ArborTree
     left: int
     wheels: int
+    """The fewest its pairs need."""
     bulk: float
+    """Sum of the logarithms of its ratios' terms: small terms have many multiples, thus more chances to share."""
 
     @property
     def rank(self) -> tuple[int, float]:

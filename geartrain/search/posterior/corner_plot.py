@@ -44,18 +44,16 @@ _DASHES: Any = (0, (3, 2))
 
 @dataclass(frozen=True, slots=True)
 class CountProbabilities:
-    """How likely tooth counts are.
-
-    single    wheel -> count -> probability
-    pairs     two wheels, in the order of `single` -> their two counts -> probability
-    before    as `single`, before the evidence was heard; empty where unknown
-    declared  wheel -> the count it is declared with
-    """
+    """How likely tooth counts are."""
 
     single: Mapping[str, Chances]
+    """Wheel -> count -> probability."""
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
+    """Two wheels, in the order of `single` -> their two counts -> probability."""
     before: Mapping[str, Chances] = field(default_factory=dict)
+    """As `single`, before the evidence was heard; empty where unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
+    """Wheel -> the count it is declared with."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:

@@ -35,25 +35,23 @@ _LINE: Interval = (None, None)
 
 @dataclass(frozen=True, slots=True)
 class InferenceProblem:
-    """Wheels in doubt and what is known of the outputs.
-
-    name        of the train
-    doubts      wheel -> its counts and their weights, in the order declared
-    witnesses   outputs of which something is known and that a wheel in doubt moves
-    outputs     every output that a wheel in doubt moves -> its function
-    conditions  what must hold for the train to turn: loops that close, links driven in one way
-    remarks     what the reader should know
-    soft        False: a combination fits or it does not; True: it agrees less and less, exp(-misfit / 2), up
-                to `FAR` tolerances
-    """
+    """Wheels in doubt and what is known of the outputs."""
 
     name: str
+    """Of the train."""
     doubts: Mapping[str, ToothCountPrior]
+    """Wheel -> its counts and their weights, in the order declared."""
     witnesses: tuple[ObservedOutput, ...]
+    """Outputs of which something is known and that a wheel in doubt moves."""
     outputs: Mapping[str, Formula]
+    """Every output that a wheel in doubt moves -> its function."""
     conditions: tuple[IntervalConstraint, ...]
+    """What must hold for the train to turn: loops that close, links driven in one way."""
     remarks: tuple[str, ...] = ()
+    """What the reader should know."""
     soft: bool = False
+    """False: a combination fits or it does not; True: it agrees less and less, exp(-misfit / 2), up to `FAR`
+    tolerances."""
 
     @property
     def domains(self) -> Domains:
@@ -188,29 +186,20 @@ def _nothing_known(what: str) -> QuestionError:
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPrior(Result):
-    """The counts one wheel may have, and their prior probabilities.
-
-    Attributes
-    ----------
-    wheel : str
-        Its id.
-    counts : tuple of int
-        Ascending, each once.
-    weights : tuple of int
-        In parallel to the counts: positive, without a common divisor; the prior probability is weight / `total`.
-    declared : int or None
-        The count the train declares.
-    assumed : str
-        Where the counts come from, in words; all are equally likely unless it says that they are weighted.
-    """
+    """The counts one wheel may have, and their prior probabilities."""
 
     KEYS = ("wheel", "declared", "counts", "priors", "assumed")
 
     wheel: str
+    """Its id."""
     counts: tuple[int, ...]
+    """Ascending, each once."""
     weights: tuple[int, ...]
+    """In parallel to the counts: positive, without a common divisor; the prior probability is weight / `total`."""
     declared: int | None
+    """The count the train declares."""
     assumed: str
+    """Where the counts come from, in words; all are equally likely unless it says that they are weighted."""
 
     @property
     def total(self) -> int:
@@ -310,18 +299,16 @@ def _too_wide(name: str, count: int, place: str) -> RangeError:
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """One thing known about an output's speed.
-
-    label      in words, such as "speed 254/19 within 0.2 %"
-    wanted     the speed, in the train's unit; positive where only the magnitude counts
-    signed     False: only the magnitude counts
-    intervals  where the speed (or its magnitude) may lie, closed; None stands for no bound
-    """
+    """One thing known about an output's speed."""
 
     label: str
+    """In words, such as "speed 254/19 within 0.2 %"."""
     wanted: Fraction
+    """The speed, in the train's unit; positive where only the magnitude counts."""
     signed: bool
+    """False: only the magnitude counts."""
     intervals: tuple[Interval, ...]
+    """Where the speed (or its magnitude) may lie, closed; None stands for no bound."""
 
     @property
     def is_exact(self) -> bool:
@@ -367,16 +354,14 @@ class Observation:
 
 @dataclass(frozen=True, slots=True)
 class ObservedOutput:
-    """An output of which something is known.
-
-    name       of the output; "state: output" where several states are asked at once
-    formula    its speed as a function of the wheels in doubt; of one or more of them
-    claims     all hold at once; one at least
-    """
+    """An output of which something is known."""
 
     name: str
+    """Of the output; "state: output" where several states are asked at once."""
     formula: Formula
+    """Its speed as a function of the wheels in doubt; of one or more of them."""
     claims: tuple[Observation, ...]
+    """All hold at once; one at least."""
 
     @property
     def text(self) -> str:

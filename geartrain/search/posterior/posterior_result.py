@@ -20,13 +20,6 @@ Method = Literal["exact", "sample"]
 class CountProbability(Result):
     """A probability: exact, to rounding, or estimated from a sample.
 
-    Attributes
-    ----------
-    value : Fraction or float
-        0 to 1; exact where it is a Fraction, to rounding where it is a float.
-    low, high : float or None
-        95 % interval where it is estimated from a sample.
-
     Examples
     --------
     >>> from fractions import Fraction
@@ -38,8 +31,11 @@ class CountProbability(Result):
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
     value: Fraction | float
+    """0 to 1; exact where it is a Fraction, to rounding where it is a float."""
     low: float | None = None
+    """95 % interval where it is estimated from a sample."""
     high: float | None = None
+    """95 % interval where it is estimated from a sample."""
 
     @property
     def exact(self) -> Fraction | None:
@@ -63,15 +59,6 @@ class CountProbability(Result):
 class WheelPosterior(Result):
     """The posterior of one wheel's count.
 
-    Attributes
-    ----------
-    doubt : ToothCountPrior
-        Its `counts`, and their `priors`: the probabilities before the outputs are looked at.
-    chances : tuple of CountProbability
-        Posterior probabilities in parallel to the counts; they sum to 1. Empty where nothing fits.
-    idle : bool
-        True if no known output depends on it, so that its posterior is its prior.
-
     See Also
     --------
     infer_counts : gives it, by wheel
@@ -80,8 +67,11 @@ class WheelPosterior(Result):
     KEYS = (Key("", "doubt"), Key("posterior", "chances"), "likeliest", "bits", "idle")
 
     doubt: ToothCountPrior
+    """Its `counts`, and their `priors`: the probabilities before the outputs are looked at."""
     chances: tuple[CountProbability, ...]
+    """Posterior probabilities in parallel to the counts; they sum to 1. Empty where nothing fits."""
     idle: bool
+    """True if no known output depends on it, so that its posterior is its prior."""
 
     @property
     def likeliest(self) -> int | None:
@@ -116,27 +106,14 @@ class CombinedOutput:
     KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
 
     speed: Fraction
+    """Speed of the output under the combination."""
     error: Fraction
+    """Relative error of the speed against what is known."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
     """One combination: counts of all wheels that some known output depends on.
-
-    Attributes
-    ----------
-    teeth : mapping of str to int
-        Wheel -> count, in the order declared.
-    speeds : mapping of str to Fraction
-        Output -> exact speed [unit of the train].
-    errors : mapping of str to Fraction
-        Output -> relative error against the claim it agrees with least; the speed itself where 0 is wanted.
-    misfit : Fraction
-        Sum over the claims of (error / tolerance)^2; an exact claim adds nothing.
-    chance : CountProbability or None
-        Posterior probability; None where it is not known, in a sample.
-    changed : tuple of str
-        Wheels whose count is not the declared one.
 
     See Also
     --------
@@ -146,11 +123,17 @@ class CountCombination(Result):
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "chance", "changed")
 
     teeth: Mapping[str, int]
+    """Wheel -> count, in the order declared."""
     speeds: Mapping[str, Fraction]
+    """Output -> exact speed [unit of the train]."""
     errors: Mapping[str, Fraction]
+    """Output -> relative error against the claim it agrees with least; the speed itself where 0 is wanted."""
     misfit: Fraction
+    """Sum over the claims of (error / tolerance)^2; an exact claim adds nothing."""
     chance: CountProbability | None
+    """Posterior probability; None where it is not known, in a sample."""
     changed: tuple[str, ...]
+    """Wheels whose count is not the declared one."""
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
@@ -161,23 +144,6 @@ class CountCombination(Result):
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
     """Which wheel decides an output: Sobol indices of its speed over the prior of the counts.
-
-    Attributes
-    ----------
-    output : str
-        Its name.
-    mean : Fraction or float
-        Of its speed [unit of the train].
-    spread : float or LongFloat
-        Standard deviation of its speed [unit of the train]; `LongFloat` past 1e308.
-    own : mapping of str to Fraction or float
-        Wheel -> first-order index, 0 to 1: the share of the variance that goes if the wheel's count is known.
-    whole : mapping of str to Fraction or float
-        Wheel -> total index, at least `own`: the share that stays if all other counts are known.
-    exact : bool
-        False where the indices are estimated from `samples` combinations.
-    samples : int
-        0 where they are exact.
 
     See Also
     --------
@@ -194,65 +160,37 @@ class VarianceShares(Result):
     )
 
     output: str
+    """Its name."""
     mean: Fraction | float
+    """Of its speed [unit of the train]."""
     spread: Real
+    """Standard deviation of its speed [unit of the train]; `LongFloat` past 1e308."""
     own: Mapping[str, Fraction | float]
+    """Wheel -> first-order index, 0 to 1: the share of the variance that goes if the wheel's count is known."""
     whole: Mapping[str, Fraction | float]
+    """Wheel -> total index, at least `own`: the share that stays if all other counts are known."""
     exact: bool
+    """False where the indices are estimated from `samples` combinations."""
     samples: int = 0
+    """0 where they are exact."""
 
 
 class KnownOutput(TypedDict):
     """An output of which something is known, its formula, and the share of the prior weight that fits it `alone`."""
 
     output: str
+    """Name of the output."""
     claims: list[str]
+    """What is known of its speed."""
     formula: str
+    """Its speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]
+    """Share of the prior weight that fits this output alone."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPosterior(Tabular, Result):
     """The posterior of all tooth counts in doubt; `found["wheel"]` is that of one wheel.
-
-    Attributes
-    ----------
-    name : str
-        Of the train.
-    method : {"exact", "sample"}
-        All combinations by the exact join, or a sample of them.
-    soft : bool
-        Whether agreement is a matter of degree.
-    combinations : int
-        Of counts there are.
-    looked : int
-        Steps of the exact join, or combinations drawn.
-    evidence : CountProbability
-        Share of the prior weight that fits; the mean of exp(-misfit / 2) where agreement is by degree.
-    turning : CountProbability
-        Share of the prior weight with which the train turns at all.
-    fits : int or None
-        Number of combinations that fit, where it is known.
-    witnesses : tuple of ObservedOutput
-        Outputs of which something is known.
-    alone : mapping of str to CountProbability
-        Output -> share of the prior weight that fits it alone.
-    posteriors : mapping of str to WheelPosterior
-        By wheel.
-    correlations : mapping of (str, str) to float
-        Pairs of wheels -> correlation of their counts in what fits, -1 to 1, strongest first.
-    best : tuple of CountCombination
-        Combinations that agree best, best first.
-    ranked : bool
-        Whether none better than the last of them is left out.
-    shares : mapping of str to VarianceShares
-        Output -> which wheel decides it.
-    remarks : tuple of str
-        What the reader should know.
-    seed : int or None
-        Of the sample, if there is one.
-    cut : bool
-        True if it was interrupted: the figures are of what had been drawn.
 
     See Also
     --------
@@ -266,23 +204,41 @@ class ToothCountPosterior(Tabular, Result):
     )
 
     name: str
+    """Of the train."""
     method: Method
+    """All combinations by the exact join, or a sample of them."""
     soft: bool
+    """Whether agreement is a matter of degree."""
     combinations: int
+    """Of counts there are."""
     looked: int
+    """Steps of the exact join, or combinations drawn."""
     evidence: CountProbability
+    """Share of the prior weight that fits; the mean of exp(-misfit / 2) where agreement is by degree."""
     turning: CountProbability
+    """Share of the prior weight with which the train turns at all."""
     fits: int | None
+    """Number of combinations that fit, where it is known."""
     witnesses: tuple[ObservedOutput, ...]
+    """Outputs of which something is known."""
     alone: Mapping[str, CountProbability]
+    """Output -> share of the prior weight that fits it alone."""
     posteriors: Mapping[str, WheelPosterior]
+    """By wheel."""
     correlations: Mapping[tuple[str, str], float]
+    """Pairs of wheels -> correlation of their counts in what fits, -1 to 1, strongest first."""
     best: tuple[CountCombination, ...]
+    """Combinations that agree best, best first."""
     ranked: bool
+    """Whether none better than the last of them is left out."""
     shares: Mapping[str, VarianceShares]
+    """Output -> which wheel decides it."""
     remarks: tuple[str, ...]
+    """What the reader should know."""
     seed: int | None
+    """Of the sample, if there is one."""
     cut: bool
+    """True if it was interrupted: the figures are of what had been drawn."""
 
     def __getitem__(self, wheel: str) -> WheelPosterior:
         return self.posteriors[wheel]

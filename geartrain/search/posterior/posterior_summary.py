@@ -99,10 +99,7 @@ def _chance(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and candidates for the best, by either method.
-
-    effective  number of combinations that the figures rest on, where they are of a sample; infinite where they are not
-    """
+    """Evidence, posteriors, correlations and candidates for the best, by either method."""
 
     looked: int
     evidence: CountProbability
@@ -113,6 +110,7 @@ class PosteriorSummary:
     candidates: Sequence[GradedAssignment]
     ranked: bool
     effective: float
+    """Number of combinations that the figures rest on, where they are of a sample; infinite where they are not."""
 
 
 def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> PosteriorSummary:

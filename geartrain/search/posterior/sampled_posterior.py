@@ -260,14 +260,12 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
 
 @dataclass(frozen=True, eq=False)
 class FormulaValues:
-    """A formula seen through monomials: each of them is part of one of its groups, or of none.
-
-    quotient   None where floats may overflow, so that nothing can be said of their error
-    plan       its products in few multiplications
-    """
+    """A formula seen through monomials: each of them is part of one of its groups, or of none."""
 
     quotient: BoundedQuotient | None
+    """None where floats may overflow, so that nothing can be said of their error."""
     plan: ProductPlan
+    """Its products in few multiplications."""
 
     @classmethod
     def of(cls, formula: Formula, monomials: Sequence[Powers], domains: Domains) -> FormulaValues:

@@ -133,29 +133,28 @@ class ProductWindows:
     The sorted counts are cut at their middle one, m: a row is m and what is below it, and may be joined with every high
     part whose counts are all at least m. So each unordered set is there once, and only O(n^3) numbers are in memory for
     n counts, while the C(n+k-1, k) products are made window by window.
-
-    counts   admissible counts, ascending
-    size     k
-    rows     product of m and the counts below it, (rows,)
-    lows     these counts, ascending, (rows, a)
-    highs    products of the high parts, ascending within each table, (highs,)
-    uppers   their counts, ascending, (highs, b)
-    keys     `highs` with their table's offset added: ascending throughout
-    offsets  offset of the table of each row, (rows,)
-    starts   place of its first high part, (rows,)
-    step     distance of the offsets: more than any high part
     """
 
     counts: tuple[int, ...]
+    """Admissible counts, ascending."""
     size: int
+    """K."""
     rows: Ints
+    """Product of m and the counts below it, (rows,)."""
     lows: Ints
+    """These counts, ascending, (rows, a)."""
     highs: Ints
+    """Products of the high parts, ascending within each table, (highs,)."""
     uppers: Ints
+    """Their counts, ascending, (highs, b)."""
     keys: Ints
+    """`highs` with their table's offset added: ascending throughout."""
     offsets: Ints
+    """Offset of the table of each row, (rows,)."""
     starts: Places
+    """Place of its first high part, (rows,)."""
     step: int
+    """Distance of the offsets: more than any high part."""
 
     @property
     def total(self) -> int:

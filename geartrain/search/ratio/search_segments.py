@@ -44,16 +44,14 @@ _BINS = 256  # of the logarithms of counts
 
 @dataclass(frozen=True, slots=True)
 class SegmentPlan:
-    """Segments of the products beneath, and the density of pairs of sets.
-
-    bounds    products beneath, ascending: segment n is [bounds[n], bounds[n + 1])
-    densest   the segment in which most pairs are near the wanted ratio
-    density   pairs of sets for each unit of |error|, over all segments; an estimate
-    """
+    """Segments of the products beneath, and the density of pairs of sets."""
 
     bounds: tuple[int, ...]
+    """Products beneath, ascending: segment n is [bounds[n], bounds[n + 1])."""
     densest: int
+    """The segment in which most pairs are near the wanted ratio."""
     density: float
+    """Pairs of sets for each unit of |error|, over all segments; an estimate."""
 
     @property
     def segments(self) -> tuple[tuple[int, int], ...]:

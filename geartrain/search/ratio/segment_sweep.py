@@ -148,18 +148,16 @@ _PILOT = Fraction(1, 100)  # |error| past which a first piece is not widened
 
 @dataclass(frozen=True, slots=True)
 class SweepOutcome:
-    """What a sweep over all pieces found within `tolerance`.
-
-    complete  every piece was searched
-    note      why fewer were found than there may be
-    """
+    """What a sweep over all pieces found within `tolerance`."""
 
     tolerance: Fraction
     count: int = 0
     removed: Mapping[str, int] = field(default_factory=dict)
     keys: Sequence[StageRank] = ()
     complete: bool = True
+    """Every piece was searched."""
     note: str = ""
+    """Why fewer were found than there may be."""
 
     @property
     def inside(self) -> int:

@@ -38,23 +38,6 @@ _TABLE = 1024  # up to here, a table tells which counts are coprime
 class StageConstraints(Result):
     """Conditions on the counts of a train of stages, and on how they can be paired; all in one and the same pairing.
 
-    Attributes
-    ----------
-    hunting : bool
-        The two counts of every stage have no common divisor, so that every tooth meets every tooth of its mate.
-    reverted : bool
-        All stages have one centre distance in one module: equal sums of their counts, or differences for a stage with
-        a ring.
-    different : bool
-        No count is there twice.
-    internal : int
-        How many of the meshes are with a ring, 0 to the number of stages. Such a mesh keeps the sense, the others
-        reverse it; its ring has more teeth than its pinion.
-    least_total, most_total : int, optional
-        Least and greatest sum of all counts.
-    largest : int, optional
-        Greatest count.
-
     Examples
     --------
     >>> StageConstraints(reverted=True, internal=1).sense(stages=2)
@@ -62,12 +45,21 @@ class StageConstraints(Result):
     """
 
     hunting: bool = False
+    """The two counts of every stage have no common divisor, so that every tooth meets every tooth of its mate."""
     reverted: bool = False
+    """All stages have one centre distance in one module: equal sums of their counts, or differences for a stage with
+    a ring."""
     different: bool = False
+    """No count is there twice."""
     internal: int = 0
+    """How many of the meshes are with a ring, 0 to the number of stages. Such a mesh keeps the sense, the others
+    reverse it; its ring has more teeth than its pinion."""
     least_total: int | None = None
+    """Least and greatest sum of all counts."""
     most_total: int | None = None
+    """Least and greatest sum of all counts."""
     largest: int | None = None
+    """Greatest count."""
 
     def sense(self, stages: int) -> int:
         """1 if output and input turn the same way, -1 if not.
@@ -124,26 +116,24 @@ class StageConstraints(Result):
 
 @dataclass(frozen=True)
 class StageProblem:
-    """Products of `stages` counts on top over as many beneath, within a tolerance of a value.
-
-    value      the wanted ratio, positive
-    stages     1 to 5
-    top        admissible counts on top, ascending
-    beneath    admissible counts beneath, ascending
-    fit        conditions on the counts; `largest` is already applied to `top` and `beneath`
-    by         order of the solutions
-    best       how many are kept
-    tolerance  greatest |error|, as a fraction of the value
-    """
+    """Products of `stages` counts on top over as many beneath, within a tolerance of a value."""
 
     value: Fraction
+    """The wanted ratio, positive."""
     stages: int
+    """1 to 5."""
     top: Set
+    """Admissible counts on top, ascending."""
     beneath: Set
+    """Admissible counts beneath, ascending."""
     fit: StageConstraints
+    """Conditions on the counts; `largest` is already applied to `top` and `beneath`."""
     by: str
+    """Order of the solutions."""
     best: int
+    """How many are kept."""
     tolerance: Fraction
+    """Greatest |error|, as a fraction of the value."""
 
     @property
     def plain_integers(self) -> bool:
@@ -240,16 +230,14 @@ def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
 
 @dataclass(frozen=True, slots=True)
 class FeasiblePairings:
-    """What the pairings that satisfy a fit have at best, for many pairs of sets at once.
-
-    possible  some pairing satisfies the fit, (n,)
-    coprime   most stages with coprime counts among these pairings, (n,); 0 where there are none
-    centres   fewest different centre distances among these pairings, (n,); large where there are none
-    """
+    """What the pairings that satisfy a fit have at best, for many pairs of sets at once."""
 
     possible: Bools
+    """Some pairing satisfies the fit, (n,)."""
     coprime: Ints
+    """Most stages with coprime counts among these pairings, (n,); 0 where there are none."""
     centres: Ints
+    """Fewest different centre distances among these pairings, (n,); large where there are none."""
 
     def taken(self, at: Ints) -> FeasiblePairings:
         """Some of them."""
@@ -414,20 +402,20 @@ def check_order(by: str) -> None:
 
 @dataclass(frozen=True, slots=True)
 class RankedStages:
-    """Candidates as columns of equal length.
-
-    top, beneath  counts, ascending in each row, (n, k)
-    over, under   their products, (n,)
-    first         what the order asks for, least first, (n,)
-    error         |error|, near enough to prune by, (n,)
-    """
+    """Candidates as columns of equal length."""
 
     top: Ints
+    """Counts, ascending in each row, (n, k)."""
     beneath: Ints
+    """Counts, ascending in each row, (n, k)."""
     over: Ints
+    """Their products, (n,)."""
     under: Ints
+    """Their products, (n,)."""
     first: Ints
+    """What the order asks for, least first, (n,)."""
     error: Floats
+    """|error|, near enough to prune by, (n,)."""
 
     def __len__(self) -> int:
         return len(self.first)

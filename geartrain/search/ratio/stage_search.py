@@ -40,32 +40,6 @@ _QUICK = 3 * 10**6  # products made to find out what one more stage would give
 class StageFindings(Result):
     """Solutions of one ratio by stages: pairs of unordered sets of counts. A sequence of its `solutions`.
 
-    Attributes
-    ----------
-    wanted : TargetRatio
-        The ratio.
-    stages : int
-        Number of stages.
-    top, beneath : sequence of int
-        Admissible counts on top and beneath, ascending.
-    fit : StageConstraints
-        Conditions on the counts.
-    by : str
-        The order of `solutions`.
-    tolerance : Fraction, optional
-        The greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list; None where the
-        best pairs of long ranges were found without any.
-    complete : bool
-        True if everything within the tolerance was looked at; False if the search was interrupted.
-    count : int, optional
-        Number of solutions within the tolerance, exact if `complete`; None without a tolerance.
-    solutions : tuple of GearStages
-        The best of them.
-    shortfall : Shortfall
-        Where the other pairs of sets went.
-    note : str
-        What was assumed, in words; empty if nothing.
-
     See Also
     --------
     find_stages : gives it.
@@ -89,17 +63,30 @@ class StageFindings(Result):
     )
 
     wanted: TargetRatio
+    """The ratio."""
     stages: int
+    """Number of stages."""
     top: Sequence[int]
+    """Admissible counts on top and beneath, ascending."""
     beneath: Sequence[int]
+    """Admissible counts on top and beneath, ascending."""
     fit: StageConstraints
+    """Conditions on the counts."""
     by: str
+    """The order of `solutions`."""
     tolerance: Fraction | None
+    """The greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list; None where
+    the best pairs of long ranges were found without any."""
     complete: bool
+    """True if everything within the tolerance was looked at; False if the search was interrupted."""
     count: int | None
+    """Number of solutions within the tolerance, exact if `complete`; None without a tolerance."""
     solutions: tuple[GearStages, ...]
+    """The best of them."""
     shortfall: Shortfall
+    """Where the other pairs of sets went."""
     note: str = ""
+    """What was assumed, in words; empty if nothing."""
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:

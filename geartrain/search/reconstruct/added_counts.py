@@ -366,16 +366,14 @@ _FEW = 2000
 
 
 class AddedKind(NamedTuple):
-    """Added wheels of which none is told from another by the speeds of dials.
-
-    dials    whose speed they change; none for a wheel that changes no speed
-    drives   whether they drive on the way to them
-    most     teeth that a ring allows, None for no limit but that of all
-    """
+    """Added wheels of which none is told from another by the speeds of dials."""
 
     dials: Dials
+    """Whose speed they change; none for a wheel that changes no speed."""
     drives: bool
+    """Whether they drive on the way to them."""
     most: int | None = None
+    """Teeth that a ring allows, None for no limit but that of all."""
 
 
 class OpenCounts(NamedTuple):

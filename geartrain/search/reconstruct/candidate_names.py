@@ -33,18 +33,16 @@ class NamedWheel:
 
 @dataclass(frozen=True)
 class NamedArbor:
-    """An arbor of a candidate and all that it drives.
-
-    driven   the wheel that is driven; None for the input arbor
-    dials    names of the dials that it shows, sorted
-    drives   every arbor that it drives, with the wheel that drives it
-    """
+    """An arbor of a candidate and all that it drives."""
 
     name: str
     added: bool
     driven: NamedWheel | None
+    """The wheel that is driven; None for the input arbor."""
     dials: tuple[str, ...]
+    """Names of the dials that it shows, sorted."""
     drives: tuple[tuple[NamedWheel, NamedArbor], ...]
+    """Every arbor that it drives, with the wheel that drives it."""
 
     def arbors(self) -> Iterator[NamedArbor]:
         """This one and all below it, each before those that it drives."""
@@ -93,13 +91,12 @@ def numbered(stem: str, taken: Container[str]) -> str:
 
 @dataclass
 class FreeNames:
-    """Names for what is added, none twice.
-
-    links, wheels   names that are taken
-    """
+    """Names for what is added, none twice."""
 
     links: set[str]
+    """Names that are taken."""
     wheels: set[str]
+    """Names that are taken."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
         """The name of the next added arbor, which shows some dials."""
@@ -191,18 +188,16 @@ class TopologyArbor(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class NamedChain:
-    """Arbors in a row, and where they end.
-
-    chain      without names
-    through   surviving arbors
-    added     by place among the added ones, the arbor as one with two wheels and as an idler
-    end                 an arbor with its wheels and what each drives, or what hangs from the last driving wheel
-    """
+    """Arbors in a row, and where they end."""
 
     chain: Chain
+    """Without names."""
     through: tuple[TopologyArbor, ...]
+    """Surviving arbors."""
     added: tuple[tuple[TopologyArbor, TopologyArbor], ...]
+    """By place among the added ones, the arbor as one with two wheels and as an idler."""
     end: NamedBranching | tuple[NamedChain, ...]
+    """An arbor with its wheels and what each drives, or what hangs from the last driving wheel."""
 
     @cached_property
     def surviving_wheels(self) -> frozenset[str]:
@@ -218,16 +213,14 @@ class NamedChain:
 
 @dataclass(frozen=True, eq=False)
 class NamedBranching:
-    """An arbor at which paths end or part.
-
-    arbor     with the wheel that is driven
-    here      dials that it shows
-    hanging   wheels, each with what it drives
-    """
+    """An arbor at which paths end or part."""
 
     arbor: TopologyArbor
+    """With the wheel that is driven."""
     here: Dials
+    """Dials that it shows."""
     hanging: tuple[tuple[TopologyWheel, tuple[NamedChain, ...]], ...]
+    """Wheels, each with what it drives."""
 
     def wheels(self) -> Iterator[TopologyWheel]:
         """Its wheels that mesh, each once."""

@@ -59,29 +59,20 @@ distance  wheels in mesh reach from axis to axis
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """A rule that a candidate breaks.
-
-    Attributes
-    ----------
-    rule : str
-        What the rule is about.
-    subject : tuple of str
-        Names of the dial, wheels or arbors; none where it is about what is added.
-    what : str
-        What the candidate has.
-    change : str or None
-        What would have to be otherwise in the evidence to take it; None where nothing single would.
-    values : tuple of Fraction
-        The speed or the count that it has, or bounds that would hold what is added.
-    """
+    """A rule that a candidate breaks."""
 
     KEYS = ("rule", "subject", "what", "change")
 
     rule: Rule
+    """What the rule is about."""
     subject: tuple[str, ...]
+    """Names of the dial, wheels or arbors; none where it is about what is added."""
     what: str
+    """What the candidate has."""
     change: str | None
+    """What would have to be otherwise in the evidence to take it; None where nothing single would."""
     values: tuple[Fraction, ...] = ()
+    """The speed or the count that it has, or bounds that would hold what is added."""
 
 
 def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[BrokenRule, ...]:
@@ -333,18 +324,16 @@ def _read(wheel: SurvivingWheel, broken: BrokenRule) -> SurvivingWheel:
 
 @dataclass(frozen=True)
 class KnownTrain:
-    """A train as a candidate.
-
-    name   of the train
-    arbor  from its input on; its dials are those of the question that its meshes lead to, at whatever speed
-    added  wheels that are added, by their names in the train, with their counts
-    notes  what of the train plays no part, or is otherwise than a candidate can be
-    """
+    """A train as a candidate."""
 
     name: str
+    """Of the train."""
     arbor: Arbor
+    """From its input on; its dials are those of the question that its meshes lead to, at whatever speed."""
     added: Mapping[str, int]
+    """Wheels that are added, by their names in the train, with their counts."""
     notes: tuple[str, ...]
+    """What of the train plays no part, or is otherwise than a candidate can be."""
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:

@@ -36,26 +36,18 @@ class ChangedQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """How many trains explain what one thing otherwise would leave.
-
-    Attributes
-    ----------
-    change : str
-        What is otherwise.
-    mechanisms : tuple of int
-        Trains with just 0, 1, 2, ... added wheels.
-    complete : bool
-        Whether all were looked at.
-    refused : str or None
-        Why it could not be asked.
-    """
+    """How many trains explain what one thing otherwise would leave."""
 
     KEYS = ("change", "mechanisms", "complete", "refused")
 
     change: str
+    """What is otherwise."""
     mechanisms: tuple[int, ...]
+    """Trains with just 0, 1, 2, ... added wheels."""
     complete: bool = True
+    """Whether all were looked at."""
     refused: str | None = None
+    """Why it could not be asked."""
 
     @property
     def total(self) -> int:
@@ -183,43 +175,28 @@ MISREAD = 3
 
 @dataclass(frozen=True, slots=True)
 class LoneDial(Result):
-    """A dial that is explained alone, by any of the surviving arbors.
-
-    Attributes
-    ----------
-    dial : str
-        Its name.
-    fewest : int or None
-        The fewest added wheels that explain it; None if none up to the most that may be added.
-    refused : str or None
-        Why it could not be asked.
-    """
+    """A dial that is explained alone, by any of the surviving arbors."""
 
     dial: str
+    """Its name."""
     fewest: int | None
+    """The fewest added wheels that explain it; None if none up to the most that may be added."""
     refused: str | None = None
+    """Why it could not be asked."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Why there is no explanation.
-
-    Attributes
-    ----------
-    dials : tuple of LoneDial
-        Each dial alone.
-    doubts : tuple of ChangedCount
-        Single things that would leave an explanation if they were otherwise, the cheapest first.
-    asked : int
-        How many were tried.
-    refused : tuple of str
-        Those that could not be asked.
-    """
+    """Why there is no explanation."""
 
     dials: tuple[LoneDial, ...]
+    """Each dial alone."""
     doubts: tuple[ChangedCount, ...]
+    """Single things that would leave an explanation if they were otherwise, the cheapest first."""
     asked: int
+    """How many were tried."""
     refused: tuple[str, ...]
+    """Those that could not be asked."""
 
 
 def explain_missing(

@@ -173,26 +173,19 @@ _MOST_COUNTS = 10_000
 class EvidenceQuestion:
     """The question that evidence asks.
 
-    Attributes
-    ----------
-    problem : ReconstructionProblem
-        The typed question.
-    base : BaseLink
-        What bears the arbors; speeds of the problem are seen from it.
-    joined : mapping of str to tuple of str
-        Links that given couplings join, by the arbor that stands for them.
-    unused : tuple of str
-        What is declared and plays no part in the answer, a line each.
-
     See Also
     --------
     evidence_question : makes it.
     """
 
     problem: ReconstructionProblem
+    """The typed question."""
     base: BaseLink
+    """What bears the arbors; speeds of the problem are seen from it."""
     joined: Joined
+    """Links that given couplings join, by the arbor that stands for them."""
     unused: tuple[str, ...]
+    """What is declared and plays no part in the answer, a line each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:

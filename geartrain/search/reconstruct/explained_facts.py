@@ -57,51 +57,37 @@ class Fact(NamedTuple):
     """A question with one answer in each candidate."""
 
     kind: FactKind
+    """What is asked."""
     subject: str
+    """Of which wheel, arbor or output."""
 
 
 @dataclass(frozen=True, slots=True)
 class FactAnswer(Result):
-    """One answer to a fact.
-
-    Attributes
-    ----------
-    answer : str
-        A name, a count, `yes` or `no`.
-    weight : float
-        Share of the weight of the candidates that give it.
-    mechanisms : int
-        How many candidates give it.
-    """
+    """One answer to a fact."""
 
     KEYS = ("answer", Key("weight", "share", float), "mechanisms")
 
     answer: str
+    """A name, a count, `yes` or `no`."""
     share: Fraction
+    """Share of the weight of the candidates that give it."""
     mechanisms: int
+    """How many candidates give it."""
 
 
 @dataclass(frozen=True, slots=True)
 class FactMarginal(Result):
-    """What the candidates say of one fact.
-
-    Attributes
-    ----------
-    kind : str
-        What the fact is about.
-    subject : str
-        Wheels, an arbor, a dial or a count.
-    bits : float
-        What an answer is expected to tell [bit].
-    answers : tuple of FactAnswer
-        The one of the greatest weight first.
-    """
+    """What the candidates say of one fact."""
 
     KEYS = ("kind", "subject", "bits", "answers")
 
     kind: FactKind
+    """What the fact is about."""
     subject: str
+    """Wheels, an arbor, a dial or a count."""
     answers: tuple[FactAnswer, ...]
+    """The one of the greatest weight first."""
 
     @property
     def bits(self) -> float:
@@ -120,20 +106,14 @@ class FactMarginal(Result):
 
 @dataclass(frozen=True, slots=True)
 class NextFact(Result):
-    """A fact to look for.
-
-    Attributes
-    ----------
-    fact : FactMarginal
-        What each answer would leave.
-    same : tuple of Fact
-        Others that divide the candidates in the same way.
-    """
+    """A fact to look for."""
 
     KEYS = (Key("", "fact"), "same")
 
     fact: FactMarginal
+    """What each answer would leave."""
     same: tuple[Fact, ...]
+    """Others that divide the candidates in the same way."""
 
 
 @dataclass(frozen=True)
@@ -362,50 +342,34 @@ def _of_mesh(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
 
 @dataclass(frozen=True, slots=True)
 class FamilyTrain(Result):
-    """A candidate at the end of a branch.
-
-    Attributes
-    ----------
-    rank : int
-        From 1 on.
-    weight : float
-        Share of the weight of all in the tree.
-    counts : dict of str to int
-        Of added wheels, then of surviving ones in whose count the candidates differ.
-    """
+    """A candidate at the end of a branch."""
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
 
     rank: int
+    """From 1 on."""
     share: Fraction
+    """Share of the weight of all candidates in the tree."""
     counts: dict[str, int]
+    """Of added wheels, then of surviving ones in whose count the candidates differ."""
 
 
 @dataclass(frozen=True, slots=True)
 class FamilyBranch(Result):
-    """A stretch of meshes that a family of candidates has in common.
-
-    Attributes
-    ----------
-    parent : int or None
-        Place in the tree of the branch from which it goes on; None for the stem.
-    meshes : tuple of str
-        The driving wheel first; in brackets the pointers of the arbor that is driven.
-    weight : float
-        Share of the weight of all in the tree.
-    mechanisms : int
-        How many candidates it holds.
-    trains : tuple of FamilyTrain
-        Candidates that end here, the best first.
-    """
+    """A stretch of meshes that a family of candidates has in common."""
 
     KEYS = ("parent", "meshes", Key("weight", "share", float), "mechanisms", "trains")
 
     parent: int | None
+    """Place in the tree of the branch from which it goes on; None for the stem."""
     meshes: tuple[str, ...]
+    """The driving wheel first; in brackets the pointers of the arbor that is driven."""
     share: Fraction
+    """Share of the weight of all candidates in the tree."""
     mechanisms: int
+    """How many candidates it holds."""
     trains: tuple[FamilyTrain, ...]
+    """Candidates that end here, the best first."""
 
 
 def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tuple[FamilyBranch, ...]:
@@ -482,36 +446,24 @@ def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
 
 @dataclass(frozen=True, slots=True)
 class CandidateFindings(Result):
-    """What is told beyond counts.
-
-    Attributes
-    ----------
-    listed : int
-        How many candidates the family tree holds.
-    share : float
-        Their share of the weight of all explanations, as far as that is known.
-    of_all : bool
-        Whether facts are told of all trains, and not of those in the family tree alone.
-    marginals : tuple of FactMarginal
-        What the trains say of every fact.
-    next_facts : tuple of NextFact
-        What to look for, the most telling first.
-    family : tuple of FamilyBranch
-        The family tree of candidates; shares are of their weight.
-    assumptions : tuple of ChangedCount
-        The counts without each hard fact, where that was asked.
-    missing : MissingExplanation or None
-        Why there is none.
-    """
+    """What is told beyond counts."""
 
     listed: int = 0
+    """How many candidates the family tree holds."""
     share: float = 0.0
+    """Their share of the weight of all explanations, as far as that is known."""
     of_all: bool = False
+    """Whether facts are told of all trains, and not of those in the family tree alone."""
     marginals: tuple[FactMarginal, ...] = ()
+    """What the trains say of every fact."""
     next_facts: tuple[NextFact, ...] = ()
+    """What to look for, the most telling first."""
     family: tuple[FamilyBranch, ...] = ()
+    """The family tree of candidates; shares are of their weight."""
     assumptions: tuple[ChangedCount, ...] = ()
+    """The counts without each hard fact, where that was asked."""
     missing: MissingExplanation | None = None
+    """Why there is none."""
 
 
 NO_FINDINGS = CandidateFindings()

@@ -52,41 +52,27 @@ _MOST_TRAINS = 2000
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """A fact that holds in a train and not in all.
-
-    Attributes
-    ----------
-    kind : str
-        What it is about: of the kinds of `Fact` those that are looked for, or `GREATEST` or `LEAST`.
-    subject : str
-        Of what it is; nothing for `GREATEST` and `LEAST`.
-    answer : str
-        What the train says.
-    mechanisms : int
-        How many trains say so, itself among them.
-    """
+    """A fact that holds in a train and not in all."""
 
     kind: str
+    """What it is about: of the kinds of `Fact` those that are looked for, or `GREATEST` or `LEAST`."""
     subject: str
+    """Of what it is; nothing for `GREATEST` and `LEAST`."""
     answer: str
+    """What the train says."""
     mechanisms: int
+    """How many trains say so, itself among them."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFacts(Result):
-    """What singles a train out.
-
-    Attributes
-    ----------
-    facts : tuple of TellingFact
-        All of them, those that leave the fewest trains first.
-    sets : tuple of tuple of TellingFact
-        The smallest sets that leave the train alone, all of one size; of facts that leave the same trains the first
-        stands for all. None if no three do.
-    """
+    """What singles a train out."""
 
     facts: tuple[TellingFact, ...]
+    """All of them, those that leave the fewest trains first."""
     sets: tuple[tuple[TellingFact, ...], ...]
+    """The smallest sets that leave the train alone, all of one size; of facts that leave the same trains the first
+    stands for all. None if no three do."""
 
 
 def find_telling_facts(
@@ -172,113 +158,79 @@ def _smallest(first: Mapping[frozenset[int], TellingFact], which: int) -> Iterab
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace(Result):
-    """Where an explanation stands among all.
-
-    Attributes
-    ----------
-    ranks : tuple of int
-        First and last rank by weight that it may have, for some weigh the same.
-    trains : int
-        How many explanations there are.
-    ranks_alike : tuple of int
-        The same among those with as many added wheels.
-    trains_alike : int
-        How many these are.
-    weight : float
-        Its share of the weight of all.
-    dearer : Fraction
-        By what factor the best weighs more; 1 for the best.
-    """
+    """Where an explanation stands among all."""
 
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
     ranks: tuple[int, int]
+    """First and last rank by weight that it may have, for some weigh the same."""
     trains: int
+    """How many explanations there are."""
     ranks_alike: tuple[int, int]
+    """The same among those with as many added wheels."""
     trains_alike: int
+    """How many these are."""
     weight: float
+    """Its share of the weight of all."""
     dearer: Fraction
+    """By what factor the best weighs more; 1 for the best."""
 
 
 @dataclass(frozen=True, slots=True)
 class AdmittingQuestion(Result):
-    """A changed question that a train explains.
-
-    Attributes
-    ----------
-    changes : tuple of str
-        What is otherwise in it.
-    wheels : dict of str to int
-        Wheels that the train adds in it, with their counts.
-    arbors : int
-        Arbors that it adds.
-    asked : int
-        Up to how many added wheels it was asked: as many as the train adds, if so many may be.
-    mechanisms : tuple of int
-        Trains with just 0, 1, 2, ... added wheels that explain it.
-    place : TrainPlace or None
-        Where the train stands; None where it adds more wheels than were asked.
-    refused : str or None
-        Why it could not be asked, or was not.
-    """
+    """A changed question that a train explains."""
 
     changes: tuple[str, ...]
+    """What is otherwise in it."""
     wheels: dict[str, int]
+    """Wheels that the train adds in it, with their counts."""
     arbors: int
+    """Arbors that it adds."""
     asked: int
+    """Up to how many added wheels it was asked: as many as the train adds, if so many may be."""
     mechanisms: tuple[int, ...]
+    """Trains with just 0, 1, 2, ... added wheels that explain it."""
     place: TrainPlace | None
+    """Where the train stands; None where it adds more wheels than were asked."""
     refused: str | None = None
+    """Why it could not be asked, or was not."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnownRank(Result):
-    """What a known train costs in a question.
-
-    Attributes
-    ----------
-    train : str
-        Its name.
-    wheels : dict of str to int
-        Wheels that it adds, by their names in it, with their counts.
-    arbors : int
-        Arbors that it adds.
-    broken : tuple of BrokenRule
-        The rules that it breaks; none where it is an explanation.
-    notes : tuple of str
-        What of the train plays no part.
-    place : TrainPlace or None
-        Where it stands; None where it breaks rules, or adds more wheels than may be added.
-    telling : TellingFacts or None
-        What singles it out, where all explanations are listed.
-    admitted : tuple of AdmittingQuestion
-        What it costs in questions without these rules: with its dials as it has them, and without those whose speed is
-        not the given one.
-    """
+    """What a known train costs in a question."""
 
     train: str
+    """Its name."""
     wheels: dict[str, int]
+    """Wheels that it adds, by their names in it, with their counts."""
     arbors: int
+    """Arbors that it adds."""
     broken: tuple[BrokenRule, ...]
+    """The rules that it breaks; none where it is an explanation."""
     notes: tuple[str, ...] = ()
+    """What of the train plays no part."""
     place: TrainPlace | None = None
+    """Where it stands; None where it breaks rules, or adds more wheels than may be added."""
     admitted: tuple[AdmittingQuestion, ...] = ()
+    """What it costs in questions without these rules: with its dials as it has them, and without those whose speed
+    is not the given one."""
     telling: TellingFacts | None = None
+    """What singles it out, where all explanations are listed."""
 
 
 @dataclass(frozen=True)
 class RankedQuestion:
-    """A question among whose explanations trains are ranked.
-
-    evidence, problem   what is known, and what it asks; arbors turn in the frame
-    found               all that explains it
-    search              what finds all that explains a changed question, with which a train is ranked that breaks rules
-    """
+    """A question among whose explanations trains are ranked."""
 
     evidence: Train
+    """What is known, and what it asks; arbors turn in the frame."""
     problem: ReconstructionProblem
+    """What is known, and what it asks; arbors turn in the frame."""
     found: Reconstructions
+    """All that explains it."""
     search: Search
+    """What finds all that explains a changed question, with which a train is ranked that breaks rules."""
 
 
 def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:

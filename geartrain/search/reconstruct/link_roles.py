@@ -22,18 +22,16 @@ _ONLY = "seen from its carrier a train begins at one link, which is the frame un
 
 @dataclass(frozen=True)
 class BaseLink:
-    """What bears the arbors of a train, and what drives the first of them.
-
-    name     the frame, or a carrier
-    speed    of that link in the frame
-    source   the link at which the train begins
-    driven   speed of that link, as seen from the base
-    """
+    """What bears the arbors of a train, and what drives the first of them."""
 
     name: str
+    """The frame, or a carrier."""
     speed: Fraction
+    """Of that link in the frame."""
     source: str
+    """The link at which the train begins."""
     driven: Fraction
+    """Speed of that link, as seen from the base."""
 
     @property
     def is_carrier(self) -> bool:

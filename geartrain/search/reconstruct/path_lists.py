@@ -129,25 +129,26 @@ def _is(wheel: PlacedWheel | None, name: str) -> bool:
 
 @dataclass(frozen=True)
 class PathGrowth:
-    """Paths through some of the arbors, a row each.
-
-    codes             by arbor, which way through it is taken, from 1 on; 0 where none is
-    keys, powers      of what is left to be added: its key, and the powers of large primes in it
-    drivers, driven   added wheels beside surviving ones that drive, and that are driven
-    added, idle       added wheels, idlers counted too, and surviving wheels that are passed by
-    need              added wheels that must have a large prime which no later arbor has
-    ended             whether the path ends at one of the arbors
-    """
+    """Paths through some of the arbors, a row each."""
 
     codes: NDArray[np.uint16]
+    """By arbor, which way through it is taken, from 1 on; 0 where none is."""
     keys: NDArray[np.uint64]
+    """Of what is left to be added: its key, and the powers of large primes in it."""
     powers: NDArray[np.int8]
+    """Of what is left to be added: its key, and the powers of large primes in it."""
     drivers: NDArray[np.int8]
+    """Added wheels beside surviving ones that drive, and that are driven."""
     driven: NDArray[np.int8]
+    """Added wheels beside surviving ones that drive, and that are driven."""
     added: NDArray[np.int8]
+    """Added wheels, idlers counted too, and surviving wheels that are passed by."""
     idle: NDArray[np.int8]
+    """Added wheels, idlers counted too, and surviving wheels that are passed by."""
     need: NDArray[np.int8]
+    """Added wheels that must have a large prime which no later arbor has."""
     ended: NDArray[np.bool_]
+    """Whether the path ends at one of the arbors."""
 
     @staticmethod
     def start(arbors: int, key: int, powers: NDArray[np.int8]) -> PathGrowth:

@@ -90,21 +90,20 @@ _ENDLESS = 1 << 20
 
 
 class DialPath(NamedTuple):
-    """A dial's path, and what of it is still below.
-
-    arbors               surviving ones, a bit each
-    passes               by surviving arbor that it has, the input first, the way through it
-    compounds, idlers    added arbors before the last
-    wheels               added wheels
-    ends_new             whether its last arbor is added
-    """
+    """A dial's path, and what of it is still below."""
 
     arbors: int
+    """Surviving ones, a bit each."""
     passes: Mapping[int, ArborPass]
+    """By surviving arbor that it has, the input first, the way through it."""
     compounds: int
+    """Added arbors before the last."""
     idlers: int
+    """Added arbors before the last."""
     wheels: int
+    """Added wheels."""
     ends_new: bool
+    """Whether its last arbor is added."""
 
     @property
     def is_at_end(self) -> bool:

@@ -45,54 +45,39 @@ _LOOKED_AT = 2000
 class ReconstructionRequest:
     """What is requested of a reconstruction.
 
-    Attributes
-    ----------
-    evidence : Train
-        A declaration with `reconstruct`; with `lost` a complete train.
-    lost : tuple of str
-        Arbors of the train that are taken as lost.
-    source : str, optional
-        With `lost`: the link at which the part of the train begins; default the first part that has the arbors.
-    seen : bool
-        With `lost`: whether the meshes of surviving wheels are known, and no more arbors are added than are lost.
-    wheels : int, optional
-        How many wheels may be added; default what the evidence says.
-    idlers : bool
-        Whether a driven wheel may drive.
-    best : int, optional
-        How many trains are listed; None for all of them.
-    counts_only : bool
-        Whether trains are counted only, and none is listed.
-    per : {"mechanism", "class"}
-        What has a weight of its own: every train, or every class of equal ratios.
-    sample, seed : int
-        How many trains are drawn at random, by their weight, and the random seed.
-    assumptions : bool
-        Whether each hard fact is dropped in turn, and the trains are counted again.
-    known : tuple of Train
-        Trains that are ranked among the explanations.
-    same : mapping of str to str
-        Wheels and outputs of these trains, with their names in the evidence.
-
     See Also
     --------
     reconstruct : answers it.
     """
 
     evidence: Train
+    """A declaration with `reconstruct`; with `lost` a complete train."""
     lost: tuple[str, ...] = ()
+    """Arbors of the train that are taken as lost."""
     source: str | None = None
+    """With `lost`: the link at which the part of the train begins; default the first part that has the arbors."""
     seen: bool = False
+    """With `lost`: whether the meshes of surviving wheels are known, and no more arbors are added than are lost."""
     wheels: int | None = None
+    """How many wheels may be added; default what the evidence says."""
     idlers: bool = False
+    """Whether a driven wheel may drive."""
     best: int | None = 20
+    """How many trains are listed; None for all of them."""
     counts_only: bool = False
+    """Whether trains are counted only, and none is listed."""
     per: Literal["mechanism", "class"] = "mechanism"
+    """What has a weight of its own: every train, or every class of equal ratios."""
     sample: int = 0
+    """How many trains are drawn at random, by their weight, and the random seed."""
     seed: int = 1
+    """How many trains are drawn at random, by their weight, and the random seed."""
     assumptions: bool = False
+    """Whether each hard fact is dropped in turn, and the trains are counted again."""
     known: tuple[Train, ...] = ()
+    """Trains that are ranked among the explanations."""
     same: Mapping[str, str] = field(default_factory=dict)
+    """Wheels and outputs of these trains, with their names in the evidence."""
 
 
 class ReconstructionRun:
@@ -129,23 +114,6 @@ class ReconstructionRun:
 class RankedTrain(Result):
     """One of the best explanations.
 
-    Attributes
-    ----------
-    rank : int
-        Place among those that are listed, from 1 on.
-    ranks : tuple of int
-        First and last rank by weight that it may have, for some weigh the same.
-    added : int
-        Added wheels.
-    weight : float
-        Share of the weight of all explanations.
-    wheels : dict of str to int
-        Added wheels with their counts.
-    doubtful : dict of str to int
-        Surviving wheels that have a range of counts, with the one that they have here.
-    meshes : tuple of str
-        Every mesh, the driving wheel first.
-
     See Also
     --------
     reconstruct : lists the best.
@@ -154,50 +122,24 @@ class RankedTrain(Result):
     KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
 
     rank: int
+    """Place among those that are listed, from 1 on."""
     ranks: tuple[int, int]
+    """First and last rank by weight that it may have, for some weigh the same."""
     added: int
+    """Added wheels."""
     weight: float
+    """Share of the weight of all explanations."""
     wheels: dict[str, int]
+    """Added wheels with their counts."""
     doubtful: dict[str, int]
+    """Surviving wheels that have a range of counts, with the one that they have here."""
     meshes: tuple[str, ...]
+    """Every mesh, the driving wheel first."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReconstructionAnswer(Result):
     """The answer to a request.
-
-    Attributes
-    ----------
-    name : str
-        Of the evidence.
-    counts : tuple of ExplanationCount
-        Explanations by number of added wheels.
-    complete : bool
-        Whether all were looked at.
-    unused : tuple of str
-        What is declared and plays no part.
-    best : tuple of RankedTrain
-        The best, as many as were requested.
-    drawn : tuple of RankedTrain
-        Trains drawn at random, as many as were requested; `rank` counts them.
-    original : tuple of int, optional
-        First and last rank by weight of the train of which arbors were left out, for some may weigh the same.
-    known : tuple of KnownRank
-        What given trains cost in the question.
-    findings : CandidateFindings
-        What is found beyond counts.
-    base : BaseLink, optional
-        What bears the arbors, where that is a carrier.
-    joined : dict of str to tuple of str
-        Links that given couplings join, by the arbor that stands for them.
-    expected : ExpectedCost, optional
-        What the search was expected to cost before it began.
-    evidence : Train, optional
-        The evidence that was asked of; with lost arbors what is left of the train.
-    problem : ReconstructionProblem
-        The typed question.
-    candidates : tuple of Candidate
-        Those of `best`.
 
     See Also
     --------
@@ -219,20 +161,35 @@ class ReconstructionAnswer(Result):
     )
 
     name: str
+    """Of the evidence."""
     problem: ReconstructionProblem
+    """The typed question."""
     counts: tuple[ExplanationCount, ...]
+    """Explanations by number of added wheels."""
     complete: bool
+    """Whether all were looked at."""
     unused: tuple[str, ...]
+    """What is declared and plays no part."""
     best: tuple[RankedTrain, ...]
+    """The best, as many as were requested."""
     original: tuple[int, int] | None = None
+    """First and last rank by weight of the train of which arbors were left out, for some may weigh the same."""
     findings: CandidateFindings = NO_FINDINGS
+    """What is found beyond counts."""
     base: BaseLink | None = None
+    """What bears the arbors, where that is a carrier."""
     joined: Joined = field(default_factory=dict)
+    """Links that given couplings join, by the arbor that stands for them."""
     expected: ExpectedCost | None = None
+    """What the search was expected to cost before it began."""
     drawn: tuple[RankedTrain, ...] = ()
+    """Trains drawn at random, as many as were requested; `rank` counts them."""
     known: tuple[KnownRank, ...] = ()
+    """What given trains cost in the question."""
     evidence: Train | None = None
+    """The evidence that was asked of; with lost arbors what is left of the train."""
     candidates: tuple[Candidate, ...] = ()
+    """Those of `best`."""
 
     @property
     def asked(self) -> AskedQuestion:

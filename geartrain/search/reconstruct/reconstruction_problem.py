@@ -37,14 +37,12 @@ _MOST_DOUBTS = 3
 
 @dataclass(frozen=True)
 class MeasuredWheel:
-    """A wheel whose module was measured, or its pitch radius.
-
-    length   that length
-    """
+    """A wheel whose module was measured, or its pitch radius."""
 
     name: str
     is_module: bool
     length: Fraction
+    """That length."""
 
 
 @dataclass(frozen=True)
@@ -57,20 +55,18 @@ class PlacedArbor:
 
 @dataclass(frozen=True)
 class SurvivingGeometry:
-    """What was measured, and how it is weighed.
-
-    module     spread of the logarithm of the quotient of two modules in mesh
-    distance   spread of the logarithm of the sum of pitch radii over the distance of axes
-    reach      greatest difference of those two that is possible; None if any is
-    radius     error of every measured pitch radius; None if it is part of the spread of modules
-    """
+    """What was measured, and how it is weighed."""
 
     wheels: tuple[MeasuredWheel, ...] = ()
     arbors: tuple[PlacedArbor, ...] = ()
     module: Fraction = Fraction(43, 1000)
+    """Spread of the logarithm of the quotient of two modules in mesh."""
     distance: Fraction = Fraction(3, 100)
+    """Spread of the logarithm of the sum of pitch radii over the distance of axes."""
     reach: Fraction | None = None
+    """Greatest difference of those two that is possible; None if any is."""
     radius: Fraction | None = None
+    """Error of every measured pitch radius; None if it is part of the spread of modules."""
 
     @cached_property
     def places(self) -> Mapping[str | None, Place]:
@@ -142,23 +138,17 @@ NO_GEOMETRY = SurvivingGeometry()
 class SurvivingWheel:
     """A surviving wheel: its name and the counts that it may have, each with its prior weight.
 
-    Attributes
-    ----------
-    name : str
-        Of the wheel.
-    counts : tuple of (int, Fraction)
-        Teeth and weights, ascending, no count twice, weights positive; one pair where the count is sure.
-    internal : bool
-        Whether it is a ring: its teeth point inwards.
-
     See Also
     --------
     ReconstructionProblem : is made of them.
     """
 
     name: str
+    """Of the wheel."""
     counts: tuple[tuple[int, Fraction], ...]
+    """Teeth and weights, ascending, no count twice, weights positive; one pair where the count is sure."""
     internal: bool = False
+    """Whether it is a ring: its teeth point inwards."""
 
     @property
     def is_sure(self) -> bool:
@@ -170,47 +160,36 @@ class SurvivingWheel:
 class SurvivingArbor:
     """A surviving arbor: wheels that are fixed together.
 
-    Attributes
-    ----------
-    name : str
-        Of the arbor.
-    wheels : tuple of SurvivingWheel
-        Those that are fixed on it.
-
     See Also
     --------
     ReconstructionProblem : is made of them.
     """
 
     name: str
+    """Of the arbor."""
     wheels: tuple[SurvivingWheel, ...]
+    """Those that are fixed on it."""
 
 
 @dataclass(frozen=True)
 class SearchedDial:
     """A pointer and the speed that it must have.
 
-    Attributes
-    ----------
-    name : str
-        Of the pointer.
-    least, greatest : Fraction
-        Bounds of its speed [turns per unit of the input], equal where it must be exact.
-    signed : bool
-        Whether the sense is known; if not, bounds are those of the magnitude.
-    place : str, optional
-        The surviving arbor that carries it, "new" where that does not survive, or None where it is not known.
-
     See Also
     --------
     ReconstructionProblem : is made of them.
     """
 
     name: str
+    """Of the pointer."""
     least: Fraction
+    """Bounds of its speed [turns per unit of the input], equal where it must be exact."""
     greatest: Fraction
+    """Bounds of its speed [turns per unit of the input], equal where it must be exact."""
     signed: bool = True
+    """Whether the sense is known; if not, bounds are those of the magnitude."""
     place: str | None = None
+    """The surviving arbor that carries it, "new" where that does not survive, or None where it is not known."""
 
     @property
     def is_exact(self) -> bool:
@@ -222,37 +201,26 @@ class SearchedDial:
 class Additions:
     """What may be added.
 
-    Attributes
-    ----------
-    wheels : int
-        The maximum number of added wheels.
-    least, greatest : int
-        Bounds of their tooth counts, inclusive.
-    arbors : int, optional
-        The maximum number of added arbors; default any number.
-    on : {"any", "new"}
-        "any": also beside surviving wheels, where they drive; "new": only on new arbors.
-
     See Also
     --------
     ReconstructionProblem : holds them.
     """
 
     wheels: int
+    """The maximum number of added wheels."""
     least: int
+    """Bounds of their tooth counts, inclusive."""
     greatest: int
+    """Bounds of their tooth counts, inclusive."""
     arbors: int | None = None
+    """The maximum number of added arbors; default any number."""
     on: Literal["any", "new"] = "any"
+    """"any": also beside surviving wheels, where they drive; "new": only on new arbors."""
 
 
 @dataclass(frozen=True)
 class PriorFactors:
     """By what factor a candidate is less probable for each added wheel, added arbor and unused surviving wheel.
-
-    Attributes
-    ----------
-    wheel, arbor, unused : Fraction
-        1 or more.
 
     See Also
     --------
@@ -260,40 +228,16 @@ class PriorFactors:
     """
 
     wheel: Fraction = Fraction(10)
+    """1 or more."""
     arbor: Fraction = Fraction(10)
+    """1 or more."""
     unused: Fraction = Fraction(100)
+    """1 or more."""
 
 
 @dataclass(frozen=True)
 class ReconstructionProblem:
     """The typed question of a reconstruction: surviving arbors, dials and the rules.
-
-    Attributes
-    ----------
-    input : SurvivingArbor
-        The arbor where a train begins.
-    arbors : tuple of SurvivingArbor
-        The other ones.
-    dials : tuple of SearchedDial
-        The pointers, each with its speed.
-    additions : Additions
-        What may be added.
-    input_speed : Fraction
-        Speed of the input arbor [turns per unit].
-    meshes : frozenset of frozenset of str
-        Pairs of names of wheels that were seen in mesh.
-    apart : frozenset of frozenset of str
-        Pairs of names of wheels that do not mesh.
-    coaxial : frozenset of frozenset of str
-        Pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included.
-    use : {"wheels", "arbors", "some"}
-        "wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither.
-    idlers : bool
-        Whether a driven wheel may drive.
-    factors : PriorFactors
-        What the prior is made of.
-    geometry : SurvivingGeometry
-        What was measured; pairs that it keeps apart are in `apart` and `coaxial` already.
 
     See Also
     --------
@@ -302,17 +246,29 @@ class ReconstructionProblem:
     """
 
     input: SurvivingArbor
+    """The arbor where a train begins."""
     arbors: tuple[SurvivingArbor, ...]
+    """The other ones."""
     dials: tuple[SearchedDial, ...]
+    """The pointers, each with its speed."""
     additions: Additions
+    """What may be added."""
     input_speed: Fraction = Fraction(1)
+    """Speed of the input arbor [turns per unit]."""
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
+    """Pairs of names of wheels that were seen in mesh."""
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
+    """Pairs of names of wheels that do not mesh."""
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
+    """Pairs of names of arbors on one axis: no wheel of one meshes with a wheel of the other, added ones included."""
     use: Literal["wheels", "arbors", "some"] = "wheels"
+    """"wheels": every surviving wheel meshes; "arbors": every surviving arbor is in the train; "some": neither."""
     idlers: bool = False
+    """Whether a driven wheel may drive."""
     factors: PriorFactors = PriorFactors()
+    """What the prior is made of."""
     geometry: SurvivingGeometry = NO_GEOMETRY
+    """What was measured; pairs that it keeps apart are in `apart` and `coaxial` already."""
 
     @cached_property
     def rings(self) -> frozenset[str]:
@@ -324,38 +280,20 @@ class ReconstructionProblem:
 class PlacedWheel:
     """A wheel of a candidate.
 
-    Attributes
-    ----------
-    name : str or None
-        Of the surviving wheel; None for an added one.
-    teeth : int
-        Its count.
-
     See Also
     --------
     Candidate : is made of them.
     """
 
     name: str | None
+    """Of the surviving wheel; None for an added one."""
     teeth: int
+    """Its count."""
 
 
 @dataclass(frozen=True)
 class Arbor:
     """An arbor of a candidate and all that it drives: the canonical form, in which equal mechanisms are equal.
-
-    Attributes
-    ----------
-    name : str or None
-        Of the surviving arbor; None for an added one.
-    driven : PlacedWheel or None
-        The wheel that is driven; None for the input arbor.
-    dials : tuple of str
-        Names of the dials that it shows, sorted.
-    drives : tuple of (PlacedWheel, tuple of Arbor)
-        Driving wheels with the arbors that each drives, sorted.
-    passes : tuple of Arbor
-        Where idlers are allowed: arbors that the driven wheel itself drives, sorted.
 
     See Also
     --------
@@ -364,10 +302,15 @@ class Arbor:
     """
 
     name: str | None
+    """Of the surviving arbor; None for an added one."""
     driven: PlacedWheel | None
+    """The wheel that is driven; None for the input arbor."""
     dials: tuple[str, ...]
+    """Names of the dials that it shows, sorted."""
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
+    """Driving wheels with the arbors that each drives, sorted."""
     passes: tuple[Arbor, ...] = ()
+    """Where idlers are allowed: arbors that the driven wheel itself drives, sorted."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
         """Every arbor that it drives, with the wheel that drives it."""
@@ -412,30 +355,20 @@ class Arbor:
 
 @dataclass(frozen=True, slots=True)
 class AskedQuestion(Result):
-    """What is asked.
-
-    Attributes
-    ----------
-    arbors : int
-        Surviving ones, the input included.
-    wheels : int
-        Surviving ones.
-    readings : int
-        Combinations of counts in doubt; 1 where all are sure.
-    dials : int
-        Pointers whose speed is known.
-    added : int
-        The most wheels that may be added.
-    teeth : tuple of int
-        The least and the greatest count that an added wheel may have.
-    """
+    """What is asked."""
 
     arbors: int
+    """Surviving ones, the input included."""
     wheels: int
+    """Surviving ones."""
     readings: int
+    """Combinations of counts in doubt; 1 where all are sure."""
     dials: int
+    """Pointers whose speed is known."""
     added: int
+    """The most wheels that may be added."""
     teeth: tuple[int, int]
+    """The least and the greatest count that an added wheel may have."""
 
     @classmethod
     def of(cls, problem: ReconstructionProblem) -> AskedQuestion:

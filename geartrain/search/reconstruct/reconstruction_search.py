@@ -41,42 +41,24 @@ _NONE: _Wheel = ("", 0)
 class ExplanationCount(Result):
     """How many explanations there are with just so many added wheels.
 
-    Attributes
-    ----------
-    added : int
-        Added wheels.
-    mechanisms : int
-        Trains, all different.
-    bags : int or None
-        Trains that differ by more than the order of arbors on the path of a dial; None where they are too many.
-    classes : int or None
-        Trains that differ by more than which wheel drives which on the path of a dial; None likewise.
-
     See Also
     --------
     find_reconstructions : gives it.
     """
 
     added: int
+    """Added wheels."""
     mechanisms: int
+    """Trains, all different."""
     bags: int | None
+    """Trains that differ by more than the order of arbors on the path of a dial; None where they are too many."""
     classes: int | None
+    """Trains that differ by more than which wheel drives which on the path of a dial; None likewise."""
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate(Result):
     """One explanation.
-
-    Attributes
-    ----------
-    arbor : Arbor
-        The train from its input on.
-    added : int
-        Added wheels.
-    weight : float
-        Its share of the weight of all explanations.
-    ranks : tuple of int
-        First and last rank by weight that it may have among all explanations, from 1 on; some may weigh the same.
 
     See Also
     --------
@@ -86,46 +68,30 @@ class Candidate(Result):
     KEYS = ("added", Key("weight", to=float), "ranks")
 
     arbor: Arbor
+    """The train from its input on."""
     added: int
+    """Added wheels."""
     weight: float
+    """Its share of the weight of all explanations."""
     ranks: tuple[int, int]
+    """First and last rank by weight that it may have among all explanations, from 1 on; some may weigh the same."""
 
 
 @dataclass(frozen=True, slots=True)
 class WeightClass(Result):
-    """Explanations of one weight.
-
-    Attributes
-    ----------
-    added : int
-        Added wheels of each.
-    weight : Fraction
-        What each weighs before its dials are looked at, up to a factor that all share.
-    mechanisms : int
-        How many they are.
-    """
+    """Explanations of one weight."""
 
     added: int
+    """Added wheels of each."""
     weight: Fraction
+    """What each weighs before its dials are looked at, up to a factor that all share."""
     mechanisms: int
+    """How many they are."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reconstructions(Result):
     """All explanations of a question, counted, and the best of them.
-
-    Attributes
-    ----------
-    counts : tuple of ExplanationCount
-        By number of added wheels, from 0 on.
-    complete : bool
-        Whether all were looked at.
-    candidates : tuple of Candidate
-        The best first.
-    topologies : tuple of CountedTopology
-        All structures with the numbers of their trains, where each train weighs as its structure; else none.
-    weights : tuple of WeightClass
-        All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself.
 
     See Also
     --------
@@ -135,10 +101,15 @@ class Reconstructions(Result):
     KEYS = ("counts", "complete", "candidates")
 
     counts: tuple[ExplanationCount, ...]
+    """By number of added wheels, from 0 on."""
     complete: bool
+    """Whether all were looked at."""
     candidates: tuple[Candidate, ...]
+    """The best first."""
     topologies: tuple[CountedTopology, ...] = ()
+    """All structures with the numbers of their trains, where each train weighs as its structure; else none."""
     weights: tuple[WeightClass, ...] = ()
+    """All trains by number of added wheels and weight, the greatest first; none where each is weighed by itself."""
 
 
 def find_reconstructions(

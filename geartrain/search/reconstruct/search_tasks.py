@@ -246,15 +246,13 @@ class TopologyTask(NamedTuple):
 
 
 class CountedPart(NamedTuple):
-    """What a part of the search found.
-
-    last        whether it is the last with so many added wheels
-    topologies   each with its trains
-    """
+    """What a part of the search found."""
 
     added: int
     last: bool
+    """Whether it is the last with so many added wheels."""
     topologies: list[CountedTopology]
+    """Each with its trains."""
 
 
 def topology_tasks(problem: ReconstructionProblem) -> list[TopologyTask]:
@@ -325,24 +323,17 @@ def rough(seconds: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ExpectedCost(Result):
-    """What the search will cost.
-
-    Attributes
-    ----------
-    paths : dict of str to int
-        By dial, how many paths from the input to it are possible, with as many added wheels as may be.
-    seconds : tuple of float
-        How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
-        three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top.
-    parts : int
-        One part in so many of the search was timed; 0 if none was.
-    """
+    """What the search will cost."""
 
     KEYS = ("paths", Key("seconds", "whole", to=rough))
 
     paths: dict[str, int]
+    """By dial, how many paths from the input to it are possible, with as many added wheels as may be."""
     seconds: tuple[float, ...]
+    """How long the search is expected to take in one process, by number of added wheels (s), good to a factor of
+    three or so. 0 up to two added wheels, where nothing is timed. What trains are listed and compared comes on top."""
     parts: int
+    """One part in so many of the search was timed; 0 if none was."""
 
     @property
     def whole(self) -> float:

@@ -118,23 +118,21 @@ def _value(figure: Figure) -> object:
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Arbors of a train from the one at which a part of it begins to its pointers.
-
-    base      what bears the arbors, and at what speed the first of them turns
-    driven    how every other arbor is driven; parents come first
-    joined    by arbor that stands for several links, all of them, itself first
-    pointers  name of an output, or of a link whose speed is given, -> its arbor
-    counts    teeth of every wheel that meshes
-    teeth     the fewest and the most that an added wheel may have
-    """
+    """Arbors of a train from the one at which a part of it begins to its pointers."""
 
     train: Train
     base: BaseLink
+    """What bears the arbors, and at what speed the first of them turns."""
     driven: Mapping[str, DrivenArbor]
+    """How every other arbor is driven; parents come first."""
     joined: Joined
+    """By arbor that stands for several links, all of them, itself first."""
     pointers: Mapping[str, str]
+    """Name of an output, or of a link whose speed is given, -> its arbor."""
     counts: Mapping[str, int]
+    """Teeth of every wheel that meshes."""
     teeth: tuple[int, int]
+    """The fewest and the most that an added wheel may have."""
 
     @property
     def source(self) -> str:
@@ -281,14 +279,12 @@ def _check_input(train: Train) -> None:
 
 @dataclass
 class _Base:
-    """What turns on the frame or on a carrier.
-
-    joined   link -> the links that couplings join to it, itself among them, in the order of the train
-    meshes   arbor -> its meshes
-    """
+    """What turns on the frame or on a carrier."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """Link -> the links that couplings join to it, itself among them, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
+    """Arbor -> its meshes."""
 
 
 class _Parts:

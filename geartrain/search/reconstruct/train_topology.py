@@ -30,16 +30,14 @@ ADDED = PlacedWheel(None, 0)
 
 @dataclass(frozen=True)
 class ArborPass:
-    """One way through an arbor.
-
-    driven   the wheel by which the path comes in, None on the input arbor
-    driver   the wheel by which it goes on, the driven one itself where that is an idler; None where the path ends
-    idle     number of surviving wheels that it passes by
-    """
+    """One way through an arbor."""
 
     driven: PlacedWheel | None
+    """The wheel by which the path comes in, None on the input arbor."""
     driver: PlacedWheel | None
+    """The wheel by which it goes on, the driven one itself where that is an idler; None where the path ends."""
     idle: int
+    """Number of surviving wheels that it passes by."""
     idler: bool = False
 
     @property
@@ -106,20 +104,18 @@ Dials = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Branching:
-    """An arbor at which paths to dials end or part.
-
-    name      of the surviving arbor, None for an added one
-    driven    the wheel that is driven, `ADDED` for one that is added, None on the input arbor
-    here      dials that it shows
-    drives    driving wheels, each with what hangs from it
-    passes    what the driven wheel itself drives
-    """
+    """An arbor at which paths to dials end or part."""
 
     name: str | None
+    """Of the surviving arbor, None for an added one."""
     driven: PlacedWheel | None
+    """The wheel that is driven, `ADDED` for one that is added, None on the input arbor."""
     here: Dials
+    """Dials that it shows."""
     drives: tuple[tuple[PlacedWheel, tuple[Chain, ...]], ...] = ()
+    """Driving wheels, each with what hangs from it."""
     passes: tuple[Chain, ...] = ()
+    """What the driven wheel itself drives."""
 
     @property
     def chains(self) -> Iterator[Chain]:
@@ -131,19 +127,18 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors that lead to some dials without branching, and where they end.
-
-    dials               to which it leads
-    through             surviving arbors by name, with the way through each
-    compounds, idlers   number of added arbors with two wheels, and with one that is driven and drives
-    end                 the arbor at which it ends, or what hangs from the last driving wheel
-    """
+    """Arbors that lead to some dials without branching, and where they end."""
 
     dials: Dials
+    """To which it leads."""
     through: tuple[tuple[str, ArborPass], ...]
+    """Surviving arbors by name, with the way through each."""
     compounds: int
+    """Number of added arbors with two wheels, and with one that is driven and drives."""
     idlers: int
+    """Number of added arbors with two wheels, and with one that is driven and drives."""
     end: Branching | tuple[Chain, ...]
+    """The arbor at which it ends, or what hangs from the last driving wheel."""
 
     @property
     def arbors(self) -> int:
@@ -163,14 +158,12 @@ class Chain:
 
 @dataclass(frozen=True)
 class Topology:
-    """A whole train without counts of added wheels, and how fast the surviving ones on each path are.
-
-    root     the input arbor
-    wanted   by dial, least and greatest quotient that the added wheels on its path must have
-    """
+    """A whole train without counts of added wheels, and how fast the surviving ones on each path are."""
 
     root: Branching
+    """The input arbor."""
     wanted: tuple[tuple[str, Quotients], ...]
+    """By dial, least and greatest quotient that the added wheels on its path must have."""
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
@@ -231,27 +224,23 @@ Quotients = tuple[Fraction, Fraction]
 
 
 class CountLimit(NamedTuple):
-    """The most teeth that one added wheel may have.
-
-    dials    whose speed it changes; none for a wheel that changes no speed
-    drives   whether it drives on the way to them
-    """
+    """The most teeth that one added wheel may have."""
 
     dials: Dials
+    """Whose speed it changes; none for a wheel that changes no speed."""
     drives: bool
+    """Whether it drives on the way to them."""
     most: int
 
 
 @dataclass(frozen=True)
 class AddedWheels:
-    """How many wheels are added, by the dials whose speed they change.
-
-    groups   dials, number of wheels that drive on the way to them, and of those that are driven
-    idle     number of wheels that change no speed
-    """
+    """How many wheels are added, by the dials whose speed they change."""
 
     groups: tuple[tuple[Dials, int, int], ...]
+    """Dials, number of wheels that drive on the way to them, and of those that are driven."""
     idle: int
+    """Number of wheels that change no speed."""
 
     def without(self, limit: CountLimit) -> AddedWheels:
         """All but one of those of a limit."""

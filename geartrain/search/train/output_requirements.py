@@ -105,16 +105,14 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """An output with all its requirements.
-
-    name      of the output; "state: output" where several states are asked at once
-    function  its speed, of the free wheels
-    demands   all hold at once; one at least
-    """
+    """An output with all its requirements."""
 
     name: str
+    """Of the output; "state: output" where several states are asked at once."""
     function: Function
+    """Its speed, of the free wheels."""
     demands: tuple[SpeedRequirement, ...]
+    """All hold at once; one at least."""
 
     @property
     def approached(self) -> bool:
@@ -235,18 +233,16 @@ _MOST_COUNTS = 10**6
 
 @dataclass(frozen=True, slots=True)
 class SearchPart:
-    """Wheels that outputs or constraints join, and their requirements.
-
-    domains      wheel -> its counts, ascending, in the order declared
-    askings      outputs that they move
-    conditions   loops and locks that must close for the train to turn
-    rules        constraints on counts
-    """
+    """Wheels that outputs or constraints join, and their requirements."""
 
     domains: Domains
+    """Wheel -> its counts, ascending, in the order declared."""
     askings: tuple[OutputRequirement, ...]
+    """Outputs that they move."""
     conditions: tuple[IntervalConstraint, ...]
+    """Loops and locks that must close for the train to turn."""
     rules: tuple[CountConstraint, ...]
+    """Constraints on counts."""
 
     @property
     def considered(self) -> int:
@@ -256,14 +252,12 @@ class SearchPart:
 
 @dataclass(frozen=True, slots=True)
 class TrainRequirements:
-    """The requirements of a train in one or several states.
-
-    remarks   outputs that no free wheel moves and that are not as asked, and outputs that nothing determines
-    """
+    """The requirements of a train in one or several states."""
 
     askings: tuple[OutputRequirement, ...]
     conditions: tuple[IntervalConstraint, ...]
     remarks: tuple[str, ...]
+    """Outputs that no free wheel moves and that are not as asked, and outputs that nothing determines."""
 
 
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:

@@ -88,16 +88,14 @@ def _digits(number: int, chain: Sequence[tuple[int, int]]) -> list[list[int]]:
 
 @dataclass(frozen=True, slots=True)
 class PassWork:
-    """What all tasks of one pass share.
-
-    question  to be answered
-    order     of what is listed
-    most      assignments that one task may bring out to list the best of them
-    """
+    """What all tasks of one pass share."""
 
     question: JoinProblem
+    """To be answered."""
     order: AssignmentOrder
+    """Of what is listed."""
     most: int
+    """Assignments that one task may bring out to list the best of them."""
 
     def packed(self) -> bytes:
         """As a worker takes it."""
@@ -178,22 +176,20 @@ def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int])
 
 @dataclass(frozen=True, slots=True)
 class PassTally:
-    """What the tasks of a pass came to.
-
-    count     assignments that meet everything
-    removed   for each constraint, how many it refused
-    best      the best, best first
-    listed    False if there were too many to bring out: `best` is then empty
-    cut       True if a task spent its budget
-    stopped   True if the run was interrupted: the rest is of the tasks that were done
-    """
+    """What the tasks of a pass came to."""
 
     count: int
+    """Assignments that meet everything."""
     removed: tuple[int, ...]
+    """For each constraint, how many it refused."""
     best: tuple[Assignment, ...]
+    """The best, best first."""
     listed: bool
+    """False if there were too many to bring out: `best` is then empty."""
     cut: bool
+    """True if a task spent its budget."""
     stopped: bool
+    """True if the run was interrupted: the rest is of the tasks that were done."""
 
 
 def merged(work: PassWork, results: Iterable[Mapping[str, Any]]) -> PassTally:
@@ -278,22 +274,20 @@ class _Section:
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """What a pass came to.
-
-    share      the common tolerance it was run with, if any
-    searched   part of the assignments that it looked at; 1 where it is complete
-    tally      counts and the best
-    reasons    what refused assignments, parallel to the tally's numbers
-    order      indices of the reasons in the order in which they are decided
-    steps      about how many it was forecast to take
-    """
+    """What a pass came to."""
 
     share: Fraction | None
+    """The common tolerance it was run with, if any."""
     searched: float
+    """Part of the assignments that it looked at; 1 where it is complete."""
     tally: PassTally
+    """Counts and the best."""
     reasons: tuple[str, ...] = ()
+    """What refused assignments, parallel to the tally's numbers."""
     order: tuple[int, ...] = ()
+    """Indices of the reasons in the order in which they are decided."""
     steps: float = 0.0
+    """About how many it was forecast to take."""
 
     @property
     def complete(self) -> bool:
@@ -316,15 +310,13 @@ NOT_BEGUN = PassResult(None, 0.0, NOTHING)
 
 @dataclass
 class PartSearch:
-    """The passes over one part.
-
-    limit     steps that one pass may take
-    """
+    """The passes over one part."""
 
     part: SearchPart
     order: AssignmentOrder
     runner: PassRunner
     limit: float
+    """Steps that one pass may take."""
     alone: tuple[tuple[str, int], ...] = field(init=False)
     domains: Domains = field(init=False)
     rules: tuple[CountConstraint, ...] = field(init=False)
@@ -404,18 +396,16 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
 
 @dataclass(frozen=True, slots=True)
 class AssignmentOrder:
-    """What makes an assignment better than another.
-
-    by        what comes first; then error, total, largest, and the counts in the order of the wheels
-    best      how many are wanted
-    askings   the outputs their errors are of
-    declared  wheel -> declared count, where it has one
-    """
+    """What makes an assignment better than another."""
 
     by: By
+    """What comes first; then error, total, largest, and the counts in the order of the wheels."""
     best: int
+    """How many are wanted."""
     askings: tuple[OutputRequirement, ...]
+    """The outputs their errors are of."""
     declared: Mapping[str, int]
+    """Wheel -> declared count, where it has one."""
 
     @property
     def level(self) -> bool:

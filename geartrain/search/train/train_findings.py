@@ -20,20 +20,7 @@ ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
 
 @dataclass(frozen=True, slots=True)
 class ReachedSpeed(Result):
-    """What an output does under an assignment.
-
-    Attributes
-    ----------
-    speed : Fraction
-        Exact, in the train's unit [turns of the unit].
-    label : str
-        The requirement it misses by most, such as "period 583.92 d".
-    error : Fraction
-        Its relative error: |speed| / wanted - 1 against a target, speed / expected - 1 against an `expect` (the speed
-        itself where 0 is expected).
-    met : bool
-        True if the output meets all that is required of it.
-    """
+    """What an output does under an assignment."""
 
     KEYS = (
         "speed",
@@ -45,23 +32,19 @@ class ReachedSpeed(Result):
     )
 
     speed: Fraction
+    """Exact, in the train's unit [turns of the unit]."""
     label: str
+    """The requirement it misses by most, such as "period 583.92 d"."""
     error: Fraction
+    """Its relative error: |speed| / wanted - 1 against a target, speed / expected - 1 against an `expect` (the speed
+    itself where 0 is expected)."""
     met: bool
+    """True if the output meets all that is required of it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Assignment(CountSizes, Result):
     """Tooth counts of the free wheels, and what the outputs do with them.
-
-    Attributes
-    ----------
-    teeth : mapping of str to int
-        Wheel -> count, in the order declared.
-    outputs : mapping of str to ReachedSpeed
-        Output -> what it reaches; in a train with states the outputs are named "state: output".
-    changed : tuple of str
-        Wheels whose count is not the declared value.
 
     See Also
     --------
@@ -71,8 +54,11 @@ class Assignment(CountSizes, Result):
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
 
     teeth: Mapping[str, int]
+    """Wheel -> count, in the order declared."""
     outputs: Mapping[str, ReachedSpeed]
+    """Output -> what it reaches; in a train with states the outputs are named "state: output"."""
     changed: tuple[str, ...] = ()
+    """Wheels whose count is not the declared value."""
 
     @property
     def counts(self) -> Collection[int]:
@@ -105,36 +91,7 @@ class Assignment(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class PartFindings(Result):
-    """Free wheels that belong together, because outputs or constraints join them, and all that meets them.
-
-    Attributes
-    ----------
-    wheels : tuple of str
-        In the order declared; parts share none.
-    outputs : tuple of str
-        The outputs they move; none for wheels that no output and no constraint asks for.
-    demands : tuple of str
-        What is required of the outputs, in words.
-    rules : tuple of str
-        Names of the constraints on counts.
-    considered : int
-        Assignments there are.
-    count : int
-        Assignments that meet everything; where `tolerance` is not None, those within it.
-    tolerance : Fraction, optional
-        For outputs without a tolerance of their own: the one that was found to hold enough.
-    complete : bool
-        True if every assignment was considered, so that `count` is exact.
-    ranked : bool
-        True if no assignment that is not in `solutions` comes before one that is.
-    reason : str
-        Why it is not complete, or not ranked.
-    solutions : tuple of Assignment
-        The best, best first.
-    shortfall : Shortfall
-        Where the others went: each is charged to the constraint at which the search gave it up; these stand in the
-        order in which they are decided.
-    """
+    """Free wheels that belong together, because outputs or constraints join them, and all that meets them."""
 
     KEYS = (
         "wheels",
@@ -152,62 +109,50 @@ class PartFindings(Result):
     )
 
     wheels: tuple[str, ...]
+    """In the order declared; parts share none."""
     outputs: tuple[str, ...]
+    """The outputs they move; none for wheels that no output and no constraint asks for."""
     demands: tuple[str, ...]
+    """What is required of the outputs, in words."""
     rules: tuple[str, ...]
+    """Names of the constraints on counts."""
     considered: int
+    """Assignments there are."""
     count: int
+    """Assignments that meet everything; where `tolerance` is not None, those within it."""
     tolerance: Fraction | None
+    """For outputs without a tolerance of their own: the one that was found to hold enough."""
     complete: bool
+    """True if every assignment was considered, so that `count` is exact."""
     ranked: bool
+    """True if no assignment that is not in `solutions` comes before one that is."""
     reason: str
+    """Why it is not complete, or not ranked."""
     solutions: tuple[Assignment, ...]
+    """The best, best first."""
     shortfall: Shortfall
+    """Where the others went: each is charged to the constraint at which the search gave it up; these stand in the
+    order in which they are decided."""
 
 
 @dataclass(frozen=True, slots=True)
 class Standing(Result):
-    """Where one assignment of a part's wheels stands.
-
-    Attributes
-    ----------
-    wheels : tuple of str
-        The part's wheels.
-    assignment : Assignment, optional
-        Its counts, outputs and errors; None where a wheel's count locks the train or leaves it free.
-    rank : int, optional
-        1 for the best: one more than the number of assignments before it in error; None where it is refused or where
-        counting would take too long.
-    refused : tuple of str
-        What refuses it, each in words; empty for a solution.
-    """
+    """Where one assignment of a part's wheels stands."""
 
     wheels: tuple[str, ...]
+    """The part's wheels."""
     assignment: Assignment | None
+    """Its counts, outputs and errors; None where a wheel's count locks the train or leaves it free."""
     rank: int | None
+    """1 for the best: one more than the number of assignments before it in error; None where it is refused or where
+    counting would take too long."""
     refused: tuple[str, ...]
+    """What refuses it, each in words; empty for a solution."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Result):
     """All that a search in a train found.
-
-    Attributes
-    ----------
-    name : str
-        Of the train.
-    by : {"error", "total", "largest", "distinct", "change"}
-        The order of the solutions.
-    best : int
-        How many were asked for.
-    parts : tuple of PartFindings
-        Independent parts; any solution of one goes with any solution of another.
-    links : mapping of str to str
-        Free wheel -> its link.
-    remarks : tuple of str
-        What the reader should know: outputs that no free wheel moves, and whether they are right.
-    where : tuple of Standing
-        Where the assignments stand that were asked about.
 
     See Also
     --------
@@ -220,12 +165,19 @@ class TrainFindings(Result):
     )
 
     name: str
+    """Of the train."""
     by: By
+    """The order of the solutions."""
     best: int
+    """How many were asked for."""
     parts: tuple[PartFindings, ...]
+    """Independent parts; any solution of one goes with any solution of another."""
     links: Mapping[str, str]
+    """Free wheel -> its link."""
     remarks: tuple[str, ...] = ()
+    """What the reader should know: outputs that no free wheel moves, and whether they are right."""
     where: tuple[Standing, ...] = ()
+    """Where the assignments stand that were asked about."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
 
     @property

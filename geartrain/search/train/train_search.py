@@ -269,20 +269,7 @@ LIMIT = 10**9
 
 @dataclass(frozen=True, slots=True)
 class TrainSearchRequest:
-    """What is requested of a search for tooth numbers in a train; see `search_train`.
-
-    Attributes
-    ----------
-    train : Train
-    state : str, optional
-    free : str or tuple of str
-    rules : ConstraintOptions
-    tolerance : Fraction, optional
-    best : int
-    by : {"error", "total", "largest", "distinct", "change"}
-    where : tuple of mapping of str to int
-        Assignments whose place among all is requested besides.
-    """
+    """What is requested of a search for tooth numbers in a train; fields are the arguments of `search_train`."""
 
     train: Train
     state: str | None = None
@@ -292,6 +279,7 @@ class TrainSearchRequest:
     best: int = 20
     by: By = "error"
     where: tuple[Mapping[str, int], ...] = ()
+    """Assignments whose place among all is requested besides."""
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data: equal for two requests that need the same work."""

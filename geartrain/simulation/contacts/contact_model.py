@@ -30,26 +30,26 @@ _STIFF, _STIFFEST = 1e6, 1e9
 
 @dataclass(frozen=True)
 class ContactPair:
-    """Two flanks, or a pin in its slot.
-
-    driver, driven        forward speeds of both sides
-    start                 forward angles of both sides where all coordinates are 0 (rad)
-    front, back           driven angles on the drive and the coast flank; the same for what has no play
-    rubbing               what friction adds to the driver's arm (its torque over the driven side's), for front and back
-                          flank, each turning forward and back; None without friction
-    restitution           closing speed that comes back
-    never_stands          True if the driven side moves wherever the driver does, so that it could as well drive
-    """
+    """Two flanks, or a pin in its slot."""
 
     name: str
     driver: Form
+    """Forward speeds of both sides."""
     driven: Form
+    """Forward speeds of both sides."""
     start: tuple[float, float]
+    """Forward angles of both sides where all coordinates are 0 (rad)."""
     front: TabledFunction
+    """Driven angles on the drive and the coast flank; the same for what has no play."""
     back: TabledFunction
+    """Driven angles on the drive and the coast flank; the same for what has no play."""
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
+    """What friction adds to the driver's arm (its torque over the driven side's), for front and back flank, each
+    turning forward and back; None without friction."""
     restitution: float = 0.0
+    """Closing speed that comes back."""
     never_stands: bool = False
+    """True if the driven side moves wherever the driver does, so that it could as well drive."""
 
     @property
     def two_sided(self) -> bool:
@@ -118,19 +118,18 @@ class SolvedOrder(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """A train that moves in time.
-
-    mass, viscous   matrices over the coordinates (kg m2, N m s)
-    torque          constant torques on them (N m)
-    given           prescribed speeds (rad/s)
-    typical         speeds of all coordinates in mean motion, for scales
-    """
+    """A train that moves in time."""
 
     mass: Floats
+    """Matrices over the coordinates (kg m2, N m s)."""
     viscous: Floats
+    """Matrices over the coordinates (kg m2, N m s)."""
     torque: Floats
+    """Constant torques on them (N m)."""
     given: Mapping[int, float]
+    """Prescribed speeds (rad/s)."""
     typical: Floats
+    """Speeds of all coordinates in mean motion, for scales."""
     pairs: Sequence[ContactPair] = ()
     bearings: Sequence[Bearing] = ()
     stops: Sequence[Stop] = ()

@@ -58,16 +58,15 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links over the input's at n positions, and slopes of errors of the sources.
-
-    arm, virtual   slopes and speeds where each driver's arm is that with friction: those of virtual work
-    """
+    """Speeds and accelerations of all links over the input's at n positions, and slopes of errors of the sources."""
 
     speed: Floats
     acceleration: Floats
     slope: Floats
     arm: Floats
+    """Slopes and speeds where each driver's arm is that with friction: those of virtual work."""
     virtual: Floats
+    """Slopes and speeds where each driver's arm is that with friction: those of virtual work."""
 
 
 class InertialContacts:
@@ -232,15 +231,13 @@ class InertialContacts:
 
 @dataclass(frozen=True)
 class YieldingPairs:
-    """The matrix J = I - diag(slope) G at many positions, in the order in which pairs determine each other.
-
-    gain     G, (sources, pairs); `pairs`, the pair of each source
-    blocks   sources that are solved together, each block after those that it depends on
-    """
+    """The matrix J = I - diag(slope) G at many positions, in the order in which pairs determine each other."""
 
     gain: Floats
+    """G, (sources, pairs); `pairs`, the pair of each source."""
     pairs: Sequence[int]
     blocks: Sequence[Sequence[int]]
+    """Sources that are solved together, each block after those that it depends on."""
 
     def errors(self, slope: Floats, given: Floats) -> Floats:
         """J^-1 times vectors, (pairs, n)."""
@@ -302,21 +299,19 @@ def speed_slope(law: TransmissionFunction) -> CellTable:
 
 @dataclass(frozen=True)
 class InertialLoads:
-    """What acts on links besides their pairs: SI units, by link, about their own axes.
-
-    inertia    kg m2; of a link that takes others round, theirs too
-    load       constant torque (N m), positive about the link's axis
-    friction   of its bearing while it turns (N m), 0 or more; `drag`, viscous (N m s)
-    bearer     the link in which it turns
-    crank      the link at which power enters so that the input turns evenly; None where that is the input
-    """
+    """What acts on links besides their pairs: SI units, by link, about their own axes."""
 
     inertia: Mapping[str, float]
+    """kg m2; of a link that takes others round, theirs too."""
     load: Mapping[str, float]
+    """Constant torque (N m), positive about the link's axis."""
     friction: Mapping[str, float]
+    """Of its bearing while it turns (N m), 0 or more; `drag`, viscous (N m s)."""
     drag: Mapping[str, float]
     bearer: Mapping[str, str]
+    """The link in which it turns."""
     crank: str | None = None
+    """The link at which power enters so that the input turns evenly; None where that is the input."""
 
 
 def find_inertial_loads(

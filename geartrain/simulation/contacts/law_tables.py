@@ -28,25 +28,25 @@ _SAME = 1e-6  # of the mean ratio: a smaller jump is a kink
 
 
 class LawTables(NamedTuple):
-    """Periodic functions of a driver's angle, one after another.
-
-    period, slope   of each function: it is slope S + a periodic part (slope 0 where it is no angle)
-    cells           uniform cells in a period; `start`, the first of them in `first`
-    first           the piece in which each uniform cell begins; pieces lie in order
-    ends, middles   of the pieces (rad behind the start of the period); the last end of a function is infinite
-    coefficients    of the pieces about their middles, (pieces, DEGREE + 1)
-    jump            least jump of the derivative at a corner; infinite where there is none
-    """
+    """Periodic functions of a driver's angle, one after another."""
 
     period: Floats
+    """Of each function: it is slope S + a periodic part (slope 0 where it is no angle)."""
     slope: Floats
+    """Of each function: it is slope S + a periodic part (slope 0 where it is no angle)."""
     cells: Ints
+    """Uniform cells in a period; `start`, the first of them in `first`."""
     start: Ints
     first: Ints
+    """The piece in which each uniform cell begins; pieces lie in order."""
     ends: Floats
+    """Of the pieces (rad behind the start of the period); the last end of a function is infinite."""
     middles: Floats
+    """Of the pieces (rad behind the start of the period); the last end of a function is infinite."""
     coefficients: Floats
+    """Of the pieces about their middles, (pieces, DEGREE + 1)."""
     jump: Floats
+    """Least jump of the derivative at a corner; infinite where there is none."""
 
 
 class TabledFunction(NamedTuple):

@@ -26,29 +26,21 @@ _MILLIMETRES = 1e-3
 class LinkInertia(Result):
     """The moment of inertia of a link, and where it is from.
 
-    Attributes
-    ----------
-    link : str
-        The link.
-    value : float
-        About its own axis [kg m^2], what it takes round with it included; 0 where nothing is known.
-    source : {"declared", "outlines", "unknown"}
-        Where its own is from.
-    carried : float
-        What of it planets add by their masses [kg m^2].
-    missing : tuple of str
-        Why it is not known, or what of it is not.
-
     See Also
     --------
     find_link_inertias : what gives these.
     """
 
     link: str
+    """The link."""
     value: float
+    """About its own axis [kg m^2], what it takes round with it included; 0 where nothing is known."""
     source: Literal["declared", "outlines", "unknown"]
+    """Where its own is from."""
     carried: float = 0.0
+    """What of it planets add by their masses [kg m^2]."""
     missing: tuple[str, ...] = ()
+    """Why it is not known, or what of it is not."""
 
 
 class PlateMoments(NamedTuple):

@@ -157,17 +157,6 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 class PairSeparation(Result):
     """From what rate of the input on the teeth of a pair, or a pin and its slot, part.
 
-    Attributes
-    ----------
-    pair : str
-        The pair or coupling.
-    rate : float or None
-        Of the input [turn/s]; 0 where they part at any rate; None where they part at none.
-    at : float
-        Turns of the input at which they do so first.
-    leap : bool
-        True if a speed jumps there, so that the blow would have to pull.
-
     See Also
     --------
     SeparationRates : holds one of each pair
@@ -176,31 +165,18 @@ class PairSeparation(Result):
     KEYS = ("pair", "rate", "at", "leap")
 
     pair: str
+    """The pair or coupling."""
     rate: float | None
+    """Of the input [turn/s]; 0 where they part at any rate; None where they part at none."""
     at: float
+    """Turns of the input at which they do so first."""
     leap: bool = False
+    """True if a speed jumps there, so that the blow would have to pull."""
 
 
 @dataclass(frozen=True)
 class SeparationRates(Result):
     """At what rates of the input the flanks of a train first part: while it is slower, `motion` holds.
-
-    Attributes
-    ----------
-    state : str or None
-        As it was named.
-    input : str
-        The link whose rate it is.
-    turns : float
-        Turns of it that were searched.
-    complete : bool
-        True if everything repeats after them.
-    pairs : tuple of PairSeparation
-        The pair that parts first before the others.
-    inertias : tuple of LinkInertia
-        What was counted with.
-    uncounted : tuple of str
-        Pairs and pins whose friction is not counted: those that keep their ratio, and pins.
 
     See Also
     --------
@@ -210,12 +186,19 @@ class SeparationRates(Result):
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
+    """As it was named."""
     input: str
+    """The link whose rate it is."""
     turns: float
+    """Turns of it that were searched."""
     complete: bool
+    """True if everything repeats after them."""
     pairs: tuple[PairSeparation, ...]
+    """The pair that parts first before the others."""
     inertias: tuple[LinkInertia, ...]
+    """What was counted with."""
     uncounted: tuple[str, ...] = ()
+    """Pairs and pins whose friction is not counted: those that keep their ratio, and pins."""
 
     @property
     def first(self) -> PairSeparation | None:

@@ -23,22 +23,20 @@ _EQUAL = 1e-9  # of a speed: rounding of decimals in which it is given
 
 @dataclass(frozen=True)
 class PowerInput:
-    """What keeps a train going.
-
-    link       where it acts
-    rate       speed that is kept: of the link itself, or of the hand (rad/s)
-    torque     constant torque, also that of a weight on its drum (N m)
-    stiffness  of a spring or a hand (N m/rad); `wound`, by how much the spring is wound at the start (rad)
-    inertia    what it adds to the link's own (kg m2)
-    """
+    """What keeps a train going."""
 
     link: str
+    """Where it acts."""
     kind: Literal["rate", "torque", "spring", "hand"]
     rate: float = 0.0
+    """Speed that is kept: of the link itself, or of the hand (rad/s)."""
     torque: float = 0.0
+    """Constant torque, also that of a weight on its drum (N m)."""
     stiffness: float = 0.0
+    """Of a spring or a hand (N m/rad); `wound`, by how much the spring is wound at the start (rad)."""
     wound: float = 0.0
     inertia: float = 0.0
+    """What it adds to the link's own (kg m2)."""
 
     @property
     def value(self) -> float:
@@ -48,26 +46,24 @@ class PowerInput:
 
 @dataclass(frozen=True)
 class TimeCase:
-    """A train in one state, as it is to move in time.
-
-    drive         where power enters; `rate`, speed of the lead that sets the scale of time (rad/s)
-    inertia       of links (kg m2); `drag`, viscous (N m s/rad)
-    bearing       dry friction of links in their bearings, sliding and sticking (N m)
-    load          torques on links (N m)
-    restitution   of pairs
-    clearance     of pins in their slots (m)
-    escapements   by link: angle (rad) about the link that bears it, and time (s) of a beat
-    """
+    """A train in one state, as it is to move in time."""
 
     drive: PowerInput
+    """Where power enters; `rate`, speed of the lead that sets the scale of time (rad/s)."""
     rate: float
     inertia: Mapping[str, float]
+    """Of links (kg m2); `drag`, viscous (N m s/rad)."""
     drag: Mapping[str, float] = field(default_factory=dict)
     bearing: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Dry friction of links in their bearings, sliding and sticking (N m)."""
     load: Mapping[str, float] = field(default_factory=dict)
+    """Torques on links (N m)."""
     restitution: Mapping[str, float] = field(default_factory=dict)
+    """Of pairs."""
     clearance: Mapping[str, float] = field(default_factory=dict)
+    """Of pins in their slots (m)."""
     escapements: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """By link: angle (rad) about the link that bears it, and time (s) of a beat."""
 
 
 def find_time_case(

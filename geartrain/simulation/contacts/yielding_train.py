@@ -181,31 +181,27 @@ class YieldingTrain(TrainModel):
 
 @dataclass(frozen=True)
 class PairYield:
-    """How one pair yields: torque on the driven wheel for each radian (N m/rad) by which it does, the driver held.
-
-    source    where that is from; `note`, how it was estimated
-    damping   N m s/rad; None where it follows from `ratio`, that of critical damping
-    """
+    """How one pair yields: torque on the driven wheel for each radian (N m/rad) by which it does, the driver held."""
 
     stiffness: float
     source: Literal["declared", "estimated"]
+    """Where that is from; `note`, how it was estimated."""
     damping: float | None
+    """N m s/rad; None where it follows from `ratio`, that of critical damping."""
     ratio: float
     note: str = ""
 
 
 @dataclass(frozen=True)
 class ToothYieldTable:
-    """How the pairs of a train yield.
-
-    meshes        those with real teeth; `driven`, the driven wheel of each pair
-    restitution   of every pair, in place of what is declared
-    """
+    """How the pairs of a train yield."""
 
     train: Train
     meshes: Mapping[str, GearMesh]
+    """Those with real teeth; `driven`, the driven wheel of each pair."""
     driven: Mapping[str, str]
     restitution: float | None = None
+    """Of every pair, in place of what is declared."""
 
     @cached_property
     def pairs(self) -> Mapping[str, PairYield]:

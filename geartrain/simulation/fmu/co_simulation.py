@@ -39,29 +39,21 @@ _MODULE = "geartrain_slave"
 class CoSimulationCase:
     """What a co-simulation unit is asked for; all but the state may be None, for what is declared.
 
-    Attributes
-    ----------
-    state : str or None
-        A declared state.
-    rate : float or None
-        Speed of the first input that turns [rad/s].
-    step : float or None
-        Length of a step [s].
-    restitution : float or None
-        Of all impacts.
-    without : sequence of str
-        Pairs that are left out.
-
     See Also
     --------
     fmu_file : takes it.
     """
 
     state: str | None = None
+    """A declared state."""
     rate: float | None = None
+    """Speed of the first input that turns [rad/s]."""
     step: float | None = None
+    """Length of a step [s]."""
     restitution: float | None = None
+    """Of all impacts."""
     without: Sequence[str] = ()
+    """Pairs that are left out."""
 
 
 def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:

@@ -37,27 +37,25 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """Where a train is: changed by the kernel in place.
-
-    clock      time (s), step number
-    angle      of the coordinates (rad); `speed` (rad/s)
-    touching   flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1
-    ratio      speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 in a blow
-    steady     impulse of each pair in its last step without blow
-    flown      steps for which each pair has been apart; `stop_rate`, (stops, 2), speeds at each stop a step ago, and
-               when it was last left
-    """
+    """Where a train is: changed by the kernel in place."""
 
     clock: Floats
+    """Time (s), step number."""
     angle: Floats
+    """Of the coordinates (rad); `speed` (rad/s)."""
     speed: Floats
     touching: Ints
+    """Flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1."""
     turning: Ints
     stopped: Ints
     ratio: Floats
+    """Speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 in a blow."""
     struck: Ints
     steady: Floats
+    """Impulse of each pair in its last step without blow."""
     flown: Ints
+    """Steps for which each pair has been apart; `stop_rate`, (stops, 2), speeds at each stop a step ago, and when it
+    was last left."""
     stop_rate: Floats
 
 
@@ -86,54 +84,59 @@ SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
 class StepEquations(NamedTuple):
-    """One step: what is given of it, room to solve it in, and what comes out.
-
-    load            impulses from outside, and momentum at the start of the step
-    bound           k of both flanks of each pair (rad/s); `stop_bound` of each stop
-    ratio, arm      speed ratio, and driver's torque over the driven side's, of both flanks
-    A, b            the matrix and right side, as they are eliminated
-    w, g, known     of a driven coordinate: its speed is w v + known, its row is handed on by g
-    v, P, drive     speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates
-    ahead, middle   speeds that say where laws are read; mean speeds of the step
-    gap, closing    of both flanks: k without restitution, and speeds of closing before the step (rad/s);
-                    `stop_closing`, at which stops are met in it
-    before          what touched, and what was stopped, before the step
-    """
+    """One step: what is given of it, room to solve it in, and what comes out."""
 
     load: Floats
+    """Impulses from outside, and momentum at the start of the step."""
     bound: Floats
+    """K of both flanks of each pair (rad/s); `stop_bound` of each stop."""
     stop_bound: Floats
     ratio: Floats
+    """Speed ratio, and driver's torque over the driven side's, of both flanks."""
     arm: Floats
+    """Speed ratio, and driver's torque over the driven side's, of both flanks."""
     A: Floats
+    """The matrix and right side, as they are eliminated."""
     b: Floats
+    """The matrix and right side, as they are eliminated."""
     w: Floats
+    """Of a driven coordinate: its speed is w v + known, its row is handed on by g."""
     g: Floats
+    """Of a driven coordinate: its speed is w v + known, its row is handed on by g."""
     known: Floats
+    """Of a driven coordinate: its speed is w v + known, its row is handed on by g."""
     v: Floats
+    """Speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates."""
     P: Floats
+    """Speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates."""
     drive: Floats
+    """Speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates."""
     ahead: Floats
+    """Speeds that say where laws are read; mean speeds of the step."""
     middle: Floats
+    """Speeds that say where laws are read; mean speeds of the step."""
     gap: Floats
+    """Of both flanks: k without restitution, and speeds of closing before the step (rad/s); `stop_closing`, at which
+    stops are met in it."""
     closing: Floats
+    """Of both flanks: k without restitution, and speeds of closing before the step (rad/s); `stop_closing`, at which
+    stops are met in it."""
     stop_closing: Floats
     before: Ints
+    """What touched, and what was stopped, before the step."""
 
 
 class StepRules(NamedTuple):
-    """How a run is stepped.
-
-    step     length of a step (s); `stride`, steps from one sample to the next
-    creep    speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)
-    rounds   guesses that are tried in a step
-    """
+    """How a run is stepped."""
 
     step: float
+    """Length of a step (s); `stride`, steps from one sample to the next."""
     stride: int
     creep: float
+    """Speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)."""
     slack: float
     rounds: int
+    """Guesses that are tried in a step."""
 
 
 @kernel

@@ -43,27 +43,19 @@ _ROUNDS = 60  # guesses tried in a step, and six more for each contact and beari
 
 
 class StepPlan(NamedTuple):
-    """How a model is stepped: length of a step (s), steps not counted, steps counted, steps from sample to sample.
-
-    block   steps of each of the equal parts of what is counted whose figures are kept; 0 for none
-    """
+    """How a model is stepped: length of a step (s), steps not counted, steps counted, steps from sample to sample."""
 
     step: float
     skip: int
     steps: int
     stride: int
     block: int = 0
+    """Steps of each of the equal parts of what is counted whose figures are kept; 0 for none."""
 
 
 @dataclass
 class SimulatedRun:
-    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J).
-
-    turned   angles of the coordinates over what is counted (rad)
-    pressed  by how much the energy stored in teeth that yield has grown (J)
-    peaks    greatest torque of each pair whose teeth yield (N m)
-    blocks   the run's parts of `plan.block` steps: their counts, energies and angles turned through
-    """
+    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J)."""
 
     plan: StepPlan
     angles: Floats
@@ -77,9 +69,13 @@ class SimulatedRun:
     start: float
     end: float
     turned: Floats
+    """Angles of the coordinates over what is counted (rad)."""
     pressed: float = 0.0
+    """By how much the energy stored in teeth that yield has grown (J)."""
     peaks: Floats | None = None
+    """Greatest torque of each pair whose teeth yield (N m)."""
     blocks: tuple[SimulatedRun, ...] = ()
+    """The run's parts of `plan.block` steps: their counts, energies and angles turned through."""
 
 
 def simulate(

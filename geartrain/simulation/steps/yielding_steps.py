@@ -51,19 +51,18 @@ if TYPE_CHECKING:
 
 
 class YieldingTeeth(NamedTuple):
-    """What teeth that yield need beside their contacts, by pair; torques are those on driven sides.
-
-    stiffness, damping   N m/rad, N m s/rad
-    peak                 greatest contact torque of what is counted (N m): changed by the kernel
-    impact               the impact that each pair has last begun, -1 none: changed by the kernel
-    gap                  of both flanks in the middle of a step (rad), but for what its change of speeds adds: room
-    """
+    """What teeth that yield need beside their contacts, by pair; torques are those on driven sides."""
 
     stiffness: Floats
+    """N m/rad, N m s/rad."""
     damping: Floats
+    """N m/rad, N m s/rad."""
     peak: Floats
+    """Greatest contact torque of what is counted (N m): changed by the kernel."""
     impact: Ints
+    """The impact that each pair has last begun, -1 none: changed by the kernel."""
     gap: Floats
+    """Of both flanks in the middle of a step (rad), but for what its change of speeds adds: room."""
 
 
 @kernel

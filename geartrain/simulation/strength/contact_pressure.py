@@ -84,46 +84,35 @@ def hertz_pressure(factor: float, force: float, width: float, curvature: float) 
 
 @dataclass(frozen=True, slots=True)
 class ContactPlace(Result):
-    """Pressure at one place of the path of contact.
-
-    Attributes
-    ----------
-    where : str
-        What the place is called.
-    position : float
-        Past the pitch point, along the pitch line [pitch].
-    couples : float
-        Pairs of teeth that touch then; each carries the same force. For helical teeth, the least mean over the width.
-    force : float
-        Normal to the flanks [N].
-    pressure : float
-        Greatest in the contact [MPa]; infinite where a flank has no radius.
-    """
+    """Pressure at one place of the path of contact."""
 
     KEYS = ("where", "position", "couples", "force", Key("pressure", to=finite))
 
     where: str
+    """What the place is called."""
     position: float
+    """Past the pitch point, along the pitch line [pitch]."""
     couples: float
+    """Pairs of teeth that touch then; each carries the same force. For helical teeth, the least mean over the width."""
     force: float
+    """Normal to the flanks [N]."""
     pressure: float
+    """Greatest in the contact [MPa]; infinite where a flank has no radius."""
 
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """A loaded pair with a path of contact.
-
-    path     of the pair, lengths in modules
-    module   mm; `width` of the teeth in contact, mm
-    torque   on gear 1 [N mm]
-    factor   of elasticity [sqrt(MPa)]
-    """
+    """A loaded pair with a path of contact."""
 
     path: PathOfContact
+    """Of the pair, lengths in modules."""
     module: float
+    """Mm; `width` of the teeth in contact, mm."""
     width: float
     torque: float
+    """On gear 1 [N mm]."""
     factor: float
+    """Of elasticity [sqrt(MPa)]."""
 
     @property
     def tangential(self) -> float:
@@ -217,14 +206,12 @@ def least_couples(contact_ratio: float, overlap: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class LeaningLoad(ContactLoad):
-    """A loaded helical pair; all as of `ContactLoad`, in the transverse section.
-
-    base_helix   rad
-    overlap      pitches by which teeth lag over the width
-    """
+    """A loaded helical pair; all as of `ContactLoad`, in the transverse section."""
 
     base_helix: float = 0.0
+    """Rad."""
     overlap: float = 0.0
+    """Pitches by which teeth lag over the width."""
 
     @property
     def lines(self) -> float:
@@ -302,22 +289,20 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
 
 @dataclass(frozen=True)
 class CrossedWheels:
-    """Two helical wheels of involute teeth on axes that cross; one of them may be a worm. Lengths in mm.
-
-    radii            of the pitch circles
-    helix            helix angles (rad), of right hands above 0; they add up to the shaft angle
-    module           across the teeth
-    pressure_angle   across the teeth (rad)
-    addenda          of both, in modules
-    widths           of both, infinite where they are not known
-    """
+    """Two helical wheels of involute teeth on axes that cross; one of them may be a worm. Lengths in mm."""
 
     radii: tuple[float, float]
+    """Of the pitch circles."""
     helix: tuple[float, float]
+    """Helix angles (rad), of right hands above 0; they add up to the shaft angle."""
     module: float
+    """Across the teeth."""
     pressure_angle: float
+    """Across the teeth (rad)."""
     addenda: tuple[float, float] = (1.0, 1.0)
+    """Of both, in modules."""
     widths: tuple[float, float] = (float("inf"), float("inf"))
+    """Of both, infinite where they are not known."""
 
     @property
     def pitch(self) -> float:

@@ -37,17 +37,16 @@ _STEP = 0.004  # modules from one section to the next
 
 @dataclass(frozen=True, slots=True)
 class RackWheel:
-    """A wheel that a rack cuts. Lengths in modules.
-
-    z, shift    teeth, also parts of one of the spur wheel that stands for a helical one, and shift of the rack
-    tip         radius of the tip circle
-    dedendum    depth of the rack under its pitch line; `corner`, radius at its tip
-    """
+    """A wheel that a rack cuts. Lengths in modules."""
 
     z: float
+    """Teeth, also parts of one of the spur wheel that stands for a helical one, and shift of the rack."""
     shift: float
+    """Teeth, also parts of one of the spur wheel that stands for a helical one, and shift of the rack."""
     tip: float
+    """Radius of the tip circle."""
     dedendum: float = 1.25
+    """Depth of the rack under its pitch line; `corner`, radius at its tip."""
     corner: float = HOB_CORNER
 
 
@@ -82,19 +81,18 @@ class ToothLean:
 
 @dataclass(frozen=True, slots=True)
 class RackPair:
-    """Two such wheels at their distance, helical ones in the transverse section. Angles in rad.
-
-    angle, working   pressure angles of the rack, and at work
-    contact_ratio    1 to 2
-    lean             of helical wheels
-    """
+    """Two such wheels at their distance, helical ones in the transverse section. Angles in rad."""
 
     first: RackWheel
     second: RackWheel
     angle: float
+    """Pressure angles of the rack, and at work."""
     working: float
+    """Pressure angles of the rack, and at work."""
     contact_ratio: float
+    """1 to 2."""
     lean: ToothLean = ToothLean()
+    """Of helical wheels."""
 
     def __post_init__(self) -> None:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
@@ -109,55 +107,44 @@ class RackPair:
 
 @dataclass(frozen=True, slots=True)
 class IsoContact(Result):
-    """Contact stress by ISO 6336-2.
-
-    Attributes
-    ----------
-    ZH, ZE, Zeps : float
-        Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor.
-    M1, M2 : float
-        ZB and ZD before they are kept from falling below 1, and of spur wheels.
-    nominal : float
-        sH0, at the pitch point [MPa].
-    stress : tuple of float
-        At the inner points of single contact of both wheels, ZB and ZD times that [MPa].
-    Zbeta : float
-        Helix angle factor; 1 of straight teeth.
-    """
+    """Contact stress by ISO 6336-2."""
 
     ZH: float
+    """Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor."""
     ZE: float
+    """Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor."""
     Zeps: float
+    """Zone factor; factor of elasticity [sqrt(MPa)]; contact ratio factor."""
     M1: float
+    """ZB and ZD before they are kept from falling below 1, and of spur wheels."""
     M2: float
+    """ZB and ZD before they are kept from falling below 1, and of spur wheels."""
     nominal: float
+    """sH0, at the pitch point [MPa]."""
     stress: tuple[float, float]
+    """At the inner points of single contact of both wheels, ZB and ZD times that [MPa]."""
     Zbeta: float = 1.0
+    """Helix angle factor; 1 of straight teeth."""
 
 
 @dataclass(frozen=True, slots=True)
 class IsoRoot(Result):
-    """Root stress of one wheel by ISO 6336-3, the load at the outer point of single contact.
-
-    Attributes
-    ----------
-    chord, radius, lever : float
-        Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module].
-    YF, YS : float
-        Form factor, stress correction factor.
-    stress : float
-        sF0 [MPa].
-    Ybeta : float
-        Helix angle factor; 1 of straight teeth.
-    """
+    """Root stress of one wheel by ISO 6336-3, the load at the outer point of single contact."""
 
     chord: float
+    """Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module]."""
     radius: float
+    """Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module]."""
     lever: float
+    """Of the root at its 30 degree tangent: thickness, radius of the round, and lever of the force [module]."""
     YF: float
+    """Form factor, stress correction factor."""
     YS: float
+    """Form factor, stress correction factor."""
     stress: float
+    """sF0 [MPa]."""
     Ybeta: float = 1.0
+    """Helix angle factor; 1 of straight teeth."""
 
 
 def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: float, module: float) -> IsoContact:
@@ -244,28 +231,25 @@ def _tangent(slope: float, H: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ToothLoad:
-    """Where a force presses on a tooth, in the frame of the tooth: x along its axis from the axle. Lengths in modules.
-
-    radius   of the point where it acts; `apex` where its line meets the axis of the tooth
-    angle    (rad) between it and the perpendicular of that axis
-    """
+    """Where a force presses on a tooth, in the frame of the tooth: x along its axis from the axle. Lengths in
+    modules."""
 
     radius: float
+    """Of the point where it acts; `apex` where its line meets the axis of the tooth."""
     apex: float
     angle: float
+    """(rad) between it and the perpendicular of that axis."""
 
 
 @dataclass(frozen=True, slots=True)
 class RootSection:
-    """The section where bending is greatest. Lengths in modules.
-
-    x        from the axle; `thickness` of the tooth there
-    factor   stress over torque/(width module^2)
-    """
+    """The section where bending is greatest. Lengths in modules."""
 
     x: float
+    """From the axle; `thickness` of the tooth there."""
     thickness: float
     factor: float
+    """Stress over torque/(width module^2)."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
         """Bending stress [MPa] under a torque [N mm] that this tooth bears alone; width and module in mm."""
@@ -278,13 +262,11 @@ class RootSection:
 
 @dataclass(frozen=True, slots=True)
 class ToothSide:
-    """Half an outline, from its tip to mid-space: x along the axis of the tooth, y >= 0. Lengths in modules.
-
-    outward   1, or -1 for a ring, whose tips look to the axle
-    """
+    """Half an outline, from its tip to mid-space: x along the axis of the tooth, y >= 0. Lengths in modules."""
 
     points: Floats
     outward: int
+    """1, or -1 for a ring, whose tips look to the axle."""
 
     @classmethod
     def of(cls, tooth: Sequence[Vertex], outward: int = 1) -> ToothSide:

@@ -53,20 +53,18 @@ _POSITIONS = 401
 
 @dataclass(frozen=True)
 class WheelUnderLoad:
-    """One wheel of a pair.
-
-    gear      1 or 2, as the law of the pair calls it
-    z         its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it
-    torque    that counts [N m]; `turns` it makes as its carrier sees it, None where no time is given
-    """
+    """One wheel of a pair."""
 
     name: str
     gear: int
+    """1 or 2, as the law of the pair calls it."""
     z: float
+    """Its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it."""
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
     torque: float
+    """That counts [N m]; `turns` it makes as its carrier sees it, None where no time is given."""
     turns: float | None
 
     @property
@@ -82,25 +80,24 @@ class WheelUnderLoad:
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """A pair under load. Lengths in mm.
-
-    mesh      its teeth
-    wheels    both, as the pair names them
-    module, width   of it; the width is the narrower one
-    wear      least and greatest wear coefficient
-    spurs     of bevels: the spur pair that stands for them
-    swing     the torque that bends and presses over the mean one, which wears
-    remarks   what does not hold of its wheels
-    """
+    """A pair under load. Lengths in mm."""
 
     mesh: GearMesh
+    """Its teeth."""
     wheels: tuple[WheelUnderLoad, WheelUnderLoad]
+    """Both, as the pair names them."""
     module: float
+    """Of it; the width is the narrower one."""
     width: float
+    """Of it; the width is the narrower one."""
     wear: WearRange
+    """Least and greatest wear coefficient."""
     spurs: VirtualSpurs | None = None
+    """Of bevels: the spur pair that stands for them."""
     swing: float = 1.0
+    """The torque that bends and presses over the mean one, which wears."""
     remarks: tuple[str, ...] = ()
+    """What does not hold of its wheels."""
 
     def strength(self) -> PairStrength:
         """All figures."""

@@ -24,18 +24,16 @@ _MPA, _MM = 1e6, 1e3
 
 @dataclass(frozen=True)
 class PinnedDisc:
-    """A disc and what pins press it with.
-
-    wheel      its name
-    materials  names of its own and of the pins', and what they stand for
-    width      along which they touch (mm)
-    torque     [N m]
-    """
+    """A disc and what pins press it with."""
 
     wheel: str
+    """Its name."""
     materials: tuple[tuple[str, Material], tuple[str, Material]]
+    """Names of its own and of the pins', and what they stand for."""
     width: float
+    """Along which they touch (mm)."""
     torque: float
+    """[N m]."""
 
     @property
     def factor(self) -> float:

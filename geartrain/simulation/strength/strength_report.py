@@ -76,21 +76,17 @@ _ARBOR = (
 class StrengthReport(Result):
     """Strength of a train in every state that was asked for.
 
-    Attributes
-    ----------
-    name, title : str
-        Of the train.
-    states : tuple of TrainStrength
-        In the order asked.
-
     See Also
     --------
     describe_strength : Its page.
     """
 
     name: str
+    """Of the train."""
     title: str
+    """Of the train."""
     states: tuple[TrainStrength, ...]
+    """In the order asked."""
 
 
 def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:

@@ -17,7 +17,9 @@ class WearRange(NamedTuple):
     """One figure for the least and the greatest wear coefficient."""
 
     least: float
+    """With the least wear coefficient."""
     greatest: float
+    """With the greatest wear coefficient."""
 
 
 NO_WEAR = WearRange(0.0, 0.0)
@@ -26,31 +28,6 @@ NO_WEAR = WearRange(0.0, 0.0)
 @dataclass(frozen=True)
 class TrainStrength(FrozenFields, Tabular, Result):
     """Pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
-
-    Attributes
-    ----------
-    state : str or None
-        The state; None for a train without states.
-    verdict : TorqueVerdict
-        Whether torques follow from the loads; without them there is nothing else.
-    pairs : mapping of str to PairStrength
-        Loaded gear pairs by name.
-    arbors : tuple of ArborStrength
-        Arbors that are declared.
-    forces : tuple of WheelForce
-        Of all pairs that carry a torque and whose module is known.
-    turns : float or None
-        Turns of the input over which wear is counted; None where no time was given.
-    wear_coefficients : WearRange
-        K of Archard's law, least and greatest.
-    left_out : tuple of NeglectedEffect
-        Pairs of which nothing is said, and why.
-    points : mapping of str to PointContact
-        Loaded gear pairs whose teeth touch at a point, by name.
-    pins : mapping of str to PinContact
-        Lobes on pins, and pins in holes, by pair or coupling.
-    over : float or None
-        Turns of the input whose greatest torques bend and press; None where means do. Wear goes by means.
 
     See Also
     --------
@@ -80,16 +57,27 @@ class TrainStrength(FrozenFields, Tabular, Result):
     )
 
     state: str | None
+    """The state; None for a train without states."""
     verdict: TorqueVerdict
+    """Whether torques follow from the loads; without them there is nothing else."""
     pairs: Mapping[str, PairStrength] = field(default_factory=dict)
+    """Loaded gear pairs by name."""
     arbors: tuple[ArborStrength, ...] = ()
+    """Arbors that are declared."""
     turns: float | None = None
+    """Turns of the input over which wear is counted; None where no time was given."""
     wear_coefficients: WearRange = NO_WEAR
+    """K of Archard's law, least and greatest."""
     left_out: tuple[NeglectedEffect, ...] = ()
+    """Pairs of which nothing is said, and why."""
     forces: tuple[WheelForce, ...] = ()
+    """Of all pairs that carry a torque and whose module is known."""
     points: Mapping[str, PointContact] = field(default_factory=dict)
+    """Loaded gear pairs whose teeth touch at a point, by name."""
     over: float | None = None
+    """Turns of the input whose greatest torques bend and press; None where means do. Wear goes by means."""
     pins: Mapping[str, PinContact] = field(default_factory=dict)
+    """Lobes on pins, and pins in holes, by pair or coupling."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -142,23 +130,17 @@ class TrainStrength(FrozenFields, Tabular, Result):
 class WeakestPart(Result):
     """What gives way first.
 
-    Attributes
-    ----------
-    part : str
-        The wheel or link.
-    what : {"root", "contact", "arbor", "pin"}
-        By what it gives way.
-    safety : float
-        Its safety factor.
-
     See Also
     --------
     TrainStrength : holds it
     """
 
     part: str
+    """The wheel or link."""
     what: str
+    """By what it gives way."""
     safety: float
+    """Its safety factor."""
 
 
 # ----------------------------------------------------------------------------------------------------- parts of a train
@@ -168,64 +150,36 @@ class WeakestPart(Result):
 class PairStrength(Result):
     """A gear pair under load.
 
-    Attributes
-    ----------
-    pair, form : str
-        Its name, and the form of its teeth.
-    module, face_width : float
-        mm; the width is that of the narrower wheel.
-    tangential : float
-        Force along the pitch line [N].
-    elasticity : float
-        ZE of both materials [sqrt(MPa)].
-    contact : tuple of ContactPlace
-        Pressures along the path of contact, the worst last; empty where Hertz's formula gives none.
-    iso : IsoContact or None
-        Contact stress by ISO 6336-2; None but for external spur involutes.
-    wheels : tuple of WheelStrength
-        Both, as the pair names them.
-    notes : tuple of str
-        What does not hold here, and why.
-
     See Also
     --------
     TrainStrength : holds it
     """
 
     pair: str
+    """Its name, and the form of its teeth."""
     form: str
+    """Its name, and the form of its teeth."""
     module: float
+    """Mm; the width is that of the narrower wheel."""
     face_width: float
+    """Mm; the width is that of the narrower wheel."""
     tangential: float
+    """Force along the pitch line [N]."""
     elasticity: float
+    """ZE of both materials [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
+    """Pressures along the path of contact, the worst last; empty where Hertz's formula gives none."""
     iso: IsoContact | None
+    """Contact stress by ISO 6336-2; None but for external spur involutes."""
     wheels: tuple[WheelStrength, ...]
+    """Both, as the pair names them."""
     notes: tuple[str, ...] = ()
+    """What does not hold here, and why."""
 
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
     """An arbor between its two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26).
-
-    Attributes
-    ----------
-    link, material : str
-        The link, and the material of its arbor.
-    force : float
-        Across it, of all its meshes, as if they pulled one way [N].
-    thrust : float
-        Along it: what all its meshes together leave for a shoulder [N].
-    bending, torsion : float
-        Greatest stresses [MPa]; with bending counts what is pressed or drawn along it.
-    stress : float
-        Both together, by von Mises [MPa].
-    pivot_pressure : float
-        The whole force on one pivot, over its diameter times length [MPa].
-    shoulder_pressure : float or None
-        The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor.
-    strength : float or None
-        Of the material [MPa].
 
     See Also
     --------
@@ -238,15 +192,25 @@ class ArborStrength(Result):
     )
 
     link: str
+    """The link, and the material of its arbor."""
     material: str
+    """The link, and the material of its arbor."""
     force: float
+    """Across it, of all its meshes, as if they pulled one way [N]."""
     thrust: float
+    """Along it: what all its meshes together leave for a shoulder [N]."""
     bending: float
+    """Greatest stresses [MPa]; with bending counts what is pressed or drawn along it."""
     torsion: float
+    """Greatest stresses [MPa]; with bending counts what is pressed or drawn along it."""
     stress: float
+    """Both together, by von Mises [MPa]."""
     pivot_pressure: float
+    """The whole force on one pivot, over its diameter times length [MPa]."""
     shoulder_pressure: float | None
+    """The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor."""
     strength: float | None
+    """Of the material [MPa]."""
 
     @property
     def safety(self) -> float | None:
@@ -257,29 +221,6 @@ class ArborStrength(Result):
 @dataclass(frozen=True)
 class WheelStrength(Result):
     """One wheel of a loaded pair.
-
-    Attributes
-    ----------
-    wheel, material : str
-        Its name, and that of its material.
-    torque : float
-        On it [N m].
-    section, thickness : float
-        Where bending is greatest: distance from the axle, and thickness of the tooth there [mm].
-    lewis : float
-        Y of Lewis's formula, the load at the tip.
-    tip_stress : float
-        At the root, one couple bearing all at the tip [MPa].
-    shared_stress : float or None
-        The greatest while couples share the load evenly [MPa]; None without a path of contact.
-    pressure : float or None
-        Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound.
-    strength, spread : float
-        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
-    iso : IsoRoot or None
-        Root stress by ISO 6336-3 for the wheel as a hob cuts it.
-    wear : FlankWear or None
-        None where no time is given, or no hardness.
 
     See Also
     --------
@@ -292,18 +233,31 @@ class WheelStrength(Result):
     )
 
     wheel: str
+    """Its name, and that of its material."""
     material: str
+    """Its name, and that of its material."""
     torque: float
+    """On it [N m]."""
     section: float
+    """Where bending is greatest: distance from the axle, and thickness of the tooth there [mm]."""
     thickness: float
+    """Where bending is greatest: distance from the axle, and thickness of the tooth there [mm]."""
     lewis: float
+    """Y of Lewis's formula, the load at the tip."""
     tip_stress: float
+    """At the root, one couple bearing all at the tip [MPa]."""
     shared_stress: float | None
+    """The greatest while couples share the load evenly [MPa]; None without a path of contact."""
     pressure: float | None
+    """Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound."""
     strength: float | None
+    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
     spread: float | None
+    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
     iso: IsoRoot | None = None
+    """Root stress by ISO 6336-3 for the wheel as a hob cuts it."""
     wear: FlankWear | None = None
+    """None where no time is given, or no hardness."""
 
     @property
     def root_safety(self) -> float | None:
@@ -320,26 +274,19 @@ class WheelStrength(Result):
 class FlankWear(Result):
     """What all flanks of one wheel lose in one mesh: docs/strength.md (14) and (15).
 
-    Attributes
-    ----------
-    passages : float
-        How often each tooth passes.
-    volume : WearRange
-        Worn off all teeth [mm3].
-    mean_depth : WearRange
-        That, spread over their flanks [mm].
-    depth : WearRange or None
-        At the place that loses most [mm]; None where no path of contact says where that is.
-
     See Also
     --------
     WheelStrength : holds it
     """
 
     passages: float
+    """How often each tooth passes."""
     volume: WearRange
+    """Worn off all teeth [mm3]."""
     mean_depth: WearRange
+    """That, spread over their flanks [mm]."""
     depth: WearRange | None
+    """At the place that loses most [mm]; None where no path of contact says where that is."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces
@@ -349,50 +296,31 @@ class FlankWear(Result):
 class WheelForce(Result):
     """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
 
-    Attributes
-    ----------
-    pair, wheel : str
-        The pair, and which of its wheels.
-    radius : float
-        Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm].
-    tangential : float
-        Along that circle, of the sign of its torque. On parallel axes and on bevels both wheels of a pair bear the
-        same, that of the wheel with the greater torque over radius: friction takes part of the other's torque.
-    axial : float
-        Above 0 along the direction of its axis.
-    radial : float or None
-        Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known.
-    torque : float
-        On it [N m].
-
     See Also
     --------
     TrainStrength : holds it
     """
 
     pair: str
+    """The pair, and which of its wheels."""
     wheel: str
+    """The pair, and which of its wheels."""
     radius: float
+    """Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm]."""
     tangential: float
+    """Along that circle, of the sign of its torque. On parallel axes and on bevels both wheels of a pair bear the
+    same, that of the wheel with the greater torque over radius: friction takes part of the other's torque."""
     axial: float
+    """Above 0 along the direction of its axis."""
     radial: float | None
+    """Towards its axis, below 0 of a ring; None of teeth whose pressure angle at the pitch point is not known."""
     torque: float
+    """On it [N m]."""
 
 
 @dataclass(frozen=True)
 class FlankStrength(Result):
     """A wheel whose teeth touch those of its mate at a point.
-
-    Attributes
-    ----------
-    wheel, material : str
-        Its name, and that of its material.
-    strength, spread : float
-        Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it.
-    safety : float or None
-        Pressure at which yielding begins below the flank over that of the contact.
-    tip_stress : float or None
-        Bending at the root [MPa], one couple bearing all at the tip of a tooth; None where no such teeth are cut.
 
     See Also
     --------
@@ -402,11 +330,17 @@ class FlankStrength(Result):
     KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
 
     wheel: str
+    """Its name, and that of its material."""
     material: str
+    """Its name, and that of its material."""
     strength: float | None
+    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
     spread: float | None
+    """Of the material [MPa], and how far that may be off, as a part of it; None where nothing says it."""
     safety: float | None
+    """Pressure at which yielding begins below the flank over that of the contact."""
     tip_stress: float | None = None
+    """Bending at the root [MPa], one couple bearing all at the tip of a tooth; None where no such teeth are cut."""
 
     @property
     def root_safety(self) -> float | None:
@@ -418,67 +352,34 @@ class FlankStrength(Result):
 class PointContact(Result):
     """Helical wheels on axes that cross, or a worm and its wheel, under load: docs/strength.md (24) and (25).
 
-    Attributes
-    ----------
-    pair : str
-        Its name.
-    contact_ratio : float
-        Pitches on which a couple touches, of teeth one module high.
-    normal_force : float
-        Across the flanks, of all couples together [N].
-    pitch_pressure : float
-        At the pitch point [MPa].
-    pressure : float
-        The greatest where as few couples touch as anywhere [MPa].
-    longer, shorter : float
-        Half axes of the ellipse in which they touch there [mm].
-    wheels : tuple of FlankStrength
-        Both, as the pair names them.
-    notes : tuple of str
-        What does not hold here, and why.
-
     See Also
     --------
     TrainStrength : holds it
     """
 
     pair: str
+    """Its name."""
     contact_ratio: float
+    """Pitches on which a couple touches, of teeth one module high."""
     normal_force: float
+    """Across the flanks, of all couples together [N]."""
     pitch_pressure: float
+    """At the pitch point [MPa]."""
     pressure: float
+    """The greatest where as few couples touch as anywhere [MPa]."""
     longer: float
+    """Half axes of the ellipse in which they touch there [mm]."""
     shorter: float
+    """Half axes of the ellipse in which they touch there [mm]."""
     wheels: tuple[FlankStrength, ...]
+    """Both, as the pair names them."""
     notes: tuple[str, ...] = ()
+    """What does not hold here, and why."""
 
 
 @dataclass(frozen=True)
 class PinContact(Result):
     """Pins on lobes of a disc, or in its holes, under load: docs/strength.md (28) to (30).
-
-    Attributes
-    ----------
-    name : str
-        Of the pair, or of the coupling.
-    disc, material : str
-        The wheel with the lobes or holes, and its material.
-    pins : int
-        How many there are.
-    width : float
-        Along which they touch [mm].
-    force : float
-        On the pin where pressure is greatest, at any time [N].
-    radius : float
-        Of a cylinder on a plane that presses as much [mm].
-    pressure : float
-        The greatest [MPa].
-    strength : float or None
-        Of the weaker of both materials [MPa].
-    pin_stress : float or None
-        At the foot of a pin that is held at one end [MPa]; None of pins that lie in their ring.
-    pin_strength : float or None
-        Of the material of pins [MPa].
 
     See Also
     --------
@@ -491,16 +392,27 @@ class PinContact(Result):
     )
 
     name: str
+    """Of the pair, or of the coupling."""
     disc: str
+    """The wheel with the lobes or holes, and its material."""
     material: str
+    """The wheel with the lobes or holes, and its material."""
     pins: int
+    """How many there are."""
     width: float
+    """Along which they touch [mm]."""
     force: float
+    """On the pin where pressure is greatest, at any time [N]."""
     radius: float
+    """Of a cylinder on a plane that presses as much [mm]."""
     pressure: float
+    """The greatest [MPa]."""
     strength: float | None
+    """Of the weaker of both materials [MPa]."""
     pin_stress: float | None = None
+    """At the foot of a pin that is held at one end [MPa]; None of pins that lie in their ring."""
     pin_strength: float | None = None
+    """Of the material of pins [MPa]."""
 
     @property
     def contact_safety(self) -> float | None:

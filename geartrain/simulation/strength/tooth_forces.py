@@ -34,19 +34,17 @@ WheelParts = tuple[float, float, float | None]
 
 @dataclass(frozen=True)
 class ToothForces:
-    """The forces of one case.
-
-    modules   transverse modules (m) by wheel; pairs without one are passed over
-    pairs     torques by pair
-    meshes    pairs with real teeth
-    swings    by pair: the torque that counts over the mean one
-    """
+    """The forces of one case."""
 
     setting: LoadCase
     modules: Mapping[str, float]
+    """Transverse modules (m) by wheel; pairs without one are passed over."""
     pairs: Mapping[str, PairTorque]
+    """Torques by pair."""
     meshes: Mapping[str, GearMesh]
+    """Pairs with real teeth."""
     swings: Mapping[str, float] = field(default_factory=dict)
+    """By pair: the torque that counts over the mean one."""
 
     def find(self) -> Iterator[WheelForce]:
         """Of both wheels of every pair that carries a torque, as the pair names them."""
@@ -183,16 +181,14 @@ def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
 
 
 class PitchForce(NamedTuple):
-    """What a wheel bears from its mate at the pitch point, in the unit of the tangential force.
-
-    tangential   of the torque: that of a torque above 0 is above 0
-    axial        above 0 along the direction of the wheel's axis
-    radial       towards its axis; below 0 of a ring, which is pushed outwards
-    """
+    """What a wheel bears from its mate at the pitch point, in the unit of the tangential force."""
 
     tangential: float
+    """Of the torque: that of a torque above 0 is above 0."""
     axial: float
+    """Above 0 along the direction of the wheel's axis."""
     radial: float
+    """Towards its axis; below 0 of a ring, which is pushed outwards."""
 
 
 def helical_force(tangential: float, helix: float, pressure_angle: float, friction_angle: float = 0.0) -> PitchForce:

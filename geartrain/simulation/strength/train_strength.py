@@ -74,15 +74,14 @@ def solve_strength(
 
 @dataclass(frozen=True)
 class Service:
-    """How long a train runs, and what is assumed of its wear.
-
-    turns, years   of the input, or of time; None where wear is not requested, and never both
-    wear           least and greatest wear coefficient; None for those of `WEAR_RANGE`
-    """
+    """How long a train runs, and what is assumed of its wear."""
 
     turns: float | None = None
+    """Of the input, or of time; None where wear is not requested, and never both."""
     years: float | None = None
+    """Of the input, or of time; None where wear is not requested, and never both."""
     wear: tuple[float, float] | None = None
+    """Least and greatest wear coefficient; None for those of `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
         """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
@@ -132,25 +131,23 @@ def _input_speed(train: TrainMechanics, state: str | None) -> float:
 
 @dataclass(frozen=True)
 class StrengthQuestion:
-    """What is asked of a loaded train.
-
-    train     as it answers; `setting`, its case; `torques`, what was found there
-    meshes    pairs with real teeth as they are driven in this case
-    scale     turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input
-    wear      least and greatest wear coefficient
-    over      turns of the input whose greatest torques bend and press; None where means do
-    greatest  by pair: the greatest torque on its driven side in them [N m]
-    """
+    """What is asked of a loaded train."""
 
     train: TrainMechanics
+    """As it answers; `setting`, its case; `torques`, what was found there."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
+    """Pairs with real teeth as they are driven in this case."""
     scale: float | None
+    """Turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input."""
     turns: float | None
     wear: WearRange
+    """Least and greatest wear coefficient."""
     over: float | None = None
+    """Turns of the input whose greatest torques bend and press; None where means do."""
     greatest: Mapping[str, float] = field(default_factory=dict)
+    """By pair: the greatest torque on its driven side in them [N m]."""
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
@@ -437,17 +434,15 @@ class StrengthQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ArborLoad:
-    """What the wheels of an arbor bear, as bounds: as if all that pulls across pulled one way.
-
-    across   all forces across it [N]
-    along    most of what pushes one way along it [N]; `thrust`, what is left for its shoulders
-    couple   of the forces along, at their radii [N mm]; `torque` [N mm]
-    """
+    """What the wheels of an arbor bear, as bounds: as if all that pulls across pulled one way."""
 
     across: float
+    """All forces across it [N]."""
     along: float
+    """Most of what pushes one way along it [N]; `thrust`, what is left for its shoulders."""
     thrust: float
     couple: float
+    """Of the forces along, at their radii [N mm]; `torque` [N mm]."""
     torque: float
 
     @classmethod

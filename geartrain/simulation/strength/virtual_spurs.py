@@ -48,14 +48,12 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class ConeMiddle:
-    """Pitch cones of a pair, seen in the middle of its teeth: docs/strength.md (23). Lengths in one unit.
-
-    cones    of gears 1 and 2
-    module   at the large ends; `width` of the teeth, from there towards the apex
-    """
+    """Pitch cones of a pair, seen in the middle of its teeth: docs/strength.md (23). Lengths in one unit."""
 
     cones: PitchSurfaces
+    """Of gears 1 and 2."""
     module: float
+    """At the large ends; `width` of the teeth, from there towards the apex."""
     width: float
 
     @property
@@ -166,19 +164,17 @@ class NormalSpurs:
 
 @dataclass(frozen=True)
 class SkewPair:
-    """A pair with the forces on both wheels, as the pair names them.
-
-    wheels      their shapes; `forces`, what they bear from each other
-    materials   names, and what they stand for
-    is_worm     one is a worm
-    form        of their teeth, seen along them
-    """
+    """A pair with the forces on both wheels, as the pair names them."""
 
     wheels: CrossedWheels
+    """Their shapes; `forces`, what they bear from each other."""
     forces: tuple[WheelForce, WheelForce]
     materials: tuple[tuple[str, Material], tuple[str, Material]]
+    """Names, and what they stand for."""
     is_worm: bool
+    """One is a worm."""
     form: Involute
+    """Of their teeth, seen along them."""
 
     def contact(self) -> PointContact:
         """All figures."""

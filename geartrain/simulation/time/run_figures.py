@@ -64,15 +64,13 @@ _Figure = tuple[str, str, float, Literal["mean", "extreme"]]
 
 @dataclass(frozen=True)
 class RunFigures:
-    """One run as figures of the train, and of these outputs of it.
-
-    static_peaks   greatest torque of each pair in balance at every moment (N m), where teeth yield
-    """
+    """One run as figures of the train, and of these outputs of it."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     run: SimulatedRun
     static_peaks: Sequence[float | None]
+    """Greatest torque of each pair in balance at every moment (N m), where teeth yield."""
 
     @property
     def plan(self) -> StepPlan:

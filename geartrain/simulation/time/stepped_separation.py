@@ -49,34 +49,32 @@ _KEPT = 16, 6, 3  # places that are stepped by shorter steps, each time a few of
 
 
 class PartingPlace(NamedTuple):
-    """Where a pair may part, and from what rate on.
-
-    pair            its number
-    angle, speed    of the coordinates shortly before (rad; rad/s at the rate of the model)
-    turns           of the input at the place
-    holds, parts    rates over that of the model at which it touches, and at which it parts
-    """
+    """Where a pair may part, and from what rate on."""
 
     pair: int
+    """Its number."""
     angle: Floats
+    """Of the coordinates shortly before (rad; rad/s at the rate of the model)."""
     speed: Floats
+    """Of the coordinates shortly before (rad; rad/s at the rate of the model)."""
     turns: float
+    """Of the input at the place."""
     holds: float
+    """Rates over that of the model at which it touches, and at which it parts."""
     parts: float
+    """Rates over that of the model at which it touches, and at which it parts."""
 
 
 @dataclass(frozen=True)
 class PartingSearch:
-    """Steps of a train about single places.
-
-    model     at one rate of the input, whose turn takes `turn` (s)
-    advance   called with the steps of each run; where it returns True the search ends with `StoppedSearchError`
-    """
+    """Steps of a train about single places."""
 
     model: ContactModel
+    """At one rate of the input, whose turn takes `turn` (s)."""
     turn: float
     fast: bool
     advance: Callable[[int], object]
+    """Called with the steps of each run; where it returns True the search ends with `StoppedSearchError`."""
 
     @property
     def loose(self) -> list[int]:
@@ -194,46 +192,35 @@ def _lowest(rates: Floats, most: int) -> Iterator[int]:
 class SteppedSeparation(Result):
     """At which rate of the input stepping first parts teeth, without restitution.
 
-    Attributes
-    ----------
-    input : str
-        The link whose rate it is.
-    turns : float
-        Turns of it from the start that were stepped.
-    predicted : float
-        By the condition, in as many turns [turn/s].
-    rate : float or None
-        By steps ever shorter [turn/s]; None where none was found nearby.
-    error : float or None
-        By how much it may be wrong, because steps are not shorter still [turn/s].
-    pair : str or None
-        The pair that parts.
-    at : float or None
-        Turns of the input at which it does.
-    holds, parts : float or None
-        The greatest rate tried at which all flanks touch, and the least at which some part, by the shortest steps
-        [turn/s].
-    flight : float
-        Turns of the input for which flanks must be apart to be noticed for certain.
-    complete : bool
-        False where the search was stopped.
-
     See Also
     --------
     geartrain.simulation.step_to_separation : gives it.
     """
 
     input: str
+    """The link whose rate it is."""
     turns: float
+    """Turns of it from the start that were stepped."""
     predicted: float
+    """By the condition, in as many turns [turn/s]."""
     rate: float | None
+    """By steps ever shorter [turn/s]; None where none was found nearby."""
     error: float | None
+    """By how much it may be wrong, because steps are not shorter still [turn/s]."""
     pair: str | None
+    """The pair that parts."""
     at: float | None
+    """Turns of the input at which it does."""
     holds: float | None
+    """The greatest rate tried at which all flanks touch, and the least at which some part, by the shortest steps
+    [turn/s]."""
     parts: float | None
+    """The greatest rate tried at which all flanks touch, and the least at which some part, by the shortest steps
+    [turn/s]."""
     flight: float
+    """Turns of the input for which flanks must be apart to be noticed for certain."""
     complete: bool = True
+    """False where the search was stopped."""
 
 
 def find_stepped_separation(

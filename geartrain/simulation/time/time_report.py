@@ -29,19 +29,6 @@ _CLOSE = 0.01  # error of steps that is asked for
 class TimeReport(Result):
     """A train in time, with the rates at which its teeth were to part.
 
-    Attributes
-    ----------
-    title : str
-        One line for a reader.
-    separation : SeparationRates or None
-        At what rate teeth first part, by pair, from the condition for it; None where no torques or inertia are known.
-    stepped : SteppedSeparation or None
-        The same by stepping, where it was asked for.
-    inertias : tuple of LinkInertia
-        What moves is as heavy as this.
-    run : TimeRun
-        The run.
-
     See Also
     --------
     collect_time_report : Gives it.
@@ -50,10 +37,15 @@ class TimeReport(Result):
     KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
     title: str
+    """One line for a reader."""
     separation: SeparationRates | None
+    """At what rate teeth first part, by pair, from the condition for it; None where no torques or inertia are known."""
     inertias: tuple[LinkInertia, ...]
+    """What moves is as heavy as this."""
     run: TimeRun
+    """The run."""
     stepped: SteppedSeparation | None = None
+    """The same by stepping, where it was asked for."""
 
 
 def collect_time_report(

@@ -20,64 +20,6 @@ if TYPE_CHECKING:
 class TimeRun(Tabular, Pictured, Result):
     """A train in time, by steps of one length; everything is of the run with the shorter steps.
 
-    Attributes
-    ----------
-    train : str
-        Its name.
-    state : str or None
-        The declared state.
-    lead : str
-        The input that sets the scale.
-    rate : float
-        Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards.
-    step : float
-        Length of a step [s].
-    link : str
-        Where power enters.
-    driven : {"rate", "torque", "spring", "hand"}
-        By what: a speed that is kept; a torque, also of a weight; a spring; a hand that yields.
-    skip, duration : float
-        Time before what is counted, and of what is counted [s].
-    time, turns : array of float, (n,)
-        Of the samples: time [s], and turns of the lead, counted the way in which it is declared to turn.
-    angles, speeds : LabelledArray, (link, time)
-        Of all links [rad, rad/s].
-    torques : LabelledArray, (contact, time)
-        Means between samples, of torques on the driven sides [N m].
-    gaps, coast_gaps : LabelledArray, (pair, time)
-        By how much the driven side is off its drive flank, and off its coast flank [rad]: drive flanks are those that
-        push while the lead turns as declared.
-    outputs, ahead : LabelledArray, (output, time)
-        Angles through which outputs have turned, and by how much they are ahead of `motion` [rad].
-    drive : array of float, (n,)
-        Torque where power enters, mean between samples [N m], the way the train turns.
-    torque : float
-        Mean of that over what is counted: its work over the angle [N m].
-    contacts : tuple of ContactInTime
-        By pair, pin and escapement.
-    impacts : ImpactList
-        Those of the counted part.
-    energy : EnergyAccount
-        Of the counted part.
-    leads : tuple of OutputLead
-        Outputs against `motion`.
-    spectra : mapping of str to tuple of SpectrumPeak
-        By output, strongest first.
-    figures : tuple of SettledFigure
-        What steps of h and h/2 say.
-    unsolved : int
-        Steps in which no consistent set of contacts was found; their last guess was taken.
-    notes : tuple of str
-        What is left out.
-    complete : bool
-        False if it was stopped: then all is of the run with the longer steps, as far as that came, and not compared.
-    model : {"rigid", "compliant"}
-        Whether teeth yield.
-    assumed : tuple of str
-        What nothing declares and was estimated.
-    restitution : float
-        The greatest of those of the contacts.
-
     See Also
     --------
     geartrain.GearTrain.dynamics : gives these.
@@ -122,37 +64,73 @@ class TimeRun(Tabular, Pictured, Result):
     )
 
     train: str
+    """Its name."""
     state: str | None
+    """The declared state."""
     lead: str
+    """The input that sets the scale."""
     rate: float
+    """Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards."""
     link: str
+    """Where power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
+    """By what: a speed that is kept; a torque, also of a weight; a spring; a hand that yields."""
     step: float
+    """Length of a step [s]."""
     skip: float
+    """Time before what is counted, and of what is counted [s]."""
     duration: float
+    """Time before what is counted, and of what is counted [s]."""
     time: Floats
+    """Of the samples: time [s], and turns of the lead, counted the way in which it is declared to turn. Shape (n,)."""
     turns: Floats
+    """Of the samples: time [s], and turns of the lead, counted the way in which it is declared to turn. Shape (n,)."""
     angles: LabelledArray
+    """Of all links [rad, rad/s]. Shape (link, time)."""
     speeds: LabelledArray
+    """Of all links [rad, rad/s]. Shape (link, time)."""
     torques: LabelledArray
+    """Means between samples, of torques on the driven sides [N m]. Shape (contact, time)."""
     gaps: LabelledArray
+    """By how much the driven side is off its drive flank, and off its coast flank [rad]: drive flanks are those that
+    push while the lead turns as declared. Shape (pair, time)."""
     coast_gaps: LabelledArray
+    """By how much the driven side is off its drive flank, and off its coast flank [rad]: drive flanks are those that
+    push while the lead turns as declared. Shape (pair, time)."""
     outputs: LabelledArray
+    """Angles through which outputs have turned, and by how much they are ahead of `motion` [rad]. Shape (output,
+    time)."""
     ahead: LabelledArray
+    """Angles through which outputs have turned, and by how much they are ahead of `motion` [rad]. Shape (output,
+    time)."""
     drive: Floats
+    """Torque where power enters, mean between samples [N m], the way the train turns. Shape (n,)."""
     torque: float
+    """Mean of that over what is counted: its work over the angle [N m]."""
     contacts: tuple[ContactInTime, ...]
+    """By pair, pin and escapement."""
     impacts: ImpactList
+    """Those of the counted part."""
     energy: EnergyAccount
+    """Of the counted part."""
     leads: tuple[OutputLead, ...]
+    """Outputs against `motion`."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
+    """By output, strongest first."""
     figures: tuple[SettledFigure, ...]
+    """What steps of h and h/2 say."""
     unsolved: int
+    """Steps in which no consistent set of contacts was found; their last guess was taken."""
     notes: tuple[str, ...]
+    """What is left out."""
     complete: bool = True
+    """False if it was stopped: then all is of the run with the longer steps, as far as that came, and not compared."""
     model: Literal["rigid", "compliant"] = "rigid"
+    """Whether teeth yield."""
     assumed: tuple[str, ...] = ()
+    """What nothing declares and was estimated."""
     restitution: float = 0.0
+    """The greatest of those of the contacts."""
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """The angles of a link [rad], or the course of a pair."""
@@ -208,64 +186,40 @@ class TimeRun(Tabular, Pictured, Result):
 class ContactInTime(Result):
     """What one pair, pin or escapement did during a run.
 
-    Attributes
-    ----------
-    name : str
-        The pair or coupling; of an escapement its link.
-    apart : float
-        Share of time in which no flank touches.
-    coast : float
-        Share of time on the coast flank, or nearer to it.
-    blows : float
-        Impacts a second [1/s].
-    power : float
-        What they take [W].
-    hardest : float
-        Greatest closing speed of one, of the driven side [rad/s].
-    torque : float
-        Mean torque on the driven side, forwards positive [N m].
-    rubbed : float
-        What friction takes [W].
-    gap : float
-        Greatest gap, to the nearer flank [rad].
-    changes : float
-        Changes from one flank to the other without time apart [1/s].
-    peak : float or None
-        Greatest torque on the driven side of teeth that yield [N m]; None of rigid ones, which give blows.
-    dynamic_factor : float or None
-        That over the greatest torque in balance at every moment; None where no speed is prescribed.
-
     See Also
     --------
     TimeRun.contacts : where these stand.
     """
 
     name: str
+    """The pair or coupling; of an escapement its link."""
     apart: float
+    """Share of time in which no flank touches."""
     coast: float
+    """Share of time on the coast flank, or nearer to it."""
     blows: float
+    """Impacts a second [1/s]."""
     power: float
+    """What they take [W]."""
     hardest: float
+    """Greatest closing speed of one, of the driven side [rad/s]."""
     torque: float
+    """Mean torque on the driven side, forwards positive [N m]."""
     rubbed: float
+    """What friction takes [W]."""
     gap: float
+    """Greatest gap, to the nearer flank [rad]."""
     changes: float
+    """Changes from one flank to the other without time apart [1/s]."""
     peak: float | None = None
+    """Greatest torque on the driven side of teeth that yield [N m]; None of rigid ones, which give blows."""
     dynamic_factor: float | None = None
+    """That over the greatest torque in balance at every moment; None where no speed is prescribed."""
 
 
 @dataclass(frozen=True)
 class ImpactList(Result):
     """Impacts one after another, as far as they were kept.
-
-    Attributes
-    ----------
-    total : int
-        How many there were.
-    contact : tuple of str
-        The pair, pin or escapement of each that was kept.
-    time, speed, energy, impulse : array of float, (kept,)
-        Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s].
 
     See Also
     --------
@@ -275,33 +229,22 @@ class ImpactList(Result):
     KEYS = ("total",)
 
     total: int
+    """How many there were."""
     contact: tuple[str, ...]
+    """The pair, pin or escapement of each that was kept."""
     time: Floats
+    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
     speed: Floats
+    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
     energy: Floats
+    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
     impulse: Floats
+    """Of each: time [s], closing speed [rad/s], energy taken [J], impulse on the driven side [N m s]. Shape (kept,)."""
 
 
 @dataclass(frozen=True)
 class EnergyAccount(Result):
     """Where energy came from and went [J]: what is put in is what is taken and what kinetic energy has grown by.
-
-    Attributes
-    ----------
-    drive, loads, springs : float
-        Work of what keeps a speed, of constant torques, of springs.
-    bearings, drag, friction : float
-        Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins.
-    blows : float
-        Taken by impacts; of teeth that yield, by their damping.
-    steps : float
-        Taken, or given, by contact that lasts: an error of the steps' length, that falls with it.
-    kinetic : float
-        Growth of kinetic energy.
-    stored : float
-        Kinetic energy at the end.
-    elastic : float
-        Growth of the energy stored in teeth that yield.
 
     See Also
     --------
@@ -324,16 +267,27 @@ class EnergyAccount(Result):
     )
 
     drive: float
+    """Work of what keeps a speed, of constant torques, of springs."""
     loads: float
+    """Work of what keeps a speed, of constant torques, of springs."""
     springs: float
+    """Work of what keeps a speed, of constant torques, of springs."""
     bearings: float
+    """Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins."""
     drag: float
+    """Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins."""
     friction: float
+    """Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins."""
     blows: float
+    """Taken by impacts; of teeth that yield, by their damping."""
     steps: float
+    """Taken, or given, by contact that lasts: an error of the steps' length, that falls with it."""
     kinetic: float
+    """Growth of kinetic energy."""
     stored: float
+    """Kinetic energy at the end."""
     elastic: float = 0.0
+    """Growth of the energy stored in teeth that yield."""
 
     @property
     def put_in(self) -> float:
@@ -353,45 +307,24 @@ class EnergyAccount(Result):
 class OutputLead(Result):
     """How far an output runs ahead of the motion in which all drive flanks touch, and behind it.
 
-    Attributes
-    ----------
-    output : str
-        Its name.
-    ahead, behind : float
-        Greatest angles, 0 or more [rad].
-    rms : float
-        Root mean square of the difference [rad].
-
     See Also
     --------
     TimeRun.leads : where these stand.
     """
 
     output: str
+    """Its name."""
     ahead: float
+    """Greatest angles, 0 or more [rad]."""
     behind: float
+    """Greatest angles, 0 or more [rad]."""
     rms: float
+    """Root mean square of the difference [rad]."""
 
 
 @dataclass(frozen=True)
 class SettledFigure(Result):
     """A figure by steps of length h and h/2, with what the length of the run leaves open.
-
-    Attributes
-    ----------
-    name : str
-        What it is of.
-    unit : str
-        Its unit.
-    coarse, fine : float
-        By steps of length h, and of h/2.
-    kind : {"mean", "extreme"}
-        A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic.
-    settled : bool
-        Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that is
-        more; and whether the interval of a mean is as narrow.
-    interval : float or None
-        Half the 95 % interval of a mean, from blocks of whole turns; None of an extreme, and of fewer than 5 turns.
 
     See Also
     --------
@@ -399,28 +332,25 @@ class SettledFigure(Result):
     """
 
     name: str
+    """What it is of."""
     unit: str
+    """Its unit."""
     coarse: float
+    """By steps of length h, and of h/2."""
     fine: float
+    """By steps of length h, and of h/2."""
     kind: Literal["mean", "extreme"]
+    """A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic."""
     settled: bool
+    """Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that
+    is more; and whether the interval of a mean is as narrow."""
     interval: float | None = None
+    """Half the 95 % interval of a mean, from blocks of whole turns; None of an extreme, and of fewer than 5 turns."""
 
 
 @dataclass(frozen=True)
 class SpectrumPeak(Result):
     """A line of the spectrum of an output's angle about its mean motion.
-
-    Attributes
-    ----------
-    order : float
-        Periods in a turn of the lead.
-    frequency : float
-        The same a second [Hz].
-    amplitude : float
-        Of the angle [rad].
-    source : str
-        The pair (or beat) and harmonic that fall on it, such as `c2~d1 x1`; empty for none.
 
     See Also
     --------
@@ -428,6 +358,10 @@ class SpectrumPeak(Result):
     """
 
     order: float
+    """Periods in a turn of the lead."""
     frequency: float
+    """The same a second [Hz]."""
     amplitude: float
+    """Of the angle [rad]."""
     source: str
+    """The pair (or beat) and harmonic that fall on it, such as `c2~d1 x1`; empty for none."""

@@ -40,21 +40,20 @@ _SLOW = 7e-5  # s: a step of one contact in plain Python
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """What is asked of a train in time.
-
-    turns, skip   of the lead: counted, and left out before
-    steps         of the coarser run in a turn of the lead; None for what its teeth ask
-    samples       kept of the whole run; None for what a spectrum asks
-    fast          whether kernels are compiled; None decides by the work
-    """
+    """What is asked of a train in time."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     turns: float
+    """Of the lead: counted, and left out before."""
     skip: float = 1.0
+    """Of the lead: counted, and left out before."""
     steps: int | None = None
+    """Of the coarser run in a turn of the lead; None for what its teeth ask."""
     samples: int | None = None
+    """Kept of the whole run; None for what a spectrum asks."""
     fast: bool | None = None
+    """Whether kernels are compiled; None decides by the work."""
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:

@@ -30,20 +30,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DrivenTrain:
-    """A train, and how it is driven in time. Equal planets are taken as one.
-
-    rate          of the first input that turns, as text or in rad/s; None for the declared drive
-    restitution   of all impacts, in place of what is declared
-    outputs       what is recorded: outputs or links; by default all outputs, and all links of a train without any
-    without       pairs left out
-    """
+    """A train, and how it is driven in time. Equal planets are taken as one."""
 
     train: TrainMechanics
     state: str | None = None
     rate: str | float | None = None
+    """Of the first input that turns, as text or in rad/s; None for the declared drive."""
     restitution: float | None = None
+    """Of all impacts, in place of what is declared."""
     outputs: Sequence[str] = ()
+    """What is recorded: outputs or links; by default all outputs, and all links of a train without any."""
     without: Sequence[str] = ()
+    """Pairs left out."""
 
     def study(
         self,
@@ -242,35 +240,25 @@ def radians_per_second(rate: str | float | None) -> float | None:
 class VibrationModes(Result):
     """How a train swings about contact: what solves K phi = w^2 M phi, speed ratios at their means.
 
-    Attributes
-    ----------
-    train : str
-        Its name.
-    frequencies : array of float, (mode,)
-        Rising [Hz]; 0 where the train turns as a whole and nothing prescribes its speed.
-    damping : array of float, (mode,)
-        Ratio to the critical, of each mode by itself; 0 at 0 Hz.
-    shapes : LabelledArray, (link, mode)
-        Angles of links, the greatest of each mode 1.
-    stiffness : mapping of str to float
-        Of each pair, on its driven side [N m/rad].
-    notes : tuple of str
-        What is left out.
-    assumed : tuple of str
-        What nothing declares and was estimated.
-
     See Also
     --------
     geartrain.simulation.find_vibration_modes : gives these.
     """
 
     train: str
+    """Its name."""
     frequencies: Floats
+    """Rising [Hz]; 0 where the train turns as a whole and nothing prescribes its speed. Shape (mode,)."""
     damping: Floats
+    """Ratio to the critical, of each mode by itself; 0 at 0 Hz. Shape (mode,)."""
     shapes: LabelledArray
+    """Angles of links, the greatest of each mode 1. Shape (link, mode)."""
     stiffness: dict[str, float]
+    """Of each pair, on its driven side [N m/rad]."""
     notes: tuple[str, ...]
+    """What is left out."""
     assumed: tuple[str, ...]
+    """What nothing declares and was estimated."""
 
     def _repr_html_(self) -> str:
         links = self.shapes.labels[0]

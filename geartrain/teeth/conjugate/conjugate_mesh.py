@@ -178,14 +178,7 @@ def _shallow(gear: int, overlap: float) -> Problem:
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Figures of a pair with conjugate teeth, with those of its path of contact as designed.
-
-    arcs             of the driver's approach and recess (pitches)
-    pressure_angle   at the pitch point (rad)
-    shaft_angle      between the axes (rad); None where they are parallel
-    helix_angle      of helical wheels (rad); None of straight teeth
-    overlap_ratio    pitches by which helical teeth lead along their width; None where that is not known
-    """
+    """Figures of a pair with conjugate teeth, with those of its path of contact as designed."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -198,11 +191,17 @@ class ConjugateFigures(PairFigures):
     )
 
     arcs: tuple[float, float]
+    """Of the driver's approach and recess (pitches)."""
     contact_ratio: float
+    """Length of the path of contact, in pitches."""
     pressure_angle: float
+    """At the pitch point (rad)."""
     shaft_angle: float | None
+    """Between the axes (rad); None where they are parallel."""
     helix_angle: float | None = None
+    """Of helical wheels (rad); None of straight teeth."""
     overlap_ratio: float | None = None
+    """Pitches by which helical teeth lead along their width; None where that is not known."""
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
@@ -256,42 +255,33 @@ def _driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[fl
 
 @dataclass(frozen=True)
 class DesignCosts(Result):
-    """What a path of contact costs.
-
-    measures           loss, stress, heat, flash, depth
-    sliding            greatest sliding over the pitch-line speed
-    specific_sliding   greatest sliding over the slower of the contact's speeds along the flanks; infinite where it
-                       stands still
-    """
+    """What a path of contact costs."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
+    """Loss, stress, heat, flash, depth."""
     sliding: float
+    """Greatest sliding over the pitch-line speed."""
     specific_sliding: float
+    """Greatest sliding over the slower of the contact's speeds along the flanks; infinite where it stands still."""
 
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of sliding where pairs of teeth in contact share the load.
-
-    assumption   the same in words
-    sliding      exact in friction
-    """
+    """Efficiency of sliding where pairs of teeth in contact share the load."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
+    """Exact in friction."""
     assumption: str = SHARED
+    """The same in words."""
 
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """A pair with conjugate teeth as designed; gear 1 first, lengths in modules (bevel: rad), angles in rad.
-
-    mesh       the pair, as it is driven
-    outlines   wheels that were cut
-    """
+    """A pair with conjugate teeth as designed; gear 1 first, lengths in modules (bevel: rad), angles in rad."""
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
@@ -299,7 +289,9 @@ class PairDesign(Result):
     )
 
     mesh: ConjugateMesh
+    """The pair, as it is driven."""
     outlines: tuple[WheelOutline, ...] = ()
+    """Wheels that were cut."""
 
     @property
     def path(self) -> PathOfContact:

@@ -33,29 +33,21 @@ _TOUCH = 1e-12  # of a pitch: a gap between two contacts that is rounding
 class ConjugatePair:
     """Two wheels at their design distance: path of contact, thickness of their teeth, and why they cannot run.
 
-    Attributes
-    ----------
-    path : PathOfContact
-        Where they touch.
-    halves : tuple of float
-        Half the thickness of a tooth of each gear on its pitch surface, as X.
-    given : tuple of ToothFault or None
-        All faults, where they do not follow from path and thickness.
-    extra : tuple of ToothFault
-        Faults besides those that follow from path and thickness.
-    solid : tuple of bool
-        False for a gear whose teeth are round pins.
-
     See Also
     --------
     geartrain.teeth.Involute : every conjugate form has methods `pair` and `pair_of_arcs` that give it.
     """
 
     path: PathOfContact
+    """Where they touch."""
     halves: Halves
+    """Half the thickness of a tooth of each gear on its pitch surface, as X."""
     given: tuple[ToothFault, ...] | None = None
+    """All faults, where they do not follow from path and thickness."""
     extra: tuple[ToothFault, ...] = ()
+    """Faults besides those that follow from path and thickness."""
     solid: tuple[bool, bool] = (True, True)
+    """False for a gear whose teeth are round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:

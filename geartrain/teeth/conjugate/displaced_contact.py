@@ -110,12 +110,10 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """How far (rad) the driven wheel falls behind while a tip touches beyond an end of the path, over even steps.
-
-    step   of the driver's angle beyond the end (rad); the last lag is where the corner has no flank left
-    """
+    """How far (rad) the driven wheel falls behind while a tip touches beyond an end of the path, over even steps."""
 
     step: float
+    """Of the driver's angle beyond the end (rad); the last lag is where the corner has no flank left."""
     lags: Floats
 
     def __call__(self, beyond: Floats) -> Floats:
@@ -134,18 +132,16 @@ class CornerLag:
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """What fractions of one wheel's errors are of, lengths in modules (cones: rad on the unit sphere).
-
-    depth        between the radii at which its flank works
-    half_angle   of the chord of its flank, from where it begins to work to its tip, with the middle of its tooth, at
-                 least 10 degrees (rad)
-    modules      in one of these lengths
-    """
+    """What fractions of one wheel's errors are of, lengths in modules (cones: rad on the unit sphere)."""
 
     z: int
     depth: float
+    """Between the radii at which its flank works."""
     half_angle: float
+    """Of the chord of its flank, from where it begins to work to its tip, with the middle of its tooth, at least 10
+    degrees (rad)."""
     modules: float = 1.0
+    """In one of these lengths."""
 
     @property
     def pitch(self) -> float:
@@ -160,35 +156,36 @@ class DisplacedContact:
     Lengths are modules; on cones they are angles on the unit sphere. All columns are rad of the driven wheel's lag for
     one unit, at even steps of the driver's angle x past its place from `start` to `end` (rad). Of the driver (1) and of
     the driven wheel (2):
-
-    wheels       the driver and the driven wheel
-    across, along   of a wheel whose teeth stand off its axle across the line of centres (the way it moves), and along
-    tilt         of a flank that is flatter by 1 rad, turned about its pitch point
-    apart        of axles farther apart, or a wider shaft angle
-    normal       of a flank lower by 1 along its normal: 1 over the moment arm
-    entering, leaving   of tips beyond the ends of the path
-    longer       how far (rad of the driver) a tip higher by 1 moves the end (the driver's) or the start
-    play         rad of the driven wheel
-    stands       where a driven tooth stands when its angle is 0 (rad past the line of centres)
-    distance     of the axles; infinite where they are not parallel
-    even         the lag of even wheels, as that of axles which do not stand as designed (rad), along the same steps
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
+    """The driver and the driven wheel."""
     start: float
     end: float
     across: tuple[Floats, Floats]
+    """Of a wheel whose teeth stand off its axle across the line of centres (the way it moves), and along."""
     along: tuple[Floats, Floats]
+    """Of a wheel whose teeth stand off its axle across the line of centres (the way it moves), and along."""
     tilt: tuple[Floats, Floats]
+    """Of a flank that is flatter by 1 rad, turned about its pitch point."""
     apart: Floats
+    """Of axles farther apart, or a wider shaft angle."""
     normal: Floats
+    """Of a flank lower by 1 along its normal: 1 over the moment arm."""
     entering: CornerLag
+    """Of tips beyond the ends of the path."""
     leaving: CornerLag
+    """Of tips beyond the ends of the path."""
     longer: tuple[float, float]
+    """How far (rad of the driver) a tip higher by 1 moves the end (the driver's) or the start."""
     play: float
+    """Rad of the driven wheel."""
     stands: float
+    """Where a driven tooth stands when its angle is 0 (rad past the line of centres)."""
     even: Floats
+    """The lag of even wheels, as that of axles which do not stand as designed (rad), along the same steps."""
     distance: float
+    """Of the axles; infinite where they are not parallel."""
 
     @property
     def ratio(self) -> Fraction:

@@ -30,10 +30,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """One wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad).
-
-    cut   depth to which the rack's flank is straight: undercut begins where that is too deep
-    """
+    """One wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad)."""
 
     z: float
     psi: float
@@ -41,6 +38,7 @@ class InvoluteWheel:
     addendum: float
     dedendum: float
     cut: float
+    """Depth to which the rack's flank is straight: undercut begins where that is too deep."""
     ring: bool = False
 
     @property
@@ -91,15 +89,13 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Two wheels at a centre distance, the first driving; the second may be a ring.
-
-    thinned   how much thinner than a rack without play cuts them the teeth of both wheels are, summed, as X
-    """
+    """Two wheels at a centre distance, the first driving; the second may be a ring."""
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
+    """How much thinner than a rack without play cuts them the teeth of both wheels are, summed, as X."""
 
     @property
     def psi(self) -> float:

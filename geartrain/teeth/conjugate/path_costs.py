@@ -55,22 +55,6 @@ _STEP, _STEPS = 1.25, 40  # growth of the bracket, and how often it may grow: by
 class PathCosts(Result):
     """Costs of a path under one assumption on the load, friction and load taken out; lengths in modules or radians.
 
-    Attributes
-    ----------
-    assumption : str
-        How pairs of teeth share the load.
-    loss : float
-        Mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path
-        (Buckingham); shared: the mean over a pitch (Ohlendorf).
-    stress : float
-        Maximum Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0.
-    off_pitch : float
-        The same where |X| is more than a tenth of a pitch.
-    heat : float
-        Maximum heat per area of either profile, over friction times tangential force: max Q.
-    flash : float
-        Maximum of what the flash temperature is proportional to.
-
     See Also
     --------
     measure : gives it.
@@ -79,11 +63,18 @@ class PathCosts(Result):
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
 
     assumption: str
+    """How pairs of teeth share the load."""
     loss: float
+    """Mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path
+    (Buckingham); shared: the mean over a pitch (Ohlendorf)."""
     stress: float
+    """Maximum Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0."""
     off_pitch: float
+    """The same where |X| is more than a tenth of a pitch."""
     heat: float
+    """Maximum heat per area of either profile, over friction times tangential force: max Q."""
     flash: float
+    """Maximum of what the flash temperature is proportional to."""
 
     def over(self, other: PathCosts) -> dict[str, float]:
         """Each of the quantities as a ratio to another path's.
@@ -100,17 +91,6 @@ class PathCosts(Result):
 class PathMeasures(Result):
     """Costs of one path, and its geometry; lengths in modules or radians.
 
-    Attributes
-    ----------
-    one_pair, shared : PathCosts
-        Where one pair bears the load, and where pairs in contact share it equally.
-    depth : float
-        Working depth |eta_a| + eta_r.
-    slowest : float
-        Minimum speed of the contact along a dedendum, over the pitch-line speed.
-    contact_ratio : float
-        Pitches of displacement while one pair touches.
-
     See Also
     --------
     measure : gives it.
@@ -119,10 +99,15 @@ class PathMeasures(Result):
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
 
     one_pair: PathCosts
+    """Where one pair bears the load, and where pairs in contact share it equally."""
     shared: PathCosts
+    """Where one pair bears the load, and where pairs in contact share it equally."""
     depth: float
+    """Working depth |eta_a| + eta_r."""
     slowest: float
+    """Minimum speed of the contact along a dedendum, over the pitch-line speed."""
     contact_ratio: float
+    """Pitches of displacement while one pair touches."""
 
     def over(self, other: PathMeasures) -> PathRatios:
         """Each of the quantities as a ratio to another path's.
@@ -138,17 +123,16 @@ class PathMeasures(Result):
 
 @dataclass(frozen=True, slots=True)
 class PathRatios(Result):
-    """Measures of one path over those of another, by their names.
-
-    one_pair, shared   of costs, by their assumption on the load
-    free               of what depends on no load
-    """
+    """Measures of one path over those of another, by their names."""
 
     KEYS = (Key("one_pair", to=finite), Key("shared", to=finite), Key("", "free", finite))
 
     one_pair: dict[str, float]
+    """Of costs, by their assumption on the load."""
     shared: dict[str, float]
+    """Of costs, by their assumption on the load."""
     free: dict[str, float]
+    """Of what depends on no load."""
 
 
 def measure(path: PathOfContact) -> PathMeasures:

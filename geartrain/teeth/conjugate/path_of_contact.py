@@ -234,54 +234,43 @@ def none(psi: float) -> PathSide:
 class PathContact:
     """The contact at pitch-line displacements X: arrays of one shape. X < 0 is approach, X > 0 recess.
 
-    Attributes
-    ----------
-    X : ndarray
-        Pitch-line displacement [module; rad for bevels].
-    d : ndarray
-        Signed distance from the pitch point [module; rad].
-    sin_psi, cos_psi : ndarray
-        Of the pressure angle.
-    q : ndarray
-        d(psi)/dX.
-    w : ndarray
-        d(S sin psi)/dd.
-    U1, U2 : ndarray
-        Speed of the contact along each profile, over the pitch-line speed.
-    k1, k2 : ndarray
-        (Geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0.
-    kr : ndarray
-        Relative curvature k1 - k2.
-    H : ndarray
-        kr / cos psi: the Hertz pressure is proportional to its square root.
-    Q1, Q2 : ndarray
-        Frictional heat per area of each profile, over friction times tangential force.
-    flash : ndarray
-        F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature of like materials is proportional.
-    rub : ndarray
-        |S| / cos psi; the loss is proportional to its integral over X.
-
     See Also
     --------
     PathOfContact.at : gives it.
     """
 
     X: Floats
+    """Pitch-line displacement [module; rad for bevels]."""
     d: Floats
+    """Signed distance from the pitch point [module; rad]."""
     sin_psi: Floats
+    """Of the pressure angle."""
     cos_psi: Floats
+    """Of the pressure angle."""
     q: Floats
+    """d(psi)/dX."""
     w: Floats
+    """d(S sin psi)/dd."""
     U1: Floats
+    """Speed of the contact along each profile, over the pitch-line speed."""
     U2: Floats
+    """Speed of the contact along each profile, over the pitch-line speed."""
     k1: Floats
+    """(Geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0."""
     k2: Floats
+    """(Geodesic) curvature of each profile; gear 1 is convex where k1 > 0, gear 2 where k2 < 0."""
     kr: Floats
+    """Relative curvature k1 - k2."""
     H: Floats
+    """Kr / cos psi: the Hertz pressure is proportional to its square root."""
     Q1: Floats
+    """Frictional heat per area of each profile, over friction times tangential force."""
     Q2: Floats
+    """Frictional heat per area of each profile, over friction times tangential force."""
     flash: Floats
+    """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature of like materials is proportional."""
     rub: Floats
+    """|S| / cos psi; the loss is proportional to its integral over X."""
 
     @property
     def psi(self) -> Floats:
@@ -293,16 +282,6 @@ class PathContact:
 @dataclass(frozen=True)
 class PathOfContact:
     """Where contact happens: one side before the pitch point, one after. Lengths in modules; of bevels rad.
-
-    Attributes
-    ----------
-    pitch : PitchSurfaces
-        Pitch cylinders or cones of both gears.
-    approach, recess : PathSide
-        The two sides.
-    real : tuple of float or None
-        Arcs of approach and recess (X) in which the teeth touch, where they are shorter than the sides; one is negative
-        where contact begins, or ends, beyond the pitch point. None for the arcs of the sides.
 
     See Also
     --------
@@ -318,9 +297,14 @@ class PathOfContact:
     """
 
     pitch: PitchSurfaces
+    """Pitch cylinders or cones of both gears."""
     approach: PathSide
+    """The two sides."""
     recess: PathSide
+    """The two sides."""
     real: tuple[float, float] | None = None
+    """Arcs of approach and recess (X) in which the teeth touch, where they are shorter than the sides; one is
+    negative where contact begins, or ends, beyond the pitch point. None for the arcs of the sides."""
 
     @cached_property
     def arcs(self) -> tuple[float, float]:

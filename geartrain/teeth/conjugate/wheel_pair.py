@@ -20,19 +20,6 @@ _LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, a
 class WheelPair:
     """The two wheels of a pair with conjugate teeth.
 
-    Attributes
-    ----------
-    z1, z2 : float
-        Tooth counts, which are not whole for virtual wheels that represent bevels.
-    internal : bool
-        The second is a ring.
-    shaft_angle : float or None
-        Angle of the axes [rad], for bevels; None for parallel axes.
-    module : float or None
-        Transverse module [m], as all lengths of the pair are transverse; None where no length gives it.
-    helix : float
-        Helix angle of helical wheels [rad], 0 or more.
-
     See Also
     --------
     geartrain.teeth.Involute : its method `pair` takes them.
@@ -46,11 +33,17 @@ class WheelPair:
     """
 
     z1: float
+    """Tooth counts, which are not whole for virtual wheels that represent bevels."""
     z2: float
+    """Tooth counts, which are not whole for virtual wheels that represent bevels."""
     internal: bool = False
+    """The second is a ring."""
     shaft_angle: float | None = None
+    """Angle of the axes [rad], for bevels; None for parallel axes."""
     module: float | None = None
+    """Transverse module [m], as all lengths of the pair are transverse; None where no length gives it."""
     helix: float = 0.0
+    """Helix angle of helical wheels [rad], 0 or more."""
 
     @classmethod
     def of(

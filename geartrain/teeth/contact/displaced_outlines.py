@@ -36,21 +36,20 @@ _BLUNT = radians(10)  # half the aperture, at least
 
 
 class CoupleContact(NamedTuple):
-    """One couple alone at driver's angles x (rad past its place), the driver's axle at 0, the driven one on the x axis.
-
-    lag      of the driven wheel behind its even motion (rad)
-    point    where it touches (2, n), in modules
-    normal   the direction in which the driver pushes (2, n)
-    angle    of the driven tooth past the line of centres (rad)
-    corner   1 where the driver's tip touches, 2 the driven one's, 3 both, 0 neither; -1 where nothing touches
-    """
+    """One couple alone at driver's angles x (rad past its place), the driver's axle at 0, the driven one on the x
+    axis."""
 
     x: Floats
     lag: Floats
+    """Of the driven wheel behind its even motion (rad)."""
     point: Floats
+    """Where it touches (2, n), in modules."""
     normal: Floats
+    """The direction in which the driver pushes (2, n)."""
     angle: Floats
+    """Of the driven tooth past the line of centres (rad)."""
     corner: Indices
+    """1 where the driver's tip touches, 2 the driven one's, 3 both, 0 neither; -1 where nothing touches."""
 
 
 class CoupleSearch:

@@ -132,20 +132,20 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Parts of the driver's side on which G is smooth; n of them.
-
-    couple, piece1, piece2   where
-    u      (2, n): from, to, on piece1
-    seen   (4, 2, n): radius and azimuth about the second axle at both ends, and their slopes by u
-    v      (2, n): the end of piece2 that is met at either end, -1 or 1; NaN where it is not an end
-    """
+    """Parts of the driver's side on which G is smooth; n of them."""
 
     couple: Indices
+    """Where."""
     piece1: Indices
+    """Where."""
     piece2: Indices
+    """Where."""
     u: Floats
+    """(2, n): from, to, on piece1."""
     seen: Floats
+    """(4, 2, n): radius and azimuth about the second axle at both ends, and their slopes by u."""
     v: Floats
+    """(2, n): the end of piece2 that is met at either end, -1 or 1; NaN where it is not an end."""
 
 
 @dataclass(frozen=True)

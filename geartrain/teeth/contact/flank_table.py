@@ -23,23 +23,22 @@ _NEAR = 1e-10  # a Newton step as short as this ends on the root: the next would
 
 @dataclass(frozen=True)
 class FlankTable:
-    """Pieces of the sides of all teeth, each with u from -1 to 1 and radius rising.
-
-    radius, azimuth   coefficients (COUNT, pieces)
-    corners           (2, pieces): whether a piece begins, ends, in a corner of the outline
-    flat              (pieces,): arcs about the axle
-    first             (teeth + 1,): where the pieces of a tooth begin
-    curve             (pieces,): number of the curve a piece is of, counted through all teeth
-    error             greatest difference found between pieces and curves: radius, azimuth (rad)
-    """
+    """Pieces of the sides of all teeth, each with u from -1 to 1 and radius rising."""
 
     radius: Floats
+    """Coefficients (COUNT, pieces)."""
     azimuth: Floats
+    """Coefficients (COUNT, pieces)."""
     corners: Bools
+    """(2, pieces): whether a piece begins, ends, in a corner of the outline."""
     flat: Bools
+    """(pieces,): arcs about the axle."""
     first: Indices
+    """(teeth + 1,): where the pieces of a tooth begin."""
     curve: Indices
+    """(pieces,): number of the curve a piece is of, counted through all teeth."""
     error: tuple[float, float]
+    """Greatest difference found between pieces and curves: radius, azimuth (rad)."""
 
     @cached_property
     def mirrored(self) -> FlankTable:

@@ -31,22 +31,18 @@ _STILL = 1e-3  # of its second derivative: a slope that says nothing of the dire
 class OutlineCurve:
     """A smooth curve of a tooth, from parameter `start` to `end`.
 
-    Attributes
-    ----------
-    points : callable
-        Parameters of shape (n,) -> (n, 2): x forward, y outward along the middle of the tooth, the axle at 0; or
-        (n, 3), bevel, on the unit sphere, the axis along z.
-    start, end : float
-        Parameters of its ends.
-
     See Also
     --------
     polyline : straight curves.
     """
 
     points: Callable[[Floats], Floats]
+    """Parameters of shape (n,) -> (n, 2): x forward, y outward along the middle of the tooth, the axle at 0; or (n,
+    3), bevel, on the unit sphere, the axis along z."""
     start: float = 0.0
+    """Parameters of its ends."""
     end: float = 1.0
+    """Parameters of its ends."""
 
     def at(self, t: ArrayLike) -> Floats:
         """Points of the curve.
@@ -145,20 +141,15 @@ class ToothFlanks:
 
     Tip lands and bottoms need not be given: no arc about the axle touches before its ends do.
 
-    Attributes
-    ----------
-    ahead : tuple of OutlineCurve
-        The side that leads when the wheel turns forward: larger azimuths.
-    behind : tuple of OutlineCurve
-        The other side.
-
     See Also
     --------
     solve : an example with such teeth.
     """
 
     ahead: tuple[OutlineCurve, ...]
+    """The side that leads when the wheel turns forward: larger azimuths."""
     behind: tuple[OutlineCurve, ...]
+    """The other side."""
 
     @classmethod
     def symmetric(cls, ahead: Sequence[OutlineCurve], middle: float = 0.0) -> ToothFlanks:
@@ -215,17 +206,6 @@ class ToothFlanks:
 class GearOutline:
     """A wheel: z teeth about its axle, tooth k turned forward by k pitches.
 
-    Attributes
-    ----------
-    teeth : tuple of ToothFlanks
-        One tooth for all, or one for each of z.
-    z : int
-        Number of teeth, 1 or more.
-    turns : tuple of float
-        What tooth k is ahead of its place [rad], z numbers; none where pitches are equal.
-    ring : bool
-        The teeth point inwards.
-
     Raises
     ------
     QuestionError
@@ -237,9 +217,13 @@ class GearOutline:
     """
 
     teeth: tuple[ToothFlanks, ...]
+    """One tooth for all, or one for each of z."""
     z: int
+    """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
+    """What tooth k is ahead of its place [rad], z numbers; none where pitches are equal."""
     ring: bool = False
+    """The teeth point inwards."""
 
     def __post_init__(self) -> None:
         for name, number, few in (("teeth", len(self.teeth), (1, self.z)), ("turns", len(self.turns), (0, self.z))):

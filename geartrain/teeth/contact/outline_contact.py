@@ -184,36 +184,27 @@ def _check(first: GearOutline, second: GearOutline, distance: float) -> None:
 class FlankContact:
     """Where the driven wheel stands against one side of the driver's teeth; arrays of the shape of the driver's angles.
 
-    Attributes
-    ----------
-    angle : ndarray
-        Driven angle [rad], NaN where no tooth is in reach.
-    speed : ndarray
-        d angle / d driver's angle.
-    pair : ndarray of int
-        Number of the driver's tooth that touches, counted forward from tooth 0 without end.
-    kind : ndarray of int
-        What touches, an index into `KINDS`: smooth sides or a corner.
-    radius1, radius2 : ndarray
-        Of the contact about either axle, in the outlines' unit; bevel: polar angles [rad].
-    sharing : ndarray of int
-        How many pairs of teeth are within reach of the contact.
-    curves : ndarray of int
-        (2, ...): which curve of either outline touches, counted through the sides of all its teeth; -1 where none.
-
     See Also
     --------
     contact, solve : what gives it.
     """
 
     angle: Floats
+    """Driven angle [rad], NaN where no tooth is in reach."""
     speed: Floats
+    """D angle / d driver's angle."""
     pair: Indices
+    """Number of the driver's tooth that touches, counted forward from tooth 0 without end."""
     kind: Indices
+    """What touches, an index into `KINDS`: smooth sides or a corner."""
     radius1: Floats
+    """Of the contact about either axle, in the outlines' unit; bevel: polar angles [rad]."""
     radius2: Floats
+    """Of the contact about either axle, in the outlines' unit; bevel: polar angles [rad]."""
     sharing: Indices
+    """How many pairs of teeth are within reach of the contact."""
     curves: Indices
+    """(2, ...): which curve of either outline touches, counted through the sides of all its teeth; -1 where none."""
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
@@ -226,18 +217,15 @@ class FlankContact:
 class TwoFlankContact:
     """Both sides: `front` pushes the driven wheel forward, `back` holds it from running ahead.
 
-    Attributes
-    ----------
-    front, back : FlankContact
-        Of either side.
-
     See Also
     --------
     solve : what gives it.
     """
 
     front: FlankContact
+    """Of either side."""
     back: FlankContact
+    """Of either side."""
 
     @property
     def play(self) -> Floats:

@@ -35,20 +35,18 @@ _SAMPLES = 256  # angles of a pitch at which play is looked for
 
 @dataclass(frozen=True, eq=False)
 class OutlineGears:
-    """Two wheels as outlines, lengths in modules.
-
-    distance   of their axles
-    lead       half a tooth of both on the pitch circles: where the driven angle is counted from
-    play       on the pitch circles as designed
-    faults     what is wrong with the teeth at any distance
-    """
+    """Two wheels as outlines, lengths in modules."""
 
     first: GearOutline
     second: GearOutline
     distance: float
+    """Of their axles."""
     lead: float
+    """Half a tooth of both on the pitch circles: where the driven angle is counted from."""
     play: float
+    """On the pitch circles as designed."""
     faults: tuple[ToothFault, ...] = ()
+    """What is wrong with the teeth at any distance."""
 
     def of(self, driver: int) -> tuple[GearOutline, GearOutline]:
         """The driving wheel and the driven one."""

@@ -45,30 +45,32 @@ _MOST = 100_000  # stretches
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """The driven angle as a function of the driver's, angle = ratio phi1 + error, repeating itself after a period.
-
-    ratio         driven over driver, without sign
-    period        driver's angle (rad)
-    breaks        (n + 1,): ends of the stretches, from `breaks[0]` one period on
-    middles, halves   (n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding
-    errors, speeds   (COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u
-    pair, kind    (n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach
-    corners       driver's angles where something else begins to touch
-    uncertainty, speed_uncertainty   twice the greatest differences found between nodes (rad; none)
-    """
+    """The driven angle as a function of the driver's, angle = ratio phi1 + error, repeating itself after a period."""
 
     ratio: Fraction
+    """Driven over driver, without sign."""
     period: float
+    """Driver's angle (rad)."""
     breaks: Floats
+    """(n + 1,): ends of the stretches, from `breaks[0]` one period on."""
     middles: Floats
+    """(n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding."""
     halves: Floats
+    """(n,): u = (phi1 - middle) / half on each stretch, from -1 to 1 but for rounding."""
     errors: Floats
+    """(COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u."""
     speeds: Floats
+    """(COUNT, n): coefficients of error (rad) and of d angle / d phi1 by powers of u."""
     pair: Indices
+    """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
     kind: Indices
+    """(n,): the driver's tooth that touches, an index into `KINDS` or -1 where none is in reach."""
     corners: Floats
+    """Driver's angles where something else begins to touch."""
     uncertainty: float
+    """Twice the greatest differences found between nodes (rad; none)."""
     speed_uncertainty: float
+    """Twice the greatest differences found between nodes (rad; none)."""
 
     def error(self, phi1: ArrayLike) -> Floats:
         """Transmission error (rad of the driven wheel) at driver's angles (rad), any shape; NaN where none touches."""

@@ -21,13 +21,6 @@ _LEAST_STEP = 2 * pi / 65536  # of a chord, in radians: wheels of a trillion tee
 class Contour:
     """A closed curve of straight edges and circular arcs, as DXF stores it.
 
-    Attributes
-    ----------
-    points : ndarray
-        Vertices (n, 2) [mm]; the last one joins the first.
-    bulges : ndarray
-        (n,) of the edge that leaves each vertex: tan(sweep / 4), 0 straight, positive where it turns left.
-
     Examples
     --------
     >>> round(Contour.circle(2.0).moments()[0], 6)
@@ -35,7 +28,9 @@ class Contour:
     """
 
     points: Floats
+    """Vertices (n, 2) [mm]; the last one joins the first."""
     bulges: Floats
+    """(n,) of the edge that leaves each vertex: tan(sweep / 4), 0 straight, positive where it turns left."""
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:

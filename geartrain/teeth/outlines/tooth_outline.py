@@ -30,17 +30,16 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class RootFillet:
-    """In the frame of the tooth: x along its axis, y towards the space; modules.
-
-    start    where the straight line ends and the round begins
-    end      where the round touches the root circle
-    centre, radius   of the round
-    """
+    """In the frame of the tooth: x along its axis, y towards the space; modules."""
 
     start: Point
+    """Where the straight line ends and the round begins."""
     end: Point
+    """Where the round touches the root circle."""
     centre: Point
+    """Of the round."""
     radius: float
+    """Of the round."""
 
     @property
     def half(self) -> float:
@@ -89,17 +88,15 @@ Vertex = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class ToothOutline:
-    """A tooth of z alike; lengths in modules.
-
-    widening   half angle (rad) of the tooth at the pitch circle
-    root       radius of the root circle
-    """
+    """A tooth of z alike; lengths in modules."""
 
     z: float
     flank: FlankCurve
     fillet: RootFillet
     widening: float
+    """Half angle (rad) of the tooth at the pitch circle."""
     root: float
+    """Radius of the root circle."""
 
     @property
     def tip(self) -> float:
@@ -203,20 +200,20 @@ class FlankCurve:
 
     No chord stands out of the true tooth: a flank that bulges is cut along chords, a hollow one along tangents, so that
     teeth which touch without play do not overlap.
-
-    r, angle   radius, and how much wider (rad) the half tooth is than at the pitch circle
-    curve      radius and angle of many points of the true flank (2, n)
-    tangent    unit vector at the root end towards the root: along the radius, and across it towards the space
-    R          pitch radius
-    outward    1, or -1 for a ring, whose tips are inside
     """
 
     r: Floats
+    """Radius, and how much wider (rad) the half tooth is than at the pitch circle."""
     angle: Floats
+    """Radius, and how much wider (rad) the half tooth is than at the pitch circle."""
     curve: Floats
+    """Radius and angle of many points of the true flank (2, n)."""
     tangent: tuple[float, float]
+    """Unit vector at the root end towards the root: along the radius, and across it towards the space."""
     R: float
+    """Pitch radius."""
     outward: int
+    """1, or -1 for a ring, whose tips are inside."""
 
 
 def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: float) -> FlankCurve:

@@ -29,29 +29,25 @@ _MARGIN = 1e-3  # modules: least room at the round, which is more than a tip mov
 
 @dataclass(frozen=True, slots=True)
 class MateTooth:
-    """One tooth or pin of another wheel.
-
-    span       radius and signed angle of its points (2, n), where one of its flanks touches: half the play turned on
-    z          its tooth number
-    distance   of the two axles, negative for a wheel in a ring
-    internal   one of the two wheels is a ring; `ring`: this one
-    """
+    """One tooth or pin of another wheel."""
 
     span: Floats
+    """Radius and signed angle of its points (2, n), where one of its flanks touches: half the play turned on."""
     z: float
+    """Its tooth number."""
     distance: float
+    """Of the two axles, negative for a wheel in a ring."""
     internal: bool
+    """One of the two wheels is a ring; `ring`: this one."""
     ring: bool
 
 
 @dataclass(frozen=True, slots=True)
 class MatePassage:
-    """Where a mate's tooth comes within the tip circle of a wheel, as that wheel sees it.
-
-    radius     about the wheel's axle; aside, angle (rad) from the axis of its nearest tooth
-    """
+    """Where a mate's tooth comes within the tip circle of a wheel, as that wheel sees it."""
 
     radius: Floats
+    """About the wheel's axle; aside, angle (rad) from the axis of its nearest tooth."""
     aside: Floats
 
 
@@ -110,18 +106,16 @@ _ALIKE = 1e-5  # modules: flanks that differ by less are one
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """The teeth of gear 1 or 2 of a pair, lengths in modules.
-
-    tolerance   how far a chord may leave a flank
-    clearance   between the mate's tips and the root
-    pins        where one of the two is a lantern
-    """
+    """The teeth of gear 1 or 2 of a pair, lengths in modules."""
 
     pair: ConjugatePair
     gear: int
     tolerance: float
+    """How far a chord may leave a flank."""
     clearance: float = CLEARANCE
+    """Between the mate's tips and the root."""
     pins: LanternPins | None = None
+    """Where one of the two is a lantern."""
 
     @property
     def internal(self) -> bool:

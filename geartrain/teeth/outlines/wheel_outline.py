@@ -26,21 +26,6 @@ _THIN = 0.1  # modules: least land of a wheel about its bore
 class BlankSizes:
     """What a maker says of a wheel besides its teeth. Lengths in mm.
 
-    Attributes
-    ----------
-    module : float
-        Pitch diameter over teeth [mm], above 0.
-    clearance : float, optional
-        Between a tip and the mate's root [mm], 0 or more; default a quarter of a module.
-    fillet : float, optional
-        Radius of the round at the root [mm], 0 or more; default 0.38 modules, or what fits.
-    bore : float, optional
-        Diameter of the hole in the middle [mm]; default no hole.
-    rim : float, optional
-        What stands round the roots of a ring, or the pins of a lantern [mm]; default two modules, or a pin.
-    tolerance : float
-        How far a chord may leave a flank [mm].
-
     Raises
     ------
     QuestionError
@@ -57,11 +42,17 @@ class BlankSizes:
     """
 
     module: float = 1.0
+    """Pitch diameter over teeth [mm], above 0."""
     clearance: float | None = None
+    """Between a tip and the mate's root [mm], 0 or more; default a quarter of a module."""
     fillet: float | None = None
+    """Radius of the round at the root [mm], 0 or more; default 0.38 modules, or what fits."""
     bore: float | None = None
+    """Diameter of the hole in the middle [mm]; default no hole."""
     rim: float | None = None
+    """What stands round the roots of a ring, or the pins of a lantern [mm]; default two modules, or a pin."""
     tolerance: float = 0.001
+    """How far a chord may leave a flank [mm]."""
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` for what is no size."""
@@ -90,29 +81,6 @@ def _twice(radius: float) -> float:
 class WheelOutline(Result):
     """A wheel's outline and sizes, to scale. Lengths in mm.
 
-    Attributes
-    ----------
-    gear : int
-        Which of the pair, 1 or 2.
-    z : int
-        Its teeth, or pins.
-    kind : {"external", "ring", "pins"}
-        Teeth outwards, teeth inwards, or holes for pins.
-    contours : tuple of Contour
-        The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis.
-    module, pitch_radius, tip_radius, root_radius : float
-        Of the wheel [mm].
-    thickness : float
-        Of a tooth along the pitch circle [mm].
-    fillet : float
-        Radius of the round at the root [mm]; 0 where there is none.
-    relief : float
-        How far the root is turned off the flank's tangent, so that the mate's tip passes [rad].
-    clearance, backlash, centre_distance : float
-        Of the pair [mm].
-    tolerance : float
-        How far a chord may leave a flank [mm].
-
     See Also
     --------
     geartrain.teeth.GearMesh.wheel_outline : makes one.
@@ -125,20 +93,35 @@ class WheelOutline(Result):
     )
 
     gear: int
+    """Which of the pair, 1 or 2."""
     z: int
+    """Its teeth, or pins."""
     kind: str
+    """Teeth outwards, teeth inwards, or holes for pins."""
     contours: tuple[Contour, ...]
+    """The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis."""
     module: float
+    """Of the wheel [mm]."""
     pitch_radius: float
+    """Of the wheel [mm]."""
     tip_radius: float
+    """Of the wheel [mm]."""
     root_radius: float
+    """Of the wheel [mm]."""
     thickness: float
+    """Of a tooth along the pitch circle [mm]."""
     fillet: float
+    """Radius of the round at the root [mm]; 0 where there is none."""
     relief: float
+    """How far the root is turned off the flank's tangent, so that the mate's tip passes [rad]."""
     clearance: float
+    """Of the pair [mm]."""
     backlash: float
+    """Of the pair [mm]."""
     centre_distance: float
+    """Of the pair [mm]."""
     tolerance: float
+    """How far a chord may leave a flank [mm]."""
 
 
 # ------------------------------------------------------------------------------------------ wheels with conjugate teeth

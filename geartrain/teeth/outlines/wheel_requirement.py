@@ -26,19 +26,18 @@ class LanternPins:
 
 @dataclass(frozen=True, slots=True)
 class CutTooth:
-    """The tooth of a wheel as it is cut, lengths in modules.
-
-    kind        external, ring or pins
-    tip, root   radii
-    tooth       about the x axis, from root to root; empty for pins
-    pins        of a lantern; of a ring whose teeth are pins, parts of their own, that lie in its inside
-    """
+    """The tooth of a wheel as it is cut, lengths in modules."""
 
     kind: str
+    """External, ring or pins."""
     tip: float
+    """Radii."""
     root: float
+    """Radii."""
     tooth: tuple[Vertex, ...] = ()
+    """About the x axis, from root to root; empty for pins."""
     pins: LanternPins | None = None
+    """Of a lantern; of a ring whose teeth are pins, parts of their own, that lie in its inside."""
 
 
 class WheelRequirement(ABC):

@@ -210,30 +210,23 @@ class ClearanceWindow:
     False where `run` is below `jam`: no clearance works. Where a pair runs in several stretches of clearance this is
     the first.
 
-    Attributes
-    ----------
-    jam, run : float
-        Ends of the window.
-    run_kind : {"clash", "standstill"}
-        What happens beyond `run`.
-    reach : float
-        Excess beyond which no tip touches.
-    jam_kind : {"jam", "overhang", "clash", "standstill"}
-        What happens up to `jam`.
-    side : {1, -1}
-        1 for an external pair, -1 for an internal one, whose clearance factors are below 1.
-
     See Also
     --------
     find_window : gives it.
     """
 
     jam: float
+    """Ends of the window."""
     run: float
+    """Ends of the window."""
     run_kind: Literal["clash", "standstill"]
+    """What happens beyond `run`."""
     reach: float
+    """Excess beyond which no tip touches."""
     jam_kind: Literal["jam", "overhang", "clash", "standstill"] = "jam"
+    """What happens up to `jam`."""
     side: int = 1
+    """1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
         """The clearance factor of an excess.

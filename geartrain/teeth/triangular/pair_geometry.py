@@ -53,20 +53,6 @@ class TriangularSizes:
     At `deepest_distance` a tip touches the bottom between two teeth: the minimum distance R1 + R2 - (the smaller depth)
     of an external pair, the maximum R_ring - R_pinion + (the smaller depth) of an internal one.
 
-    Parameters
-    ----------
-    z1, z2 : int
-        Tooth counts.
-    R1, R2 : float
-        Tip radii.
-    beta1, beta2 : float
-        Half apertures of the teeth [rad].
-    excess : float
-        The part of `deepest_distance` by which the wheels are apart: D = (1 + excess) deepest_distance outside,
-        (1 - excess) inside, where the clearance factor is below 1.
-    ring : {0, 1, 2}
-        The wheel whose teeth are inside; 0 for an external pair.
-
     Raises
     ------
     RangeError
@@ -87,13 +73,22 @@ class TriangularSizes:
     """
 
     z1: int
+    """Tooth counts."""
     z2: int
+    """Tooth counts."""
     R1: float
+    """Tip radii."""
     R2: float
+    """Tip radii."""
     beta1: float
+    """Half apertures of the teeth [rad]."""
     beta2: float
+    """Half apertures of the teeth [rad]."""
     excess: float
+    """The part of `deepest_distance` by which the wheels are apart: D = (1 + excess) deepest_distance outside, (1 -
+    excess) inside, where the clearance factor is below 1."""
     ring: Literal[0, 1, 2] = 0
+    """The wheel whose teeth are inside; 0 for an external pair."""
 
     def __post_init__(self) -> None:
         # without valleys there are no teeth, and radii of equal depth may come out negative: a verdict says so

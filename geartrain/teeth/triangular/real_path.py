@@ -48,10 +48,15 @@ class DriveInterval:
     """
 
     phase: str
+    """Which part of a tooth drives."""
     start: float
+    """Angle alpha_1 at which it begins [rad]."""
     end: float
+    """Angle alpha_1 at which it ends [rad]."""
     couple: int
+    """Number of the couple of teeth."""
     held: float | None = None
+    """Angle alpha_2 at which the driven wheel stands still [rad]; None while a couple drives."""
 
     @property
     def width(self) -> float:
@@ -295,9 +300,13 @@ class SpeedJump(Result):
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
+    """The phase that begins, or `matching`."""
     alpha1: float
+    """Angle of the driver [rad]."""
     before: float
+    """Speed ratio before the collision."""
     after: float
+    """Speed ratio after the collision."""
 
     @property
     def value(self) -> float:

@@ -200,14 +200,7 @@ class TriangularMesh(GearMesh):
 
 @dataclass(frozen=True)
 class TriangularFigures(PairFigures):
-    """Figures of a pair with triangular teeth; angles in rad.
-
-    sizes       in m, or the plain unit of radii
-    window      clearance factors between which the pair turns; None where there are no such teeth
-    intervals   the real path, in order of time, one pitch of the driver
-    jumps       the collisions of a pitch
-    impacts     what they cost, where a run of the pair is declared; else None
-    """
+    """Figures of a pair with triangular teeth; angles in rad."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -216,10 +209,15 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
+    """In m, or the plain unit of radii."""
     window: ClearanceWindow | None
+    """Clearance factors between which the pair turns; None where there are no such teeth."""
     intervals: tuple[DriveInterval, ...]
+    """The real path, in order of time, one pitch of the driver."""
     jumps: tuple[SpeedJump, ...]
+    """The collisions of a pitch."""
     impacts: Any = None
+    """What they cost, where a run of the pair is declared; else None."""
 
 
 def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:

@@ -394,15 +394,7 @@ class TriangularTransmission(TransmissionFunction):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Contact over one pitch, in order of time, both ends of every interval among the rows.
-
-    phases           of each row
-    alpha1, alpha2   angles of the apices from the line of centres (rad)
-    speed_ratio      tau
-    instant_centre   O1C, from the driver's axis, in the unit of the law's lengths; NaN in a standstill, as what follows
-    driver_arm, driven_arm   of the force about either axis, b1 and b2
-    efficiency       tau b2/b1; NaN too where friction locks
-    """
+    """Contact over one pitch, in order of time, both ends of every interval among the rows."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -410,13 +402,21 @@ class ContactCourse(Result):
     )
 
     phases: tuple[str, ...]
+    """Of each row."""
     alpha1: Floats
+    """Angles of the apices from the line of centres (rad)."""
     alpha2: Floats
+    """Angles of the apices from the line of centres (rad)."""
     speed_ratio: Floats
+    """tau."""
     instant_centre: Floats
+    """O1C, from the driver's axis, in the unit of the law's lengths; NaN in a standstill, as what follows."""
     driver_arm: Floats
+    """Of the force about either axis, b1 and b2."""
     driven_arm: Floats
+    """Of the force about either axis, b1 and b2."""
     efficiency: Floats
+    """tau b2/b1; NaN too where friction locks."""
 
 
 def contact_course(

@@ -65,22 +65,6 @@ def natural_turns(train: GearTrain, state: str | None, lead: str, of: str | None
 class WeightDrive(Result):
     """What a weight gives at its drum, and what the train makes of it over a run.
 
-    Attributes
-    ----------
-    link : str
-        The link of the drum.
-    torque : float
-        Mass times gravity times the radius at which the line pulls [N m].
-    needed : float or None
-        What starts the train at its worst position under its declared loads [N m]; None without loads, or where it
-        locks.
-    wheel : str or None
-        The link of the escape wheel; None where none is declared, or loads are.
-    mean, least : float or None
-        Torque that arrives there while the weight alone drives, the mean and the least over the run [N m].
-    efficiency : float or None
-        Energy that arrives there over that of the weight.
-
     See Also
     --------
     CrankLoad : holds it
@@ -89,12 +73,20 @@ class WeightDrive(Result):
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "least", "efficiency")
 
     link: str
+    """The link of the drum."""
     torque: float
+    """Mass times gravity times the radius at which the line pulls [N m]."""
     needed: float | None = None
+    """What starts the train at its worst position under its declared loads [N m]; None without loads, or where it
+    locks."""
     wheel: str | None = None
+    """The link of the escape wheel; None where none is declared, or loads are."""
     mean: float | None = None
+    """Torque that arrives there while the weight alone drives, the mean and the least over the run [N m]."""
     least: float | None = None
+    """Torque that arrives there while the weight alone drives, the mean and the least over the run [N m]."""
     efficiency: float | None = None
+    """Energy that arrives there over that of the weight."""
 
     @property
     def suffices(self) -> bool | None:
@@ -141,38 +133,28 @@ def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> G
 class CrankLoad(Result):
     """Torque and efficiency of the link that drives a train.
 
-    Attributes
-    ----------
-    link : str
-        The one that is turned.
-    torque : float or None
-        Under the declared loads, in the link's own sense of turning: positive puts power in, as in `over_turn` [N m, or
-        their plain unit]; None without loads.
-    efficiency : float or None
-        Power out over power in; None where neither friction nor an efficiency is declared, or nothing follows.
-    note : str
-        Under which loads, or what is not declared.
-    pointers : mapping of str to float
-        By pointer, the efficiency of a train that drives it alone; empty without friction, and without what cannot be
-        driven.
-    over_turn : TorqueCycle or None
-        The torque position by position over a year, or over a period after which everything repeats if that is
-        shorter; None without loads.
-    weight : WeightDrive or None
-        The weight that drives it; None where another thing does.
-
     See Also
     --------
     TrainBudget : holds it
     """
 
     link: str
+    """The one that is turned."""
     torque: float | None
+    """Under the declared loads, in the link's own sense of turning: positive puts power in, as in `over_turn` [N m,
+    or their plain unit]; None without loads."""
     efficiency: float | None
+    """Power out over power in; None where neither friction nor an efficiency is declared, or nothing follows."""
     note: str
+    """Under which loads, or what is not declared."""
     pointers: Mapping[str, float] = field(default_factory=dict)
+    """By pointer, the efficiency of a train that drives it alone; empty without friction, and without what cannot be
+    driven."""
     over_turn: TorqueCycle | None = None
+    """The torque position by position over a year, or over a period after which everything repeats if that is
+    shorter; None without loads."""
     weight: WeightDrive | None = None
+    """The weight that drives it; None where another thing does."""
 
 
 def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:

@@ -75,18 +75,16 @@ class DeclaredPairs(NamedTuple):
 
 @dataclass(frozen=True)
 class ToothMotion:
-    """What the teeth of a train do to its outputs over a run.
-
-    ripple       tallies by output, of what the teeth alone add
-    lost         by output, greatest and rms of what is lost when the crank turns back (rad)
-    pairs        by output, what each pair alone would give, peak to peak (deg)
-    declared     by output, what moves it and is declared
-    """
+    """What the teeth of a train do to its outputs over a run."""
 
     ripple: Mapping[str, RunningStatistics]
+    """Tallies by output, of what the teeth alone add."""
     lost: Mapping[str, tuple[float, float]]
+    """By output, greatest and rms of what is lost when the crank turns back (rad)."""
     pairs: Mapping[str, Mapping[str, float]]
+    """By output, what each pair alone would give, peak to peak (deg)."""
     declared: Mapping[str, DeclaredPairs]
+    """By output, what moves it and is declared."""
     turned_back: tuple[str, ...]
 
 
@@ -219,18 +217,16 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """What is shipped of a body's orbit.
-
-    eccentricity   of its ellipse, today
-    period         from a star or the equinox back to it, to a hundredth (d): a pointer's target must be near it
-    words          by which an output or link of it is known
-    source         of the eccentricity
-    """
+    """What is shipped of a body's orbit."""
 
     eccentricity: float
+    """Of its ellipse, today."""
     period: float
+    """From a star or the equinox back to it, to a hundredth (d): a pointer's target must be near it."""
     words: frozenset[str]
+    """By which an output or link of it is known."""
     source: str
+    """Of the eccentricity."""
 
 
 TRUE_MOTIONS: dict[Body, TrueMotion] = {
@@ -261,12 +257,10 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """What one link's anomaly is off (rad), or why that is not known.
-
-    known    False where a pin that moves the link has no dimensions, or several do
-    """
+    """What one link's anomaly is off (rad), or why that is not known."""
 
     known: bool
+    """False where a pin that moves the link has no dimensions, or several do."""
     peak_to_peak: float
     rms: float
     words: str

@@ -30,23 +30,6 @@ MEASURES: Mapping[CauseName, str] = {
 class BudgetCause(Result):
     """One cause of a pointer's error.
 
-    Attributes
-    ----------
-    name : {"ratio", "theory", "teeth", "lost motion", "cutting"}
-        What it comes from.
-    declared : {"whole", "part", "not declared"}
-        Whether the train says all that must be known for it.
-    degrees : float or None
-        Its size as `measure` says [deg]; None where it is not declared.
-    rms : float or None
-        Root mean square [deg]: of a drift and of cutting about the mean, of lost motion itself.
-    days : float or None
-        The time in which the pointer, at its mean speed, turns so far; None where it stands or no time is declared.
-    interval : tuple of float or None
-        Of `degrees`, with 95 % confidence [deg]; None for what is no estimate.
-    note : str
-        What it is made of, or what is not declared.
-
     See Also
     --------
     PointerBudget : holds them
@@ -55,12 +38,19 @@ class BudgetCause(Result):
     KEYS = ("name", "measure", "declared", "degrees", "rms", "days", "interval", "note")
 
     name: CauseName
+    """What it comes from."""
     declared: Declared
+    """Whether the train says all that must be known for it."""
     degrees: float | None = None
+    """Its size as `measure` says [deg]; None where it is not declared."""
     rms: float | None = None
+    """Root mean square [deg]: of a drift and of cutting about the mean, of lost motion itself."""
     days: float | None = None
+    """The time in which the pointer, at its mean speed, turns so far; None where it stands or no time is declared."""
     interval: tuple[float, float] | None = None
+    """Of `degrees`, with 95 % confidence [deg]; None for what is no estimate."""
     note: str = ""
+    """What it is made of, or what is not declared."""
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
@@ -97,52 +87,28 @@ class BudgetCause(Result):
 class RatioDrift(Result):
     """What the mean speed of a pointer is off, against one of its targets; positive is fast.
 
-    Attributes
-    ----------
-    target : str
-        In words.
-    ppm : float or None
-        Parts per million of the target's speed; None where 0 is wanted.
-    degrees_per_turn : float or None
-        Gained in a turn of the pointer [deg].
-    degrees_per_year, degrees_per_century : float or None
-        Gained in 365.25 and 36525 days [deg]; None where the train's unit is no time.
-    degrees_over_span : float or None
-        Gained over the span of the budget [deg].
-
     See Also
     --------
     PointerBudget : holds them
     """
 
     target: str
+    """In words."""
     ppm: float | None
+    """Parts per million of the target's speed; None where 0 is wanted."""
     degrees_per_turn: float | None
+    """Gained in a turn of the pointer [deg]."""
     degrees_per_year: float | None
+    """Gained in 365.25 and 36525 days [deg]; None where the train's unit is no time."""
     degrees_per_century: float | None
+    """Gained in 365.25 and 36525 days [deg]; None where the train's unit is no time."""
     degrees_over_span: float | None
+    """Gained over the span of the budget [deg]."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerBudget(Result):
     """The causes of one pointer's error.
-
-    Attributes
-    ----------
-    name : str
-        Of the output.
-    of, relative_to : str
-        The link that turns, and the link it is read against.
-    speed : Fraction, float, LongFloat or None
-        Mean speed of the one seen from the other [the train's unit].
-    degrees_per_day : float or None
-        The same without sign; None where the train's unit is no time.
-    causes : tuple of BudgetCause
-        All five, in the order of `CAUSES`.
-    drifts : tuple of RatioDrift
-        Against every target; the first is the one that counts.
-    pairs : mapping of str to float
-        What the ripple of each pair's teeth alone gives at the pointer, peak to peak [deg], the greatest first.
 
     Examples
     --------
@@ -161,13 +127,21 @@ class PointerBudget(Result):
     )
 
     name: str
+    """Of the output."""
     of: str
+    """The link that turns, and the link it is read against."""
     relative_to: str
+    """The link that turns, and the link it is read against."""
     speed: SpeedValue | None
+    """Mean speed of the one seen from the other [the train's unit]."""
     degrees_per_day: float | None
+    """The same without sign; None where the train's unit is no time."""
     causes: tuple[BudgetCause, ...]
+    """All five, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
+    """Against every target; the first is the one that counts."""
     pairs: Mapping[str, float] | None = None
+    """What the ripple of each pair's teeth alone gives at the pointer, peak to peak [deg], the greatest first."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
@@ -205,29 +179,6 @@ class PointerBudget(Result):
 class TrainBudget(Tabular, Pictured, Result):
     """The budgets of a train's pointers in one state, with the crank and the jams of its wheels.
 
-    Attributes
-    ----------
-    name : str
-        Of the train.
-    state : str or None
-        As it was named.
-    span_days : float
-        Over which ratios drift [d].
-    turns, samples : float, int
-        Of the input, over which teeth and lost motion are followed, and at how many positions.
-    lead : str
-        The link whose turns these are.
-    pointers : tuple of PointerBudget
-        One for each output that was asked for.
-    crank : CrankLoad
-        Torque and efficiency.
-    jams : tuple of ClearanceCase
-        How often wheels cut by hand jam, over clearance; empty where no cutting is declared.
-    jams_note : str
-        How, or why not.
-    turned_back : tuple of str
-        Pairs whose driver turns against its mean at times; the play is not followed there.
-
     See Also
     --------
     find_budget : gives it
@@ -250,16 +201,27 @@ class TrainBudget(Tabular, Pictured, Result):
     )
 
     name: str
+    """Of the train."""
     state: str | None
+    """As it was named."""
     span_days: float
+    """Over which ratios drift [d]."""
     turns: float
+    """Of the input, over which teeth and lost motion are followed, and at how many positions."""
     samples: int
+    """Of the input, over which teeth and lost motion are followed, and at how many positions."""
     lead: str
+    """The link whose turns these are."""
     pointers: tuple[PointerBudget, ...]
+    """One for each output that was asked for."""
     crank: CrankLoad
+    """Torque and efficiency."""
     jams: tuple[ClearanceCase, ...] = ()
+    """How often wheels cut by hand jam, over clearance; empty where no cutting is declared."""
     jams_note: str = ""
+    """How, or why not."""
     turned_back: tuple[str, ...] = ()
+    """Pairs whose driver turns against its mean at times; the play is not followed there."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -62,31 +62,6 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 class BudgetQuestion:
     """What a budget is made of.
 
-    Attributes
-    ----------
-    outputs : tuple of str
-        Names of outputs; by default all that have a target or a dial, or all where none has.
-    without : tuple of str
-        Pairs left out, so that real teeth do not contradict each other around a loop.
-    span_days : float
-        Over which ratios drift [d]; by default one Saros.
-    turns : float
-        Of the input, over which teeth are followed.
-    samples : int
-        Positions of these turns, 2 or more.
-    cutting : tuple of str
-        Errors of cutting in place of those declared, such as "placement=1 %"; by default what the train declares.
-    trials : int
-        How many times the wheels are cut.
-    seed : int
-        Of the random numbers.
-    jam_trials : int
-        How many times they are cut at each clearance.
-    clearances : tuple of float
-        Shares of each pair's window, or factors of the centre distance, at which jams are counted.
-    bodies : mapping of str to {"moon", "sun"} or None
-        By output, whose true motion it should show, where its name does not tell; None for nobody's.
-
     Examples
     --------
     >>> BudgetQuestion().span_days
@@ -94,16 +69,27 @@ class BudgetQuestion:
     """
 
     outputs: tuple[str, ...] = ()
+    """Names of outputs; by default all that have a target or a dial, or all where none has."""
     without: tuple[str, ...] = ()
+    """Pairs left out, so that real teeth do not contradict each other around a loop."""
     span_days: float = SAROS
+    """Over which ratios drift [d]; by default one Saros."""
     turns: float = 20.0
+    """Of the input, over which teeth are followed."""
     samples: int = 20_000
+    """Positions of these turns, 2 or more."""
     cutting: tuple[str, ...] = ()
+    """Errors of cutting in place of those declared, such as "placement=1 %"; by default what the train declares."""
     trials: int = 256
+    """How many times the wheels are cut."""
     seed: int = 1
+    """Of the random numbers."""
     jam_trials: int = 64
+    """How many times they are cut at each clearance."""
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
+    """Shares of each pair's window, or factors of the centre distance, at which jams are counted."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
+    """By output, whose true motion it should show, where its name does not tell; None for nobody's."""
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:

@@ -42,20 +42,20 @@ class CutWheel:
     """A wheel cut by hand: each tooth with its own place, height and flanks, relative to an even wheel.
 
     All arrays are (..., z) for z teeth, numbered as they pass while the wheel turns forward; leading axes are trials.
-
-    radius             tip radius R of the even wheel [any one unit], negative for a ring
-    half_angle         half aperture of its teeth [rad]
-    place              how far behind its even place a tip is [rad]
-    tip                how far a tip extends beyond R [as R]
-    leading, trailing  by how much the flanks are flatter than the half angle, about the axle [rad]
     """
 
     radius: float
+    """Tip radius R of the even wheel [any one unit], negative for a ring."""
     half_angle: float
+    """Half aperture of its teeth [rad]."""
     place: Floats
+    """How far behind its even place a tip is [rad]."""
     tip: Floats
+    """How far a tip extends beyond R [as R]."""
     leading: Floats
+    """By how much the flanks are flatter than the half angle, about the axle [rad]."""
     trailing: Floats
+    """By how much the flanks are flatter than the half angle, about the axle [rad]."""
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
@@ -302,15 +302,13 @@ def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
 
 @dataclass(frozen=True)
 class CutGearPair:
-    """Two cut wheels, the first driving, and their centre distance; `sizes` are those without errors.
-
-    shift   by how much the centre distance is greater (as the radii): one, or one for each trial
-    """
+    """Two cut wheels, the first driving, and their centre distance; `sizes` are those without errors."""
 
     sizes: TriangularSizes
     first: CutWheel
     second: CutWheel
     shift: Any = 0.0
+    """By how much the centre distance is greater (as the radii): one, or one for each trial."""
 
     @cached_property
     def count(self) -> int:

@@ -40,24 +40,26 @@ _FINE = 512  # of a pitch: for the mean of a lag with a few corners
 
 @dataclass(frozen=True, slots=True)
 class DisplacedWheel:
-    """Arrays (..., z), leading axes trials; `e` and `towards` one for each trial.
-
-    place                       how far behind its even place a tooth stands (rad)
-    tip                         how far a tip stands out
-    leading, trailing           by how much the flanks are flatter, turned about their pitch points (rad)
-    leading_low, trailing_low   how far the flanks are lowered along their normals
-    e, towards                  where the middle of the teeth lies from the axle: how far, and in which direction (rad),
-                                counted from the first tooth against the way the wheel turns, as teeth are
-    """
+    """Arrays (..., z), leading axes trials; `e` and `towards` one for each trial."""
 
     place: Floats
+    """How far behind its even place a tooth stands (rad)."""
     tip: Floats
+    """How far a tip stands out."""
     leading: Floats
+    """By how much the flanks are flatter, turned about their pitch points (rad)."""
     trailing: Floats
+    """By how much the flanks are flatter, turned about their pitch points (rad)."""
     leading_low: Floats
+    """How far the flanks are lowered along their normals."""
     trailing_low: Floats
+    """How far the flanks are lowered along their normals."""
     e: Any = 0.0
+    """Where the middle of the teeth lies from the axle: how far, and in which direction (rad), counted from the
+    first tooth against the way the wheel turns, as teeth are."""
     towards: Any = 0.0
+    """Where the middle of the teeth lies from the axle: how far, and in which direction (rad), counted from the
+    first tooth against the way the wheel turns, as teeth are."""
 
     @classmethod
     def even(cls, z: int) -> DisplacedWheel:
@@ -122,15 +124,14 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """One side of every tooth at one position of the driver within a pitch, by the pitches n that have passed.
-
-    driver, driven   what each wheel adds to the lag (rad of the driven wheel): (trials, z) of its own n
-    pitches          by which the couple's own driver's tooth came earlier
-    """
+    """One side of every tooth at one position of the driver within a pitch, by the pitches n that have passed."""
 
     driver: Any
+    """What each wheel adds to the lag (rad of the driven wheel): (trials, z) of its own n."""
     driven: Any
+    """What each wheel adds to the lag (rad of the driven wheel): (trials, z) of its own n."""
     pitches: int
+    """By which the couple's own driver's tooth came earlier."""
 
 
 @dataclass(frozen=True)

@@ -24,18 +24,16 @@ _ROUNDS = 4000  # of looking for the tightest place: more teeth than a pair has 
 
 @dataclass(frozen=True)
 class TightPlace:
-    """The tightest place of each of some pairs, and the flank filed there.
-
-    play    least play over the cycle (rad of the driven wheel); below 0 it jams
-    wheel   0 the driver, 1 the driven wheel; `tooth` of it, on its `side`: 0 leading, 1 trailing
-    gain    the most (rad of the driven wheel) by which the play grows where that flank is lowered by 1
-    """
+    """The tightest place of each of some pairs, and the flank filed there."""
 
     play: Floats
+    """Least play over the cycle (rad of the driven wheel); below 0 it jams."""
     wheel: Ints
+    """0 the driver, 1 the driven wheel; `tooth` of it, on its `side`: 0 leading, 1 trailing."""
     tooth: Ints
     side: Ints
     gain: Floats
+    """The most (rad of the driven wheel) by which the play grows where that flank is lowered by 1."""
 
 
 class FileablePair(Protocol):
@@ -64,15 +62,13 @@ Pair = TypeVar("Pair", bound=FileablePair)
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """What was filed of many pairs: the pairs after it, and by trial how many strokes on how many teeth, (trials,).
-
-    low   how far each flank of either wheel is lowered, (trials, 2 sides, z)
-    """
+    """What was filed of many pairs: the pairs after it, and by trial how many strokes on how many teeth, (trials,)."""
 
     pair: Pair
     strokes: Ints
     teeth: Ints
     low: tuple[Floats, Floats]
+    """How far each flank of either wheel is lowered, (trials, 2 sides, z)."""
 
     @property
     def filed(self) -> Bools:

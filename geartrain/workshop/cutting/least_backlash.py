@@ -33,16 +33,14 @@ _NEAR = 1e-6  # of the common reach: a step this short leaves nothing but roundi
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """A front couple and the back couple n before it, each in one phase, and where they come nearest in even wheels.
-
-    offset   of x there from half of n pitches (rad)
-    play     there (rad of the driven wheel)
-    """
+    """A front couple and the back couple n before it, each in one phase, and where they come nearest in even wheels."""
 
     n: int
     phases: tuple[str, str]
     offset: float
+    """Of x there from half of n pitches (rad)."""
     play: float
+    """There (rad of the driven wheel)."""
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:

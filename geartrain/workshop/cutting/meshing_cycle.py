@@ -50,22 +50,20 @@ _UNSURE = 1e-4  # of a driven pitch: play that is nearer to 0 is looked at witho
 
 @dataclass(frozen=True, slots=True)
 class MeshingVerdicts:
-    """What becomes of each trial, arrays (trials,).
-
-    play         least play over the cycle of teeth (rad of the driven wheel): below 0 a front flank is against a back
-                 flank; inf where nothing touches
-    clash        a tooth comes in against a tip or in front of it, the driven wheel dragging: the pair sticks fast, or,
-                 rarely, skips a tooth; led by hand within its play it may pass
-    standstill   the driven wheel is left standing somewhere
-    disengaged   somewhere no tooth is in reach
-    leans        a flank leans beyond the perpendicular where tips meet: which couple touches first is then not certain
-    """
+    """What becomes of each trial, arrays (trials,)."""
 
     play: Floats
+    """Least play over the cycle of teeth (rad of the driven wheel): below 0 a front flank is against a back flank;
+    inf where nothing touches."""
     clash: Bools
+    """A tooth comes in against a tip or in front of it, the driven wheel dragging: the pair sticks fast, or, rarely,
+    skips a tooth; led by hand within its play it may pass."""
     standstill: Bools
+    """The driven wheel is left standing somewhere."""
     disengaged: Bools
+    """Somewhere no tooth is in reach."""
     leans: Bools
+    """A flank leans beyond the perpendicular where tips meet: which couple touches first is then not certain."""
 
     @property
     def jams(self) -> Bools:

@@ -191,23 +191,17 @@ def _turn(play: float | None) -> str:
 class AssemblyStep:
     """One step of an assembly.
 
-    Attributes
-    ----------
-    text : str
-        What is done.
-    parts : tuple of str
-        The parts that it adds.
-    shown : bool
-        Whether a picture shows them; what hangs is too tall.
-
     See Also
     --------
     assembly_steps : gives these.
     """
 
     text: str
+    """What is done."""
     parts: tuple[str, ...]
+    """The parts that it adds."""
     shown: bool = True
+    """Whether a picture shows them; what hangs is too tall."""
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:

@@ -30,17 +30,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class FlatPart:
-    """A part to be cut.
-
-    name       of its file, and on sheets of stock
-    count      how often it is needed
-    thickness  of its sheet (mm)
-    """
+    """A part to be cut."""
 
     name: str
+    """Of its file, and on sheets of stock."""
     drawing: FlatDrawing
     count: int
+    """How often it is needed."""
     thickness: float
+    """Of its sheet (mm)."""
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:

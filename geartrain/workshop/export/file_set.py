@@ -62,23 +62,17 @@ Rows = Sequence[Sequence[object]]
 class ExportFile:
     """A file to be written.
 
-    Attributes
-    ----------
-    path : str
-        In the folder, with `/`.
-    title : str
-        What it shows.
-    make : callable
-        Its content as bytes; raises `GearTrainError` if that cannot be made.
-
     See Also
     --------
     export_files : gives it.
     """
 
     path: str
+    """In the folder, with `/`."""
     title: str
+    """What it shows."""
     make: Callable[[], bytes]
+    """Its content as bytes; raises `GearTrainError` if that cannot be made."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:

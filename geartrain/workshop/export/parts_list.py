@@ -25,33 +25,24 @@ _SAME = 4  # decimals of a mm to which parts are alike
 class ListedPart:
     """A row of the list: parts of one shape.
 
-    Attributes
-    ----------
-    names : tuple of str
-        Of all of them.
-    kind : str
-        wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock, pin,
-        rod, bob or weight.
-    material : str
-        What its mass is reckoned with.
-    size : str
-        Diameter and length of turned parts, thickness of flat ones [mm].
-    mass : float
-        Of one [g].
-    fits : str
-        Holes or seats, and how they are joined.
-
     See Also
     --------
     parts_list : gives these.
     """
 
     names: tuple[str, ...]
+    """Of all of them."""
     kind: str
+    """Wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock, pin, rod, bob
+    or weight."""
     material: str
+    """What its mass is reckoned with."""
     size: str
+    """Diameter and length of turned parts, thickness of flat ones [mm]."""
     mass: float
+    """Of one [g]."""
     fits: str
+    """Holes or seats, and how they are joined."""
 
     @property
     def count(self) -> int:

@@ -257,17 +257,15 @@ _LONGEST = 120.0  # seconds
 
 @dataclass(frozen=True)
 class Keyframes:
-    """What turns, and for how long.
-
-    turns     of the lead
-    seconds   that they take
-    speeds    of each body over its parent's, in turns of the lead, about its `direction`; None: it does not turn
-    """
+    """What turns, and for how long."""
 
     work: SolidModel
     turns: Fraction
+    """Of the lead."""
     seconds: float
+    """That they take."""
     speeds: tuple[Fraction | None, ...]
+    """Of each body over its parent's, in turns of the lead, about its `direction`; None: it does not turn."""
     ripples: bool
     _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 

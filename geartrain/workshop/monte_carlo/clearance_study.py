@@ -28,17 +28,6 @@ _MOST = 1000  # clearances
 class ClearanceCase(Result):
     """The train at one clearance, its errors so many times as great.
 
-    Attributes
-    ----------
-    clearance : float or None
-        Factor of the centre distance, or share of each pair's own window; None as declared.
-    scale : float
-        Factor of all errors.
-    events : mapping of str to ProbabilityEstimate
-        Jam, clash, stops (jam or clash), standstill, disengaged -> how often in any pair.
-    pairs : mapping of str to mapping
-        The same by pair.
-
     See Also
     --------
     jamming_map : gives it
@@ -47,9 +36,13 @@ class ClearanceCase(Result):
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
     clearance: float | None
+    """Factor of the centre distance, or share of each pair's own window; None as declared."""
     scale: float
+    """Factor of all errors."""
     events: Mapping[str, ProbabilityEstimate]
+    """Jam, clash, stops (jam or clash), standstill, disengaged -> how often in any pair."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
+    """The same by pair."""
 
     @property
     def rates(self) -> EventRates:

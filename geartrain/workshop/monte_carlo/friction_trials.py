@@ -53,36 +53,20 @@ _MOST = 8  # trials of a task: what is computed once for each task then costs le
 class FrictionSpread(NamedTuple):
     """A coefficient of friction with its standard deviation.
 
-    Attributes
-    ----------
-    sliding, deviation : float
-        Mean and standard deviation of the coefficient.
-
     See Also
     --------
     FrictionTrials.spreads : where these stand.
     """
 
     sliding: float
+    """Mean and standard deviation of the coefficient."""
     deviation: float
+    """Mean and standard deviation of the coefficient."""
 
 
 @dataclass(frozen=True)
 class FrictionPlan:
     """A train whose friction has a spread, and the run that is asked of it.
-
-    Attributes
-    ----------
-    declared : Train
-        The train as declared.
-    state : str or None
-        The state; None only of a train that has none.
-    turns : float
-        Turns of the input in the run.
-    samples : int
-        Positions of the run.
-    of : str or None
-        The link whose torque is asked for; None for the crank.
 
     See Also
     --------
@@ -90,10 +74,15 @@ class FrictionPlan:
     """
 
     declared: Train
+    """The train as declared."""
     state: str | None
+    """The state; None only of a train that has none."""
     turns: float
+    """Turns of the input in the run."""
     samples: int
+    """Positions of the run."""
     of: str | None = None
+    """The link whose torque is asked for; None for the crank."""
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
@@ -257,11 +246,6 @@ def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction
 class TrialFigure(Result):
     """One figure over trials.
 
-    Attributes
-    ----------
-    values : ndarray
-        Of the trials in which there is one, in their order.
-
     See Also
     --------
     FrictionTrials : holds them.
@@ -270,6 +254,7 @@ class TrialFigure(Result):
     KEYS = ("mean", "deviation", "percentiles")
 
     values: Floats
+    """Of the trials in which there is one, in their order."""
 
     @property
     def mean(self) -> IntervalEstimate:
@@ -291,23 +276,6 @@ class TrialFigure(Result):
 class FrictionTrials(Result):
     """Torque over a turn in many trials of its friction.
 
-    Attributes
-    ----------
-    link : str
-        The link whose torque it is.
-    wanted, done : int
-        Trials asked for, and worked out.
-    seed : int
-        Of all that was drawn.
-    spreads : mapping of str to FrictionSpread
-        By `train` and by pair or coupling, what was drawn.
-    mean, greatest, starting : TrialFigure
-        Mean, greatest and starting torque of the trials that have one [N m, or plain].
-    efficiency : TrialFigure
-        Energy out over energy in.
-    locks : ProbabilityEstimate
-        How often the train locks somewhere in the run.
-
     See Also
     --------
     try_frictions : gives it.
@@ -316,15 +284,25 @@ class FrictionTrials(Result):
     KEYS = ("link", "wanted", "done", "seed", "spreads", *FIGURES, "locks")
 
     link: str
+    """The link whose torque it is."""
     wanted: int
+    """Trials asked for, and worked out."""
     done: int
+    """Trials asked for, and worked out."""
     seed: int
+    """Of all that was drawn."""
     spreads: Mapping[str, FrictionSpread]
+    """By `train` and by pair or coupling, what was drawn."""
     mean: TrialFigure
+    """Mean, greatest and starting torque of the trials that have one [N m, or plain]."""
     greatest: TrialFigure
+    """Mean, greatest and starting torque of the trials that have one [N m, or plain]."""
     starting: TrialFigure
+    """Mean, greatest and starting torque of the trials that have one [N m, or plain]."""
     efficiency: TrialFigure
+    """Energy out over energy in."""
     locks: ProbabilityEstimate
+    """How often the train locks somewhere in the run."""
 
     @property
     def complete(self) -> bool:

@@ -194,21 +194,20 @@ def clearances_figure(cleared: Sequence[ClearanceCase], title: str = "", event: 
 
 @dataclass(frozen=True, slots=True)
 class ErrorBands:
-    """What part of the trials stays within what error, over the turns of the input: arrays (positions,).
-
-    turns             of the input
-    least, greatest   error of any trial (deg)
-    percentiles       2.5, 25, 50, 75 and 97.5 percent of the trials are below (deg), (5, positions)
-    trials            that run; those that jam point nowhere
-    example           error of one trial (deg), or None
-    """
+    """What part of the trials stays within what error, over the turns of the input: arrays (positions,)."""
 
     turns: Floats
+    """Of the input."""
     least: Floats
+    """Error of any trial (deg)."""
     greatest: Floats
+    """Error of any trial (deg)."""
     percentiles: Floats
+    """2.5, 25, 50, 75 and 97.5 percent of the trials are below (deg), (5, positions)."""
     trials: int
+    """That run; those that jam point nowhere."""
     example: Floats | None = None
+    """Error of one trial (deg), or None."""
 
     @classmethod
     def of(cls, turns: ArrayLike, errors: ArrayLike) -> ErrorBands:
@@ -428,15 +427,13 @@ def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
 
 @dataclass(frozen=True, slots=True)
 class VarianceShare:
-    """A part of the variance of a result that one cause brings.
-
-    own        by itself, with its `own_within` interval or None
-    whole      together with all it acts with, and its `whole_within`; None where causes only add
-    """
+    """A part of the variance of a result that one cause brings."""
 
     own: float
+    """By itself, with its `own_within` interval or None."""
     own_within: Interval | None = None
     whole: float | None = None
+    """Together with all it acts with, and its `whole_within`; None where causes only add."""
     whole_within: Interval | None = None
 
     @property
@@ -493,18 +490,16 @@ def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ConvergenceTrace:
-    """An estimate after so many trials, and its 95 percent interval: arrays (n,).
-
-    trials      rising, above 0
-    value       the estimate, from `low` to `high`
-    truth       what it should come to, where that is known
-    """
+    """An estimate after so many trials, and its 95 percent interval: arrays (n,)."""
 
     trials: Floats
+    """Rising, above 0."""
     value: Floats
+    """The estimate, from `low` to `high`."""
     low: Floats
     high: Floats
     truth: float | None = None
+    """What it should come to, where that is known."""
 
 
 def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "probability") -> Figure:

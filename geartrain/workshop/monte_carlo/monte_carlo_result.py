@@ -29,23 +29,14 @@ class PartialTrials(NamedTuple):
     """Trials that were done, of how many."""
 
     done: int
+    """Trials computed."""
     of: int
+    """Trials requested."""
 
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
     """Trials, and what else was asked of one train: what reports and pictures are made from.
-
-    Attributes
-    ----------
-    trials : TrialResults
-        As `run_trials` gives them.
-    cleared : sequence of ClearanceCase
-        At other clearances, from `jamming_map`.
-    courses : sequence of PointerErrorCourse
-        Along a turn, from `run_course`.
-    indices : sequence of SobolIndices
-        From `find_sobol_indices`.
 
     See Also
     --------
@@ -75,9 +66,13 @@ class MonteCarloResult(Tabular, Pictured, Result):
     )
 
     trials: TrialResults
+    """As `run_trials` gives them."""
     cleared: Sequence[ClearanceCase] = ()
+    """At other clearances, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
+    """Along a turn, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
+    """From `find_sobol_indices`."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -188,16 +183,14 @@ _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # of the errors declared
 
 @dataclass(frozen=True)
 class TrialStudies:
-    """What is asked beside the trials themselves.
-
-    clearances   factors, or shares of windows, at which the train is judged again
-    courses      whether the first outputs are followed along a turn
-    sobol        whether their Sobol indices are found, by wheel and by kind
-    """
+    """What is asked beside the trials themselves."""
 
     clearances: Sequence[float] = ()
+    """Factors, or shares of windows, at which the train is judged again."""
     courses: bool = False
+    """Whether the first outputs are followed along a turn."""
     sobol: bool = False
+    """Whether their Sobol indices are found, by wheel and by kind."""
 
     def of(self, trials: TrialResults, means: Execution) -> MonteCarloResult:
         """The trials with all that is asked beside them."""

@@ -46,14 +46,12 @@ def _never(item: int, kind: int) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class RandomStreams:
-    """The random numbers of one block of trials.
-
-    other   says of which items and kinds a second, independent set is drawn: for sensitivities
-    """
+    """The random numbers of one block of trials."""
 
     seed: int
     block: int
     other: Callable[[int, int], bool] = field(default=_never)
+    """Says of which items and kinds a second, independent set is drawn: for sensitivities."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
         """The stream of one kind of error of one wheel, pair or position."""

@@ -43,24 +43,16 @@ class SobolIndex(Result):
     KEYS = (Key("of", "name"), "first", "total")
 
     name: str
+    """The input."""
     first: IntervalEstimate
+    """First-order index with its 95 % interval."""
     total: IntervalEstimate
+    """Total index with its 95 % interval."""
 
 
 @dataclass(frozen=True, slots=True)
 class SobolIndices(Result):
     """Shares of the variance of one output by wheel or by kind of error.
-
-    Attributes
-    ----------
-    output : str
-        Its name.
-    by : {"wheel", "kind"}
-        What an input is: all errors of one wheel, or one kind of error of all wheels.
-    trials : int
-        Base samples in which every output was found.
-    indices : tuple of SobolIndex
-        `name`, `first` and `total` of each input, the greatest first; "position" is where the input stands.
 
     See Also
     --------
@@ -68,9 +60,13 @@ class SobolIndices(Result):
     """
 
     output: str
+    """Its name."""
     by: By
+    """What an input is: all errors of one wheel, or one kind of error of all wheels."""
     trials: int
+    """Base samples in which every output was found."""
     indices: tuple[SobolIndex, ...]
+    """`name`, `first` and `total` of each input, the greatest first; "position" is where the input stands."""
 
 
 def find_sobol_indices(

@@ -60,20 +60,19 @@ _FARTHEST = 10**6  # turns of the input within which positions are drawn, where 
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """One gear pair: `first` drives, both wheels by number; `mirrored` where a wheel turns against its own numbering.
-
-    even     mean error of the pair without cutting errors (rad of the driven wheel)
-    fitting  errors of its axes, in depths of the less deep teeth
-    stroke   what one stroke of the file takes, in the same depths; 0 where nothing is filed to fit
-    """
+    """One gear pair: `first` drives, both wheels by number; `mirrored` where a wheel turns against its own
+    numbering."""
 
     name: str
     first: int
     second: int
     mirrored: tuple[bool, bool]
     even: float
+    """Mean error of the pair without cutting errors (rad of the driven wheel)."""
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
+    """Errors of its axes, in depths of the less deep teeth."""
     stroke: float = field(default=0.0, kw_only=True)
+    """What one stroke of the file takes, in the same depths; 0 where nothing is filed to fit."""
 
     @property
     @abstractmethod
@@ -285,41 +284,29 @@ def _each(pair: CutGearPair, count: int) -> CutGearPair:
 class TrialPlan:
     """A train as its trials see it, in one state: all that one block of trials needs.
 
-    Attributes
-    ----------
-    name : str
-        Of the train.
-    wheels : tuple of WheelErrors
-        Every wheel that is cut by hand, and how.
-    pairs : tuple of TrialPair
-        Every pair of them, with its sizes and the errors of its axes.
-    composition : ErrorComposition
-        The motion with even teeth, whose laws the trials replace.
-    outputs : tuple of str
-        Names of the outputs.
-    speeds : tuple of Fraction
-        Of the outputs, over the input's.
-    reach : tuple of tuple of int
-        For each output the pairs that can move it, by number.
-    span : float
-        Turns of the input within which positions are drawn [turn].
-    lead : str
-        The link that is turned.
-
     See Also
     --------
     find_trial_plan : makes it
     """
 
     name: str
+    """Of the train."""
     wheels: tuple[WheelErrors, ...]
+    """Every wheel that is cut by hand, and how."""
     pairs: tuple[TrialPair, ...]
+    """Every pair of them, with its sizes and the errors of its axes."""
     composition: ErrorComposition
+    """The motion with even teeth, whose laws the trials replace."""
     outputs: tuple[str, ...]
+    """Names of the outputs."""
     speeds: tuple[Fraction, ...]
+    """Of the outputs, over the input's."""
     reach: tuple[tuple[int, ...], ...]
+    """For each output the pairs that can move it, by number."""
     span: float
+    """Turns of the input within which positions are drawn [turn]."""
     lead: str
+    """The link that is turned."""
 
     @property
     def position(self) -> int:

@@ -40,45 +40,34 @@ EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, 
 class TrialResults:
     """All trials that were done, in their order.
 
-    Attributes
-    ----------
-    plan : TrialPlan
-        What was asked, and the `seed` of its random numbers.
-    seed, wanted : int
-        The seed, and the number of trials wanted: more than `done` in a run that was interrupted.
-    marks : ndarray
-        What each pair does, (trials, pairs): a sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
-    turns : ndarray
-        Where the input stands in each trial, (trials,) [turn].
-    errors : ndarray
-        Of each output, (trials, outputs); infinite where nothing touches [rad].
-    first : sequence of (float, float, int)
-        By output: sums of squares of what superposition is off, and of the errors there, and of how many trials.
-    sums : sequence of mapping
-        By output: the sums over trials of which variance shares are made.
-    bounds : mapping of str to float
-        Pair -> bound on the probability of a jam, where one is known.
-    courses : sequence of PointerErrorCourse
-        Along a turn, where asked for.
-    filing : ndarray
-        Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to fit.
-
     See Also
     --------
     run_trials : gives it
     """
 
     plan: TrialPlan
+    """What was asked, and the `seed` of its random numbers."""
     seed: int
+    """The seed, and the number of trials wanted: more than `done` in a run that was interrupted."""
     wanted: int
+    """The seed, and the number of trials wanted: more than `done` in a run that was interrupted."""
     marks: Marks
+    """What each pair does, (trials, pairs): a sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut."""
     turns: Floats
+    """Where the input stands in each trial, (trials,) [turn]."""
     errors: Floats
+    """Of each output, (trials, outputs); infinite where nothing touches [rad]."""
     first: Sequence[tuple[float, float, int]]
+    """By output: sums of squares of what superposition is off, and of the errors there, and of how many trials."""
     sums: Sequence[Mapping[str, tuple[float, ...]]]
+    """By output: the sums over trials of which variance shares are made."""
     bounds: Mapping[str, float] = field(default_factory=dict)
+    """Pair -> bound on the probability of a jam, where one is known."""
     courses: Sequence[PointerErrorCourse] = ()
+    """Along a turn, where asked for."""
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    """Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to
+    fit."""
 
     @property
     def done(self) -> int:
@@ -229,19 +218,6 @@ class EventRates(TypedDict):
 class PairEventRates(Result):
     """How often one pair, or any pair of the train, does what over its full cycle of teeth.
 
-    Attributes
-    ----------
-    name : str
-        Of the pair, or "the train".
-    events : mapping of str to ProbabilityEstimate
-        Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut.
-    uncut : int
-        Trials that hold a wheel that cannot be cut.
-    play : float
-        Nominal play of even wheels [pitch of the driven wheel]; NaN for the train.
-    bound : float
-        Bound on the probability of a jam by pitch errors alone; NaN where other errors take part.
-
     See Also
     --------
     TrialResults : holds them
@@ -250,10 +226,15 @@ class PairEventRates(Result):
     KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
 
     name: str
+    """Of the pair, or "the train"."""
     events: Mapping[str, ProbabilityEstimate]
+    """Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut."""
     uncut: int
+    """Trials that hold a wheel that cannot be cut."""
     play: float = nan
+    """Nominal play of even wheels [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
+    """Bound on the probability of a jam by pitch errors alone; NaN where other errors take part."""
 
     @property
     def rates(self) -> EventRates:
@@ -265,19 +246,6 @@ class PairEventRates(Result):
 class FilingStatistics(Result):
     """How much one pair, or the whole train, was filed until it passed.
 
-    Attributes
-    ----------
-    name : str
-        Of the pair, or "the train".
-    filed : ProbabilityEstimate
-        How often it jams before it is filed.
-    strokes, teeth : IntervalEstimate
-        Mean number of strokes, and of teeth that took them, over all trials.
-    most : int
-        Strokes of the trial that took most.
-    jams : ProbabilityEstimate
-        How often it jams after, a flank being spoilt first.
-
     See Also
     --------
     TrialResults : holds them
@@ -286,11 +254,17 @@ class FilingStatistics(Result):
     KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
 
     name: str
+    """Of the pair, or "the train"."""
     filed: ProbabilityEstimate
+    """How often it jams before it is filed."""
     strokes: IntervalEstimate
+    """Mean number of strokes, and of teeth that took them, over all trials."""
     teeth: IntervalEstimate
+    """Mean number of strokes, and of teeth that took them, over all trials."""
     most: int
+    """Strokes of the trial that took most."""
     jams: ProbabilityEstimate
+    """How often it jams after, a flank being spoilt first."""
 
 
 @dataclass(frozen=True)
@@ -300,7 +274,9 @@ class ConvergenceStep:
     KEYS = ("trials", Key("", "share"))
 
     trials: int
+    """Number of trials counted, from the first on."""
     share: ProbabilityEstimate
+    """The probability from these trials."""
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
@@ -310,27 +286,14 @@ class FirstOrderError(NamedTuple):
     """Root mean square (rad) of what superposition to first order is off, and of the errors there."""
 
     off: float
+    """Root mean square of the error of superposition to first order [rad]."""
     rms: float
+    """Root mean square of the pointer error itself [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorStatistics(Result):
     """How far one output is from where even teeth would have it on average, at random positions of the input.
-
-    Attributes
-    ----------
-    name : str
-        Of the output.
-    errors : ndarray
-        Of the trials in which no pair that moves it jams or is lost, in their order [rad].
-    all : ndarray
-        Of all trials, as the pushing flanks alone would have it; none where nothing touches [rad].
-    stopped : int
-        Trials left out of `errors`.
-    first : FirstOrderError
-        Rms of what superposition to first order is off, and of the errors there [rad].
-    shares : mapping of str to float
-        Pair -> its share of the variance, from superposition; they sum to 1.
 
     See Also
     --------
@@ -352,11 +315,17 @@ class PointerErrorStatistics(Result):
     )
 
     name: str
+    """Of the output."""
     errors: Floats
+    """Of the trials in which no pair that moves it jams or is lost, in their order [rad]."""
     all: Floats
+    """Of all trials, as the pushing flanks alone would have it; none where nothing touches [rad]."""
     stopped: int
+    """Trials left out of `errors`."""
     first: FirstOrderError
+    """Rms of what superposition to first order is off, and of the errors there [rad]."""
     shares: Mapping[str, float]
+    """Pair -> its share of the variance, from superposition; they sum to 1."""
 
     @property
     def runs(self) -> int:
@@ -413,15 +382,6 @@ class PointerErrorStatistics(Result):
 class PointerErrorCourse(Result):
     """Errors of one output along one turn of it, trial by trial.
 
-    Attributes
-    ----------
-    name : str
-        Of the output.
-    turns : ndarray
-        Where the input stands, (n,) [turn].
-    errors : ndarray
-        By trial, (trials, n) [rad].
-
     See Also
     --------
     run_course : gives it
@@ -436,8 +396,11 @@ class PointerErrorCourse(Result):
     )
 
     name: str
+    """Of the output."""
     turns: Floats
+    """Where the input stands, (n,) [turn]."""
     errors: Floats
+    """By trial, (trials, n) [rad]."""
 
     @property
     def greatest(self) -> Floats:

@@ -47,10 +47,7 @@ _MOST = 10**9
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """The trials of one task: number of the first, and arrays as in `TrialResults`; `play` least, in driven pitches.
-
-    filing   strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); none where nothing is filed
-    """
+    """The trials of one task: number of the first, and arrays as in `TrialResults`; `play` least, in driven pitches."""
 
     first: int
     turns: Floats
@@ -60,6 +57,7 @@ class TrialRecord:
     off: Sequence[tuple[float, float, int]] = ()
     sums: Sequence[Mapping[str, tuple[float, ...]]] = field(default_factory=tuple)
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    """Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); none where nothing is filed."""
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
@@ -352,17 +350,15 @@ _EVENTS = "sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 wheels cannot b
 
 @dataclass(frozen=True)
 class TrialTable:
-    """Every trial, block by block, into a file.
-
-    path     a .parquet or .csv
-    force    an existing file is written over
-    replay   the run was interrupted: its file is written anew from the journal
-    """
+    """Every trial, block by block, into a file."""
 
     plan: TrialPlan
     path: Path
+    """A .parquet or .csv."""
     force: bool = False
+    """An existing file is written over."""
     replay: bool = False
+    """The run was interrupted: its file is written anew from the journal."""
 
     @contextmanager
     def open(self) -> Iterator[Callable[[TrialRecord], None]]:

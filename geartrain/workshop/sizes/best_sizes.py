@@ -37,29 +37,6 @@ _CELLS, _NODES = 24, 4  # of each smooth stretch of the outlines' law, and the n
 class BestToothSizes(Tabular, Pictured, Result):
     """The best sizes of a pair with triangular teeth, and what they are better than.
 
-    Attributes
-    ----------
-    aims : tuple of str
-        What was asked for: one of `loss`, `error`, `impact`, `jam`, or two for a front between them.
-    free : mapping of str to tuple of float
-        Bounds of the free parameters; angles in rad.
-    limits : tuple of SizeLimit
-        What had to be kept.
-    best : ToothSizes
-        The best in the first aim.
-    outlines : OutlineAgreement
-        What the contact of the drawn outlines says of it.
-    equal_depth, pitch_true : ToothSizes or None
-        With the window and half angles of `start`, and radii by rule; None where such a pair does not turn.
-    front : tuple of ToothSizes
-        With two aims, the designs that none is better than in both, from the best in the first to that in the second.
-    evaluations : int
-        Designs that were looked at.
-    stops : float or None
-        The chance that the best stops, where that was limited.
-    tried : tuple of ToothSizes
-        Those of them that turn and keep the limits.
-
     See Also
     --------
     find_tooth_sizes : an example.
@@ -74,16 +51,27 @@ class BestToothSizes(Tabular, Pictured, Result):
     )
 
     aims: tuple[str, ...]
+    """What was asked for: one of `loss`, `error`, `impact`, `jam`, or two for a front between them."""
     free: Mapping[str, Range]
+    """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
+    """What had to be kept."""
     best: ToothSizes
+    """The best in the first aim."""
     outlines: OutlineAgreement
+    """What the contact of the drawn outlines says of it."""
     equal_depth: ToothSizes | None
+    """With the window and half angles of `start`, and radii by rule; None where such a pair does not turn."""
     pitch_true: ToothSizes | None
+    """With the window and half angles of `start`, and radii by rule; None where such a pair does not turn."""
     front: tuple[ToothSizes, ...]
+    """With two aims, the designs that none is better than in both, from the best in the first to that in the second."""
     evaluations: int
+    """Designs that were looked at."""
     stops: float | None
+    """The chance that the best stops, where that was limited."""
     tried: tuple[ToothSizes, ...]
+    """Those of them that turn and keep the limits."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -200,13 +188,6 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 class OutlineAgreement(Result):
     """What the contact of two drawn outlines says of a design, beside what its law says.
 
-    Attributes
-    ----------
-    loss, error, impact, play : tuple of float
-        By the law, and by the outlines; in the units of `ToothSizes`.
-    turns : bool
-        The outlines turn without a jam and without losing contact.
-
     See Also
     --------
     find_tooth_sizes : confirms its answer so.
@@ -215,10 +196,15 @@ class OutlineAgreement(Result):
     KEYS = ("turns", "loss", "error", "impact", "play", "difference")
 
     loss: tuple[float, float]
+    """By the law, and by the outlines; in the units of `ToothSizes`."""
     error: tuple[float, float]
+    """By the law, and by the outlines; in the units of `ToothSizes`."""
     impact: tuple[float, float]
+    """By the law, and by the outlines; in the units of `ToothSizes`."""
     play: tuple[float, float]
+    """By the law, and by the outlines; in the units of `ToothSizes`."""
     turns: bool
+    """The outlines turn without a jam and without losing contact."""
 
     @property
     def difference(self) -> float:

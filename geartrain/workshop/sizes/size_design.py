@@ -44,23 +44,6 @@ def impact_of(law: TransmissionFunction) -> float:
 class ToothSizes(Result):
     """A pair with triangular teeth whose radii, clearance and half angles are chosen, and its figures.
 
-    Attributes
-    ----------
-    teeth : tuple of int
-        Teeth of the first and the second wheel.
-    radii : float
-        Outer radius of the second wheel over that of the first, over the ratio of their teeth; 1 is pitch-true.
-    window : float
-        Where the clearance lies between jamming (0) and losing contact (1).
-    half_angles : tuple of float
-        Of both wheels [rad].
-    friction : float
-        Coefficient of friction.
-    driver : {1, 2}
-        Which wheel drives.
-    ring : {0, 1, 2}
-        Which wheel has its teeth inside; 0 for an external pair.
-
     See Also
     --------
     find_tooth_sizes : the best of them.
@@ -79,12 +62,19 @@ class ToothSizes(Result):
     )
 
     teeth: tuple[int, int]
+    """Teeth of the first and the second wheel."""
     radii: float
+    """Outer radius of the second wheel over that of the first, over the ratio of their teeth; 1 is pitch-true."""
     window: float
+    """Where the clearance lies between jamming (0) and losing contact (1)."""
     half_angles: tuple[float, float]
+    """Of both wheels [rad]."""
     friction: float
+    """Coefficient of friction."""
     driver: int = 1
+    """Which wheel drives."""
     ring: Literal[0, 1, 2] = 0
+    """Which wheel has its teeth inside; 0 for an external pair."""
 
     def __post_init__(self) -> None:
         # plain numbers, whatever was given: all that follows is scalar
@@ -239,20 +229,15 @@ def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
 class SizeLimit(Result):
     """What a design has to keep: `loss`, `error`, `impact` at most, `jam`, `window_width`, `play` at least.
 
-    Attributes
-    ----------
-    figure : str
-        Which figure of `ToothSizes`.
-    bound : float
-        Its limit, in the unit of the figure.
-
     See Also
     --------
     find_tooth_sizes : takes them.
     """
 
     figure: str
+    """Which figure of `ToothSizes`."""
     bound: float
+    """Its limit, in the unit of the figure."""
 
     LEAST = ("jam", "window_width", "play")
     FIGURES = ("loss", "error", "impact", *LEAST)

@@ -163,34 +163,20 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 class ChanceLimit:
     """A limit that costs too much to be asked of every design: the chance that a pair cut with errors stops.
 
-    Attributes
-    ----------
-    bound : float
-        The greatest chance that is let in, 0 to 1.
-    chance : callable
-        The chance of a design, such as of `geartrain.workshop.PairTrials`.
-
     See Also
     --------
     find_tooth_sizes : asks it of few designs, the best first.
     """
 
     bound: float
+    """The greatest chance that is let in, 0 to 1."""
     chance: Callable[[ToothSizes], float]
+    """The chance of a design, such as of `geartrain.workshop.PairTrials`."""
 
 
 @dataclass(frozen=True)
 class PairTrials:
     """Monte Carlo trials of single pairs, all with the same errors and the same seed.
-
-    Attributes
-    ----------
-    errors : sequence of ErrorOverride
-        Of cutting and fitting; `read_error_overrides` reads them.
-    trials : int
-        How many times each pair is cut.
-    seed : int
-        The same for all pairs, so that they differ by their sizes alone.
 
     See Also
     --------
@@ -207,8 +193,11 @@ class PairTrials:
     """
 
     errors: Sequence[ErrorOverride]
+    """Of cutting and fitting; `read_error_overrides` reads them."""
     trials: int = 256
+    """How many times each pair is cut."""
     seed: int = 1
+    """The same for all pairs, so that they differ by their sizes alone."""
 
     def stops(self, sizes: ToothSizes) -> float:
         """The share of trials in which the pair jams or clashes.

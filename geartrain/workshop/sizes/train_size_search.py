@@ -338,19 +338,6 @@ class TrainSizeSearch:
 class PairSizes(Result):
     """One pair of a train, its sizes as declared, best by itself, and best in the train.
 
-    Attributes
-    ----------
-    name : str
-        The pair.
-    driver : str
-        The wheel that drives.
-    before, apart, together : ToothSizes
-        As declared; best for the pair by itself; best for the train.
-    runs : bool
-        Whether the pair turns as declared.
-    outlines : OutlineAgreement
-        What the contact of the drawn outlines says of the last.
-
     See Also
     --------
     find_train_sizes : finds them.
@@ -359,12 +346,19 @@ class PairSizes(Result):
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 
     name: str
+    """The pair."""
     driver: str
+    """The wheel that drives."""
     before: ToothSizes
+    """As declared; best for the pair by itself; best for the train."""
     apart: ToothSizes
+    """As declared; best for the pair by itself; best for the train."""
     together: ToothSizes
+    """As declared; best for the pair by itself; best for the train."""
     runs: bool
+    """Whether the pair turns as declared."""
     outlines: OutlineAgreement
+    """What the contact of the drawn outlines says of the last."""
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -381,26 +375,6 @@ class PairSizes(Result):
 class BestTrainSizes(Tabular, Pictured, Result):
     """The sizes of the triangular teeth with which a train is best, and what they gain.
 
-    Attributes
-    ----------
-    train : str
-        Its name.
-    aim, output, source : str
-        What was asked for; the link or output, and the link at which power enters.
-    free : mapping of str to tuple of float
-        Bounds of the free parameters; angles in rad.
-    limits : tuple of SizeLimit
-        What each pair has to keep.
-    before, apart, together : float or None
-        The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
-        together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module].
-    pairs : tuple of PairSizes
-        The pairs that act on the output.
-    untouched : mapping of str to str
-        Pairs with real teeth that stay as they are, and why.
-    declaration : mapping
-        A train that extends the one given, with the sizes best together.
-
     See Also
     --------
     find_train_sizes : an example.
@@ -415,17 +389,32 @@ class BestTrainSizes(Tabular, Pictured, Result):
     )
 
     train: str
+    """Its name."""
     aim: str
+    """What was asked for; the link or output, and the link at which power enters."""
     output: str
+    """What was asked for; the link or output, and the link at which power enters."""
     source: str
+    """What was asked for; the link or output, and the link at which power enters."""
     free: Mapping[str, Range]
+    """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
+    """What each pair has to keep."""
     before: float | None
+    """The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
+    together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module]."""
     apart: float
+    """The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
+    together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module]."""
     together: float
+    """The figure of the train as declared (None where it does not run), with each pair best by itself, and with all
+    together: loss; error peak to peak [rad]; the sum of impacts; the least margin [module]."""
     pairs: tuple[PairSizes, ...]
+    """The pairs that act on the output."""
     untouched: Mapping[str, str]
+    """Pairs with real teeth that stay as they are, and why."""
     declaration: Mapping[str, Any]
+    """A train that extends the one given, with the sizes best together."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:

@@ -36,18 +36,12 @@ _PARALLEL = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class LinkFreedom(Result):
-    """How far a link turns by hand while the input is held.
-
-    Attributes
-    ----------
-    link : str
-        Its name.
-    play : float or None
-        From end to end, the play of all meshes up to it [rad]; None for a link that nothing holds.
-    """
+    """How far a link turns by hand while the input is held."""
 
     link: str
+    """Its name."""
     play: float | None
+    """From end to end, the play of all meshes up to it [rad]; None for a link that nothing holds."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,41 +47,33 @@ _LAND = (
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """A mesh as cut, its wheels turned through a pitch, or through all couples of teeth that differ.
-
-    Attributes
-    ----------
-    pair : str
-        Its name.
-    declared, least, most : float
-        Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel, a
-        ring's where there is one [mm].
-    overlap : float
-        Greatest common area in any position [mm2].
-    contact_ratio : float or None
-        Of conjugate teeth that stand as designed; None of others.
-    clearance : float
-        Least distance of a tip from the mate's root, on the line of centres [mm].
-    tip_width : float
-        The narrower of both wheels' tips [mm].
-    module : float
-        Of the second wheel [mm].
-    findings : tuple of BuildFinding
-        Rules it does not keep.
-    """
+    """A mesh as cut, its wheels turned through a pitch, or through all couples of teeth that differ."""
 
     KEYS = ("pair", "declared", "least", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 
     pair: str
+    """Its name."""
     declared: float
+    """Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel,
+    a ring's where there is one [mm]."""
     least: float
+    """Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel,
+    a ring's where there is one [mm]."""
     most: float
+    """Play that is stated, and the least and the most that is measured, along the pitch circle of the second wheel,
+    a ring's where there is one [mm]."""
     overlap: float
+    """Greatest common area in any position [mm2]."""
     contact_ratio: float | None
+    """Of conjugate teeth that stand as designed; None of others."""
     clearance: float
+    """Least distance of a tip from the mate's root, on the line of centres [mm]."""
     tip_width: float
+    """The narrower of both wheels' tips [mm]."""
     module: float
+    """Of the second wheel [mm]."""
     findings: tuple[BuildFinding, ...] = ()
+    """Rules it does not keep."""
 
 
 @dataclass(frozen=True)

@@ -47,15 +47,6 @@ _SHARE = 1e-6  # of the smaller part: a larger one is no sliver
 class TrainProof(Result):
     """What the proof of a train found.
 
-    Attributes
-    ----------
-    meshes : tuple of MeshProof
-        Of every pair whose wheels are cut.
-    links : tuple of LinkFreedom
-        Of every link that turns.
-    findings : tuple of BuildFinding
-        What is in the way, errors first, and what is unwise or could not be proved.
-
     See Also
     --------
     prove_train : gives it.
@@ -64,8 +55,11 @@ class TrainProof(Result):
     KEYS = (Key("ready", "is_ready"), "verdict", "meshes", "links", "findings")
 
     meshes: tuple[MeshProof, ...]
+    """Of every pair whose wheels are cut."""
     links: tuple[LinkFreedom, ...]
+    """Of every link that turns."""
     findings: tuple[BuildFinding, ...]
+    """What is in the way, errors first, and what is unwise or could not be proved."""
 
     @property
     def is_ready(self) -> bool:

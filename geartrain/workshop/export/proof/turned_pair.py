@@ -47,35 +47,32 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 @dataclass(frozen=True, slots=True)
 class FreeTurn:
-    """How wheel 2 stands while wheel 1 is turned, an item a position.
-
-    turned    angles of wheel 1 (rad), from where a tooth stands on the line of centres
-    low, high   lags (rad) between which wheel 2 is free; NaN where it is not
-    overlap   least common area (mm2); 0 where it is free
-    place     where they overlap most, from the axle of wheel 1 (mm); None where nowhere
-    """
+    """How wheel 2 stands while wheel 1 is turned, an item a position."""
 
     turned: Floats
+    """Angles of wheel 1 (rad), from where a tooth stands on the line of centres."""
     low: Floats
+    """Lags (rad) between which wheel 2 is free; NaN where it is not."""
     high: Floats
+    """Lags (rad) between which wheel 2 is free; NaN where it is not."""
     overlap: Floats
+    """Least common area (mm2); 0 where it is free."""
     place: tuple[float, float] | None
+    """Where they overlap most, from the axle of wheel 1 (mm); None where nowhere."""
 
 
 @dataclass(frozen=True)
 class TurnedPair:
-    """Two wheels as materials about their own axles, a tooth on the x axis of each.
-
-    counts     teeth of both
-    distance   of the axles (mm); `ring`, wheel 2 is one
-    same       teeth that differ by less (mm) are alike
-    """
+    """Two wheels as materials about their own axles, a tooth on the x axis of each."""
 
     materials: tuple[Any, Any]
     counts: tuple[int, int]
+    """Teeth of both."""
     distance: float
+    """Of the axles (mm); `ring`, wheel 2 is one."""
     ring: bool = False
     same: float = SAME
+    """Teeth that differ by less (mm) are alike."""
 
     @cached_property
     def pitches(self) -> tuple[float, float]:

@@ -71,7 +71,8 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.train_data import TrainAnswers, TrainReport
 
     report = shape_of(TrainReport)
-    report = report | {"properties": report["properties"] | {"teeth": _list(_of_any_form(DrivenPair))}}
+    teeth = {"description": meaning_of(TrainReport, "teeth"), **_list(_of_any_form(DrivenPair))}
+    report = report | {"properties": report["properties"] | {"teeth": teeth}}
     edges = {"nodes": _list(OBJECT), "edges": _list(OBJECT)}
     return {
         "solve": shape_of(TrainAnswers),

@@ -278,13 +278,14 @@ def test_an_answer_that_lacks_a_key_or_has_a_strange_one_is_seen(files: Path) ->
 
 
 def test_every_key_has_a_meaning() -> None:
-    silent = {
+    silent = [
         f"{question}: {key}"
         for question in ANSWERS
+        if question != "graph --as json"  # keys of networkx
         for key, _, meaning in describe_answer(question).sections[0].tables[0].rows
-        if not meaning and not key.endswith((".errors.*.value", ".errors.*.exact", "errors.*.value", "errors.*.exact"))
-    }
-    assert silent == set()
+        if not meaning and ".*." not in key[-8:]  # value and exact of a number
+    ]
+    assert silent == []
 
 
 def test_the_keys_of_a_command_are_printed() -> None:
